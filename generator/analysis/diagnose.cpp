@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "analysis/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace alembert {
+
+std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
+    const std::vector<double> value = interpret(program, state);
+    const std::vector<int> lower = program.nodes_of("mass");
+    const auto n = static_cast<Eigen::Index>(program.coordinates.size());
+    Eigen::MatrixXd M(n, n);
+    for (Eigen::Index i = 0, k = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j, ++k) M(i, j) = M(j, i) = value[lower[k]];
+    if (!M.allFinite()) return std::nullopt;
+    // An entry is small or large by its units alone; what counts is its size beside its row's and column's.
+    Eigen::VectorXd scale(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double size = M.row(i).cwiseAbs().maxCoeff();
+        scale[i] = M(i, i) > 0 ? 1 / std::sqrt(M(i, i)) : size > 0 ? 1 / std::sqrt(size) : 1;
+    }
+    const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
+    Eigen::Index weakest = 0;
+    eigen.eigenvalues().cwiseAbs().minCoeff(&weakest);
+    const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
+    if (std::abs(eigen.eigenvalues()[weakest]) > 1e-13 * largest && largest > 0) return std::nullopt;
+
+    Eigen::VectorXd direction = scale.asDiagonal() * eigen.eigenvectors().col(weakest);
+    Eigen::Index first = 0;
+    const double size = direction.cwiseAbs().maxCoeff(&first);
+    direction /= direction[first] < 0 ? -size : size;
+    std::string text;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const double c = direction[i];
+        if (std::abs(c) < 1e-9) continue;
+        const std::string number = std::abs(std::abs(c) - 1) < 1e-9 ? "" : fmt::format("{:.4g}*", std::abs(c));
+        text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
+        text += number + program.coordinates[i].name + "'";
+    }
+    return text;
+}
+
+std::optional<std::string> not_finite(const Program& program, const State<double>& state, const std::string& group) {
+    const std::vector<double> value = interpret(program, state);
+    for (const int id : program.needed(program.nodes_of(group))) {
+        if (std::isfinite(value[id])) continue;
+        const Node& node = program[id];
+        std::string what = fmt::format("{}({:.6g})", name_of(node.op), node.args.empty() ? 0.0 : value[node.args[0]]);
+        if (node.op == Op::variable)
+            what = "a value of the state";
+        else if (node.is_reciprocal())
+            what = "a division by zero";
+        else if (node.op == Op::sum || node.op == Op::product)
+            what = "a number too large for double precision";
+        std::string where;
+        for (const int source : node.sources)
+            where += (where.empty() ? " in " : ", ") + program.source_labels[source];
+        return what + where;
+    }
+    return std::nullopt;
+}
+
+}  // namespace alembert

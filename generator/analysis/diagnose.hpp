@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Why numbers fail: which combination of rates no inertia resists, which term of which body is not finite.
+
+#include <optional>
+#include <string>
+
+#include "lower/interpret.hpp"
+
+namespace alembert {
+
+/// The combination of rates without kinetic energy, as "theta1' - theta2'", if the mass matrix is singular to
+/// working precision at this state: the smallest eigenvalue of the matrix, scaled to a unit diagonal, is below
+/// 1e-13 of the largest (Higham, Accuracy and Stability of Numerical Algorithms (2002), §7.3 on such scaling).
+std::optional<std::string> massless_combination(const Program& program, const State<double>& state);
+
+/// The first value that is not finite on the way to `group`, and whose term it is: "a division by zero in spring 1".
+std::optional<std::string> not_finite(const Program& program, const State<double>& state, const std::string& group);
+
+}  // namespace alembert

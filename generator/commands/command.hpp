@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What a user asked for, and the commands that answer. Each returns the exit code of commands.md, prints for a
+/// person, or one JSON object where `json` is set. Mistakes leave as exceptions; main maps them.
+
+#include <string>
+#include <vector>
+
+namespace alembert {
+
+struct Request {
+    std::string scene;
+    std::string by;               ///< formalism; empty: the program chooses
+    bool json = false;
+    std::string format = "text";  ///< derive: text, latex, mathml
+    bool steps = false;           ///< derive
+    bool fold = false;            ///< emit: parameters as constants
+    bool fast_math = false;
+    std::vector<std::string> at;  ///< eval: NAME=VALUE
+    std::string output;           ///< a file or folder
+    std::string method;           ///< simulate; empty: the scene's
+    double duration = -1, tolerance = -1, step = -1, sample = -1;  ///< simulate; negative: the scene's
+    long budget = 10'000'000;
+};
+
+int derive(const Request& request);
+int eval(const Request& request);
+int emit_files(const Request& request);
+int simulate(const Request& request);
+
+}  // namespace alembert

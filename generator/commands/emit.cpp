@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/emit.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "commands/pipeline.hpp"
+
+namespace alembert {
+
+int emit_files(const Request& request) {
+    const Derived d = derived(request);
+    const Source source = emit(lowered(d, request));
+    std::error_code failed;
+    std::filesystem::create_directories(request.output, failed);
+    if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
+    const std::string path = (std::filesystem::path(request.output) / source.file).string();
+    write_file(path, source.text);
+    if (request.json) {
+        Json result;
+        result["files"] = {path};
+        result["operations"] = source.operations.total();
+        result["formulation"] = source.formulation;
+        std::cout << result.dump(2) << "\n";
+    } else {
+        fmt::print("{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} "
+                   "functions)\n",
+                   path, source.formulation, source.operations.total(), source.operations.additions,
+                   source.operations.multiplications, source.operations.divisions, source.operations.functions);
+    }
+    return 0;
+}
+
+}  // namespace alembert

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "analysis/diagnose.hpp"
+#include "commands/pipeline.hpp"
+
+namespace alembert {
+
+int eval(const Request& request) {
+    const Derived d = derived(request);
+    const Program program = lowered(d, request);
+    const Start start = start_of(d.mechanism, overrides_of(request));
+    State<double> state = start.state();
+
+    if (const auto combination = massless_combination(program, state))
+        throw IntegrationError(fmt::format("the system is singular at t = {:.6g}: no inertia resists {}; give it a mass, "
+                                           "or remove a coordinate",
+                                           state.t, *combination),
+                               state.t, start.q);
+    if (const auto what = not_finite(program, state, "acceleration"))
+        throw IntegrationError(fmt::format("the accelerations are not finite at t = {:.6g}: {}", state.t, *what), state.t,
+                               start.q);
+    std::vector<double> value = interpret(program, state);
+    for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+    value = interpret(program, state);  // outputs may hold accelerations
+    const auto single = [&](const char* group) { return value[program.nodes_of(group)[0]]; };
+
+    Json result;
+    result["time"] = state.t;
+    result["coordinates"] = by_coordinate(program, state.q.data());
+    result["rates"] = by_coordinate(program, state.qdot.data());
+    result["accelerations"] = by_coordinate(program, state.qddot.data());
+    result["speeds"] = result["rates"];
+    result["speed_rates"] = result["accelerations"];
+    result["multipliers"] = Json::object();
+    result["kinetic"] = single("kinetic");
+    result["potential"] = single("potential");
+    result["energy"] = single("energy");
+    result["residuals"] = Json::object();
+    result["outputs"] = Json::object();
+    for (const Root& root : program.roots)
+        if (root.group == "output") result["outputs"][root.name] = value[root.node];
+    if (request.json) {
+        std::cout << result.dump(2) << "\n";
+        return 0;
+    }
+    fmt::print("t = {}\n\n{:<16}{:>24}{:>24}{:>24}\n", state.t, "", "value", "rate", "acceleration");
+    for (int i = 0; i < d.mechanism.size(); ++i)
+        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, state.q[i], state.qdot[i],
+                   state.qddot[i]);
+    fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single("kinetic"), single("potential"), single("energy"));
+    for (const auto& [name, output] : result["outputs"].items()) fmt::print("{} = {:.16g}\n", name, output.get<double>());
+    return 0;
+}
+
+}  // namespace alembert

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/pipeline.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "formalism/lagrange.hpp"
+
+namespace alembert {
+
+double process_seconds() {
+    double seconds = 0;
+    for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(who, &usage);
+        for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+            seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
+    }
+    return seconds;
+}
+
+Derived derived(const Request& request) {
+    const double start = process_seconds();
+    Scene scene = read_scene(request.scene);
+    if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
+    Mechanism mechanism = build(scene);
+    if (!request.by.empty() && request.by != "lagrange")
+        throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected lagrange", request.by));
+    Equations equations = lagrange(mechanism);
+    return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
+}
+
+Program lowered(const Derived& d, const Request& request) {
+    const Energy energy = energy_of(d.mechanism);
+    return lower(d.mechanism, d.equations, energy, {.fold = request.fold});
+}
+
+Overrides overrides_of(const Request& request) {
+    Overrides result;
+    for (const std::string& item : request.at) {
+        const std::size_t equals = item.find('=');
+        std::size_t used = 0;
+        double value = 0;
+        try {
+            value = std::stod(item.substr(equals + 1), &used);
+        } catch (const std::exception&) {
+            used = 0;
+        }
+        if (equals == std::string::npos || equals == 0 || used == 0 || used != item.size() - equals - 1)
+            throw ModelError(fmt::format("--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3", item));
+        result.emplace_back(item.substr(0, equals), value);
+    }
+    return result;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+    const std::string beside = fmt::format("{}.{}.part", path, getpid());
+    {
+        std::ofstream out(beside, std::ios::binary);
+        out << text;
+        out.flush();
+        if (!out) {
+            const std::string reason = std::strerror(errno);
+            std::error_code ignored;
+            std::filesystem::remove(beside, ignored);
+            throw CompileError(fmt::format("cannot write '{}': {}", path, reason));
+        }
+    }
+    std::error_code failed;
+    std::filesystem::rename(beside, path, failed);
+    if (failed) {
+        std::error_code ignored;
+        std::filesystem::remove(beside, ignored);
+        throw CompileError(fmt::format("cannot write '{}': {}", path, failed.message()));
+    }
+}
+
+Json by_coordinate(const Program& program, const double* values) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < program.coordinates.size(); ++i) object[program.coordinates[i].name] = values[i];
+    return object;
+}
+
+}  // namespace alembert

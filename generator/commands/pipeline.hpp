@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// From a scene's file to its program: the part of the way that all commands share.
+
+#include <nlohmann/json.hpp>
+
+#include "commands/command.hpp"
+#include "lower/lower.hpp"
+#include "lower/start.hpp"
+
+namespace alembert {
+
+using Json = nlohmann::ordered_json;
+
+struct Derived {
+    Scene scene;
+    Mechanism mechanism;
+    Equations equations;
+    double seconds = 0;  ///< processor time
+};
+
+/// Reads, builds and derives. Prints the scene's warnings to standard error. Throws what the stages throw;
+/// ModelError for a formalism that does not exist or does not apply.
+Derived derived(const Request& request);
+
+/// Lowered in the form that takes the fewest operations.
+Program lowered(const Derived& derived, const Request& request);
+
+/// The values of --at. Throws ModelError for what is not NAME=VALUE.
+Overrides overrides_of(const Request& request);
+
+/// Writes beside and renames. Throws CompileError (the environment failed) with the reason.
+void write_file(const std::string& path, const std::string& text);
+
+/// Processor time of this process and its finished children, in seconds.
+double process_seconds();
+
+/// {name: value} for all coordinates.
+Json by_coordinate(const Program& program, const double* values);
+
+}  // namespace alembert

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "alembert/compile.hpp"
+#include "alembert/integrate.hpp"
+#include "analysis/diagnose.hpp"
+#include "commands/pipeline.hpp"
+#include "emit/emit.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// How far E, E − W and h stray from their values at the start, over all accepted steps.
+class Drift {
+public:
+    Drift(const Module& module, const std::vector<double>& par, int n, bool with_work)
+        : table_(module.table()), par_(par), n_(n), with_work_(with_work) {}
+
+    void operator()(double t, std::span<const double> state, std::span<const double> rate) {
+        double energy[4], jacobi = 0;
+        table_.energy(t, state.data(), rate.data(), par_.data(), energy, &jacobi);
+        const double work = with_work_ ? state[2 * n_] : 0;
+        if (first_) {
+            energy_start_ = energy[2];
+            jacobi_start_ = jacobi;
+            first_ = false;
+        }
+        largest_kinetic_ = std::max(largest_kinetic_, energy[0]);
+        energy_ = std::max(energy_, std::abs(energy[2] - energy_start_));
+        balance_ = std::max(balance_, std::abs(energy[2] - energy_start_ - work));
+        jacobi_ = std::max(jacobi_, std::abs(jacobi - jacobi_start_));
+    }
+
+    double energy() const { return energy_ / scale(energy_start_); }
+    double balance() const { return balance_ / scale(energy_start_); }
+    double jacobi() const { return jacobi_ / scale(jacobi_start_); }
+
+private:
+    double scale(double start) const {
+        const double size = std::max(std::abs(start), largest_kinetic_);
+        return size > 0 ? size : 1;
+    }
+
+    const alembert_solver_table& table_;
+    const std::vector<double>& par_;
+    int n_;
+    bool with_work_, first_ = true;
+    double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0;
+    double energy_ = 0, balance_ = 0, jacobi_ = 0;
+};
+
+std::string csv(const Trajectory& motion, const Program& program, const Module& module, const std::vector<double>& par,
+                const Rhs& rhs) {
+    const auto n = program.coordinates.size();
+    std::vector<std::string> outputs;
+    for (const Root& root : program.roots)
+        if (root.group == "output") outputs.push_back(root.name);
+    std::string text = "t";
+    for (const Quantity& q : program.coordinates) text += "," + q.name;
+    for (const Quantity& q : program.coordinates) text += "," + q.name + "'";
+    text += ",energy";
+    for (const std::string& name : outputs) text += "," + name;
+    text += "\n";
+    std::vector<double> rate(rhs.dimension), out(outputs.size());
+    for (std::size_t row = 0; row < motion.rows(); ++row) {
+        const double t = motion.times[row];
+        const auto state = motion.state(row);
+        rhs(t, state.data(), rate.data());
+        double energy[4], jacobi = 0;
+        module.table().energy(t, state.data(), rate.data(), par.data(), energy, &jacobi);
+        module.table().outputs_at(t, state.data(), rate.data(), par.data(), out.data());
+        text += fmt::format("{:.17g}", t);
+        for (std::size_t i = 0; i < 2 * n; ++i) text += fmt::format(",{:.17g}", state[i]);
+        text += fmt::format(",{:.17g}", energy[2]);
+        for (const double value : out) text += fmt::format(",{:.17g}", value);
+        text += "\n";
+    }
+    return text;
+}
+
+/// The scene's wishes, those of the command line first.
+Options options_of(const Request& request, const Mechanism& mechanism, const Start& start) {
+    std::string method = request.method.empty() ? mechanism.run.method : request.method;
+    if (method == "auto") method = start.step > 0 || request.step > 0 ? "rk4" : "dop853";
+    const auto known = method_named(method);
+    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, euler, rk4, dopri5 or dop853", method));
+    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
+    return {.method = *known,
+            .start = start.t,
+            .duration = wish(request.duration, start.duration),
+            .tolerance = wish(request.tolerance, start.tolerance),
+            .step = wish(request.step, start.step),
+            .sample = wish(request.sample, start.sample),
+            .budget = request.budget};
+}
+
+/// What the interpreter knows about the state where the numbers failed.
+std::string diagnosis(const Program& program, const Start& start, const Failure& failure) {
+    State<double> state = start.state();
+    const auto n = program.coordinates.size();
+    state.t = failure.time;
+    state.q.assign(failure.state.begin(), failure.state.begin() + static_cast<std::ptrdiff_t>(n));
+    state.qdot.assign(failure.state.begin() + static_cast<std::ptrdiff_t>(n),
+                      failure.state.begin() + static_cast<std::ptrdiff_t>(2 * n));
+    if (const auto combination = massless_combination(program, state))
+        return "; the mass matrix is singular there: no inertia resists " + *combination;
+    if (const auto what = not_finite(program, state, "acceleration")) return "; " + *what;
+    return "";
+}
+
+}  // namespace
+
+int simulate(const Request& request) {
+    const Derived d = derived(request);
+    double clock = process_seconds();
+    const auto lap = [&clock] {
+        const double before = clock;
+        clock = process_seconds();
+        return clock - before;
+    };
+    const Energy energy = energy_of(d.mechanism);
+    const Program program = lowered(d, request);
+    const Start start = start_of(d.mechanism);
+    const Options wishes = options_of(request, d.mechanism, start);
+    if (const auto combination = massless_combination(program, start.state()))
+        throw IntegrationError(fmt::format("the system is singular at t = {:.6g}: no inertia resists {}; give it a mass, "
+                                           "or remove a coordinate",
+                                           start.t, *combination),
+                               start.t, start.q);
+    const Source source = emit(program);
+    const double emit_seconds = lap();
+    const Compiled compiled = compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}});
+    const Module module = load(compiled.object);
+    const double compile_seconds = lap();
+
+    const int n = d.mechanism.size();
+    const bool balance = !energy.conserved;
+    const Rhs rhs = make_rhs(module, start.parameters, balance ? Work::integrated : Work::left_out);
+    const std::vector<double> par = prepared(module, start.parameters);
+    std::vector<double> initial = start.q;
+    initial.insert(initial.end(), start.qdot.begin(), start.qdot.end());
+    if (balance) initial.push_back(0);
+    Drift drift(module, par, n, balance);
+    Options options = wishes;
+    options.on_step = std::ref(drift);
+    const Trajectory motion = integrate(rhs, initial, options, make_events(module, start.parameters, d.mechanism.event_stops));
+    const double integrate_seconds = lap();
+
+    if (!request.output.empty()) write_file(request.output, csv(motion, program, module, par, rhs));
+    const auto end = motion.final_state();
+    Json result;
+    result["final"] = {{"time", motion.times.back()},
+                       {"coordinates", by_coordinate(program, end.data())},
+                       {"rates", by_coordinate(program, end.data() + n)}};
+    result["method"] = motion.statistics.method;
+    result["formulation"] = source.formulation;
+    result["steps"] = motion.statistics.steps;
+    result["rejected"] = motion.statistics.rejected;
+    result["evaluations"] = motion.statistics.evaluations;
+    result["energy_drift"] = energy.conserved ? Json(drift.energy()) : Json(nullptr);
+    if (balance) result["work_balance"] = drift.balance();
+    if (balance && energy.jacobi_conserved) result["jacobi_drift"] = drift.jacobi();
+    result["constraint_drift"] = 0.0;
+    result["events"] = Json::array();
+    for (const EventRecord& event : motion.events)
+        result["events"].push_back({{"name", d.mechanism.events[event.index].label}, {"time", event.time}});
+    result["seconds"] = {{"derive", d.seconds}, {"emit", emit_seconds}, {"compile", compile_seconds}, {"integrate", integrate_seconds}};
+    result["completed"] = motion.ending != Ending::failed;
+    if (request.json) {
+        std::cout << result.dump(2) << "\n";
+    } else {
+        fmt::print("{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", source.formulation,
+                   motion.statistics.method, motion.statistics.steps, motion.statistics.rejected,
+                   motion.statistics.evaluations, source.operations.total());
+        for (const auto& event : result["events"])
+            fmt::print("event {} at t = {:.15g}\n", event["name"].get<std::string>(), event["time"].get<double>());
+        fmt::print("\nat t = {:.15g}\n", motion.times.back());
+        for (int i = 0; i < n; ++i)
+            fmt::print("{:<16}{:>24.16g}   rate {:>24.16g}\n", program.coordinates[i].name, end[i], end[n + i]);
+        if (energy.conserved) fmt::print("\nenergy drift {:.2e}\n", drift.energy());
+        if (balance) fmt::print("\nenergy is not conserved; work balance {:.2e}\n", drift.balance());
+        if (balance && energy.jacobi_conserved) fmt::print("T2 - T0 + V is; its drift {:.2e}\n", drift.jacobi());
+        fmt::print("seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", d.seconds, emit_seconds,
+                   compile_seconds, compiled.from_cache ? " (cached)" : "", integrate_seconds);
+        if (!request.output.empty()) fmt::print("wrote {}\n", request.output);
+    }
+    if (motion.failure)
+        throw IntegrationError(motion.failure->message + diagnosis(program, start, *motion.failure),
+                               motion.failure->time, motion.failure->state);
+    return 0;
+}
+
+}  // namespace alembert

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/emit.hpp"
+
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+#include <set>
+
+#include "alembert/abi.hpp"
+#include "alembert/error.hpp"
+#include "emit/templates.hpp"
+#include "emit/writer.hpp"
+
+namespace alembert {
+
+namespace {
+
+namespace mustache = kainjow::mustache;
+
+constexpr std::size_t line_width = 110;
+
+/// Long statements go on below, indented; a break only comes before an operator at its blanks.
+std::string wrapped(const std::string& line) {
+    std::string result;
+    std::size_t start = 0;
+    while (line.size() - start > line_width) {
+        std::size_t cut = std::string::npos;
+        for (std::size_t at = line.find(' ', start); at != std::string::npos && at - start < line_width;
+             at = line.find(' ', at + 1))
+            if (at + 1 < line.size() && (std::string("+-*/").find(line[at + 1]) != std::string::npos ||
+                                         line[at - 1] == ','))
+                cut = at;
+        if (cut == std::string::npos) break;
+        result += line.substr(start, cut - start) + "\n        ";
+        start = cut + 1;
+    }
+    return result + line.substr(start);
+}
+
+class Emitter {
+public:
+    explicit Emitter(const Program& program) : p_(program), n_(static_cast<int>(program.coordinates.size())) {
+        for (const Quantity& q : p_.coordinates) {
+            q_.push_back(names_.fresh(q.name));
+            u_.push_back(names_.fresh(q_.back() + "_dot"));
+            a_.push_back(names_.fresh(q_.back() + "_ddot"));
+        }
+        for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
+        find_constants();
+    }
+
+    Source emit() {
+        const std::vector<int> rhs = p_.nodes_of("acceleration");
+        const Operations cost = p_.count(rhs);
+        mustache::data functions{mustache::data::type::list};
+        functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event");
+
+        mustache::data file;
+        file.set("scene", ascii_identifier(p_.name));
+        file.set("formulation", p_.formulation);
+        file.set("version", ALEMBERT_VERSION);
+        file.set("state", described(q_, p_.coordinates) + ", then their rates");
+        file.set("parameters", par_.empty() ? "none" : described(par_, p_.parameters));
+        file.set("operations", fmt::format("{} operations a right-hand side: {} additions, {} multiplications, {} "
+                                           "divisions, {} functions",
+                                           cost.total(), cost.additions, cost.multiplications, cost.divisions,
+                                           cost.functions));
+        file.set("functions", functions);
+        file.set("coordinate_names", quoted(q_));
+        file.set("parameter_names", quoted(par_));
+        file.set("output_names", quoted(labels("output")));
+        file.set("event_names", quoted(labels("event")));
+        std::string values;
+        for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
+        file.set("parameter_values", values);
+        const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
+        number("abi", abi_version);
+        number("n", q_.size());
+        number("p", par_.size());
+        number("k", constants_.size());
+        number("outputs", p_.nodes_of("output").size());
+        number("events", p_.nodes_of("event").size());
+        mustache::mustache shape{std::string(template_solver)};
+        return {.file = ascii_identifier(p_.name) + ".cpp",
+                .text = shape.render(file),
+                .operations = cost,
+                .formulation = p_.formulation};
+    }
+
+private:
+    /// Everything that depends on parameters alone and is wanted by something that does not.
+    void find_constants() {
+        std::vector<int> wanted;
+        for (const Root& root : p_.roots) wanted.push_back(root.node);
+        std::set<int> found;
+        const auto consider = [&](int id) {
+            const Node& node = p_[id];
+            if (!node.is_constant() || node.args.empty()) return;
+            const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
+            found.insert(negation ? node.args[0] : id);
+        };
+        for (const int id : p_.needed(wanted))
+            if (!p_[id].is_constant())
+                for (const int arg : p_[id].args) consider(arg);
+        for (const Root& root : p_.roots) {
+            consider(root.node);
+            if (found.contains(root.node) && (root.group == "mass" || root.group == "forcing"))
+                constant_names_.emplace(root.node, root.name);
+        }
+        for (const int id : found)
+            if (!p_[id].args.empty()) constants_.push_back(id);
+        for (const int id : constants_) {
+            std::string& name = constant_names_[id];
+            name = name.empty() ? names_.numbered("k") : names_.fresh(name);
+        }
+    }
+
+    std::map<int, std::string> variables() const {
+        std::map<int, std::string> leaves;
+        for (int id = 0; id < p_.size(); ++id) {
+            const Node& node = p_[id];
+            if (node.op != Op::variable) continue;
+            const auto i = static_cast<std::size_t>(node.variable.index);
+            switch (node.variable.kind) {
+                case Variable::Kind::parameter: leaves[id] = par_[i]; break;
+                case Variable::Kind::time: leaves[id] = "t"; break;
+                case Variable::Kind::coordinate: leaves[id] = q_[i]; break;
+                case Variable::Kind::rate: leaves[id] = u_[i]; break;
+                case Variable::Kind::acceleration: leaves[id] = a_[i]; break;
+            }
+        }
+        return leaves;
+    }
+
+    /// `const Real` declarations of those variables and constants that the function uses.
+    mustache::data unpacked(const std::map<int, int>& uses, bool rates_needed) const {
+        std::vector<std::string> items;
+        std::vector<char> q(n_, 0), u(n_, rates_needed ? 1 : 0), a(n_, 0), par(par_.size(), 0);
+        for (const auto& [id, count] : uses) {
+            const Node& node = p_[id];
+            if (node.op != Op::variable || constant_names_.contains(id)) continue;
+            const auto i = static_cast<std::size_t>(node.variable.index);
+            switch (node.variable.kind) {
+                case Variable::Kind::parameter: par[i] = 1; break;
+                case Variable::Kind::coordinate: q[i] = 1; break;
+                case Variable::Kind::rate: u[i] = 1; break;
+                case Variable::Kind::acceleration: a[i] = 1; break;
+                default: break;
+            }
+        }
+        mustache::data lines{mustache::data::type::list};
+        const auto flush = [&] {
+            if (items.empty()) return;
+            std::string line;
+            for (const std::string& item : items) {
+                if (!line.empty() && line.size() + item.size() > line_width - 15) {
+                    lines << line;
+                    line.clear();
+                }
+                line += (line.empty() ? "&" : ", &") + item;
+            }
+            lines << line;
+            items.clear();
+        };
+        for (int i = 0; i < n_; ++i)
+            if (q[i] != 0) items.push_back(fmt::format("{} = state[{}]", q_[i], i));
+        for (int i = 0; i < n_; ++i)
+            if (u[i] != 0) items.push_back(fmt::format("{} = state[{}]", u_[i], n_ + i));
+        flush();
+        for (int i = 0; i < n_; ++i)
+            if (a[i] != 0) items.push_back(fmt::format("{} = rate[{}]", a_[i], n_ + i));
+        flush();
+        for (std::size_t i = 0; i < par.size(); ++i)
+            if (par[i] != 0) items.push_back(fmt::format("{} = par[{}]", par_[i], i));
+        for (std::size_t k = 0; k < constants_.size(); ++k)
+            if (uses.contains(constants_[k]))
+                items.push_back(fmt::format("{} = par[{}]", constant_names_.at(constants_[k]), par_.size() + k));
+        flush();
+        return lines;
+    }
+
+    struct Result {
+        std::string to;  // "rate[0]"
+        int node;
+    };
+
+    mustache::data function(const char* name, const char* about, const char* arguments, const std::vector<Goal>& goals,
+                            const std::vector<Result>& results, const std::vector<std::string>& first = {}) {
+        std::map<int, std::string> leaves = variables();
+        for (const int id : constants_) leaves[id] = constant_names_.at(id);
+        Writer writer(p_, names_, std::move(leaves));
+        std::vector<Section> sections = writer.write(goals);
+        Section last{"Result", first};
+        for (const Result& result : results) last.lines.push_back(result.to + " = " + writer.value(result.node) + ";");
+        sections.push_back(std::move(last));
+        return assembled(name, about, arguments, unpacked(writer.uses(), !first.empty()), sections);
+    }
+
+    static mustache::data assembled(const char* name, const char* about, const char* arguments,
+                                    const mustache::data& unpack, const std::vector<Section>& sections) {
+        mustache::data list{mustache::data::type::list};
+        for (const Section& section : sections) {
+            if (section.lines.empty()) continue;
+            mustache::data lines{mustache::data::type::list};
+            for (const std::string& line : section.lines) lines << wrapped(line);
+            mustache::data one;
+            one.set("title", section.title);
+            one.set("lines", lines);
+            list << one;
+        }
+        mustache::data result;
+        result.set("name", name);
+        result.set("about", about);
+        result.set("arguments", arguments);
+        result.set("unpack", unpack);
+        result.set("sections", list);
+        return result;
+    }
+
+    mustache::data prepare() {
+        Writer writer(p_, names_, variables());
+        std::vector<Goal> goals;
+        for (const int id : constants_) goals.push_back({"Constants", constant_names_.at(id), id, true});
+        std::vector<Section> sections = writer.write(goals);
+        Section last{"Result", {}};
+        for (std::size_t k = 0; k < constants_.size(); ++k)
+            last.lines.push_back(fmt::format("par[{}] = {};", par_.size() + k, writer.value(constants_[k])));
+        sections.push_back(std::move(last));
+        mustache::data lines{mustache::data::type::list};
+        std::map<int, int> uses;
+        for (const auto& [id, count] : writer.uses())
+            if (p_[id].op == Op::variable) uses[id] = count;
+        return assembled("prepare", "What depends on parameters alone, after the parameters.",
+                         constants_.empty() ? "Real*" : "Real* par", unpacked(uses, false), sections);
+    }
+
+    std::vector<Goal> goals(const std::string& group, const std::string& section) const {
+        std::vector<Goal> result;
+        for (const Root& root : p_.roots)
+            if (root.group == group) result.push_back({section, root.name, root.node});
+        return result;
+    }
+
+    static std::vector<Goal> joined(std::vector<Goal> a, const std::vector<Goal>& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+    }
+
+    mustache::data right_hand_side() {
+        std::vector<Goal> all = joined(joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f")),
+                                       goals("acceleration", "Solve M q'' = f with M = L D L^T"));
+        std::vector<std::string> first;
+        std::vector<Result> results;
+        for (int i = 0; i < n_; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
+        int i = 0;
+        for (Goal& goal : all)
+            if (goal.section.starts_with("Solve")) {
+                goal.name = a_[i];
+                goal.own_name = true;
+                results.push_back({fmt::format("rate[{}]", n_ + i++), goal.node});
+            }
+        return function("rhs", "rate = (q', q'') at t and state = (q, q').",
+                        "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate",
+                        all, results, first);
+    }
+
+    mustache::data mass_forcing() {
+        const std::vector<Goal> mass = goals("mass", "Mass matrix M(q), lower triangle"), f = goals("forcing", "Forcing f");
+        std::vector<Result> results;
+        std::size_t k = 0;
+        for (int i = 0; i < n_; ++i)
+            for (int j = 0; j <= i; ++j, ++k) {
+                const std::string mirror = i == j ? "" : fmt::format("mass[{}] = ", j * n_ + i);
+                results.push_back({fmt::format("{}mass[{}]", mirror, i * n_ + j), mass[k].node});
+            }
+        for (int i = 0; i < n_; ++i) results.push_back({fmt::format("forcing[{}]", i), f[i].node});
+        return function("mass_forcing", "M (n by n, row-major) and f of M q'' = f.",
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
+                        "Real* par, Real* mass, Real* forcing",
+                        joined(mass, f), results);
+    }
+
+    mustache::data energy() {
+        std::vector<Goal> all;
+        std::vector<Result> results;
+        for (const char* group : {"kinetic", "potential", "energy", "power", "jacobi"})
+            all = joined(all, goals(group, "Energy"));
+        for (std::size_t i = 0; i < all.size(); ++i)
+            results.push_back({i < 4 ? fmt::format("energy[{}]", i) : "jacobi[0]", all[i].node});
+        return function("energy", "T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.",
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
+                        "Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi",
+                        all, results);
+    }
+
+    mustache::data list(const std::string& group) {
+        const std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
+        std::vector<Result> results;
+        for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("out[{}]", i), all[i].node});
+        return function(group == "output" ? "outputs_at" : "events_at",
+                        group == "output" ? "The scene's outputs." : "The scene's event functions.",
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
+                        "Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out",
+                        all, results);
+    }
+
+    std::vector<std::string> labels(const std::string& group) const {
+        std::vector<std::string> result;
+        for (const Root& root : p_.roots)
+            if (root.group == group) result.push_back(ascii_identifier(root.name));
+        return result;
+    }
+
+    static std::string quoted(const std::vector<std::string>& names) {
+        std::string result;
+        for (const std::string& name : names) result += fmt::format("\"{}\", ", name);
+        return result;
+    }
+
+    static std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities) {
+        std::string result, line;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            std::string unit;
+            for (const char c : quantities[i].unit)
+                if (std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789*/^-. ").find(c) !=
+                    std::string_view::npos)
+                    unit += c;
+            const std::string item = names[i] + (unit.empty() ? "" : " [" + unit + "]");
+            if (line.size() + item.size() > line_width - 20) {
+                result += line + ",\n//          ";
+                line.clear();
+            }
+            line += (line.empty() ? "" : ", ") + item;
+        }
+        return result + line;
+    }
+
+    const Program& p_;
+    int n_;
+    Names names_;
+    std::vector<std::string> q_, u_, a_, par_;
+    std::vector<int> constants_;                  // nodes, in order
+    std::map<int, std::string> constant_names_;   // of them
+};
+
+}  // namespace
+
+Source emit(const Program& program) {
+    if (program.singular)
+        throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+    return Emitter(program).emit();
+}
+
+}  // namespace alembert

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// From straight-line code to a C++ file.
+///
+///     const Source source = emit(program);
+///     source.file;   // "double_pendulum.cpp"
+///
+/// Functions of the file: rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for what depends on
+/// parameters alone; the table at its end is lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache.
+
+#include "lower/program.hpp"
+
+namespace alembert {
+
+struct Source {
+    std::string file, text;
+    Operations operations;     ///< of one right-hand side
+    std::string formulation;
+};
+
+/// Throws ModelError if the program has no accelerations (a singular system).
+Source emit(const Program& program);
+
+}  // namespace alembert

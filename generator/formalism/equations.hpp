@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What every formalism gives: q' = h(q,u,t), M u' = f.
+///
+///     const Equations equations = lagrange(mechanism);
+///     equations.M(0, 1); equations.f[0];
+///
+/// For the readable form f is kept in three parts, as a textbook writes the equation:
+/// M u' − own − dissipative = applied.
+
+#include <string>
+#include <vector>
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+struct Equations {
+    std::string formalism;                ///< as in --by: "lagrange"
+    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates here
+    std::vector<GiNaC::symbol> udot;      ///< the unknowns
+    GiNaC::matrix M;                      ///< n×n, symmetric
+    std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
+    std::vector<GiNaC::ex> dissipative;   ///< generalized forces of dampers
+    std::vector<GiNaC::ex> applied;       ///< all other generalized forces
+    std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
+
+    int size() const { return static_cast<int>(u.size()); }
+    /// f = own + dissipative + applied
+    GiNaC::ex forcing(int i) const { return own[i] + dissipative[i] + applied[i]; }
+};
+
+}  // namespace alembert

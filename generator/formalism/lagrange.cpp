@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// d/dt ∂L/∂q̇ − ∂L/∂q = Q  (Zhang & Qin (1-45), (1-54)). With p = ∂L/∂q̇:
+//   M = ∂p/∂q̇,   f = Q + ∂L/∂q − (∂p/∂q) q̇ − ∂p/∂t.
+// ∂L/∂(q, q̇) comes from one reverse pass, each column of M and the bracket from one forward pass.
+#include "formalism/lagrange.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+Equations lagrange(const Mechanism& mechanism) {
+    const int n = mechanism.size();
+    if (n == 0) throw ModelError("Lagrange's equations need at least one coordinate; the scene has none");
+    Intermediates& z = *mechanism.z;
+
+    std::vector<GiNaC::symbol> state = mechanism.q;
+    state.insert(state.end(), mechanism.qdot.begin(), mechanism.qdot.end());
+    const std::vector<ex> gradient = z.pull_back({{mechanism.lagrangian(), 1}}, state);
+    const std::vector<ex> p(gradient.begin() + n, gradient.end());
+    const std::vector<ex> pdot = mechanism.time_derivative_without_acceleration(p);
+
+    Equations equations{.formalism = "lagrange",
+                        .q = mechanism.q,
+                        .u = mechanism.qdot,
+                        .udot = mechanism.qddot,
+                        .M = GiNaC::matrix(n, n),
+                        .own = {},
+                        .dissipative = mechanism.generalized_forces(true),
+                        .applied = mechanism.generalized_forces(false),
+                        .z = mechanism.z};
+    for (int j = 0; j < n; ++j) {
+        // M is symmetric: only the rows from j on.
+        const std::vector<ex> rows(p.begin() + j, p.end());
+        const std::vector<ex> column = z.push_forward(rows, {{mechanism.qdot[j], 1}});
+        for (int i = j; i < n; ++i) equations.M(i, j) = equations.M(j, i) = column[i - j];
+    }
+    for (int i = 0; i < n; ++i) equations.own.push_back(z.name(gradient[i] - pdot[i]));
+    return equations;
+}
+
+}  // namespace alembert

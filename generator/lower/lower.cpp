@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lower/lower.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "lower/solve.hpp"
+#include "symbolic/functions.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::ex_to;
+using GiNaC::is_a;
+
+namespace {
+
+const std::map<std::string, Op>& operations() {
+    static const std::map<std::string, Op> table = [] {
+        std::map<std::string, Op> made;
+        for (int op = static_cast<int>(Op::sin); op <= static_cast<int>(Op::max); ++op)
+            made[name_of(static_cast<Op>(op))] = static_cast<Op>(op);
+        return made;
+    }();
+    return table;
+}
+
+class Lowering {
+public:
+    Lowering(Program& program, const Mechanism& mechanism, bool fold)
+        : program_(program), m_(mechanism), fold_(fold) {}
+
+    int operator()(const ex& e) {
+        if (const auto found = known_.find(e); found != known_.end()) return found->second;
+        const int node = lowered(e);
+        known_.emplace(e, node);
+        return node;
+    }
+
+    /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
+    void lower_definitions(const std::vector<ex>& roots) {
+        std::vector<char> wanted(m_.z->entries().size(), 0);
+        std::vector<ex> stack = roots;
+        std::vector<const Intermediates::Entry*> order;
+        while (!stack.empty()) {
+            const ex top = stack.back();
+            stack.pop_back();
+            if (!is_a<GiNaC::symbol>(top)) {
+                for (const ex& part : top) stack.push_back(part);
+                continue;
+            }
+            const Intermediates::Entry* entry = m_.z->find(ex_to<GiNaC::symbol>(top));
+            if (entry == nullptr) continue;
+            char& seen = wanted[entry - m_.z->entries().data()];
+            if (seen != 0) continue;
+            seen = 1;
+            for (const GiNaC::symbol& used : entry->uses) stack.push_back(used);
+        }
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+            if (wanted[k] != 0) (*this)(m_.z->entries()[k].symbol);
+    }
+
+private:
+    int lowered(const ex& e) {
+        if (is_a<GiNaC::numeric>(e)) return program_.number(rational(e));
+        if (is_a<GiNaC::constant>(e)) return program_.pi();
+        if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
+        if (is_a<GiNaC::add>(e)) {
+            std::vector<Program::Term> terms;
+            for (const ex& term : e) terms.emplace_back(1, (*this)(term));
+            return program_.sum(0, terms);
+        }
+        if (is_a<GiNaC::mul>(e)) {
+            std::vector<Program::Factor> factors;
+            Rational coefficient = 1;
+            for (const ex& factor : e) {
+                if (is_a<GiNaC::numeric>(factor)) {
+                    coefficient = coefficient * rational(factor);
+                } else if (is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::integer)) {
+                    factors.emplace_back((*this)(factor.op(0)), ex_to<GiNaC::numeric>(factor.op(1)).to_int());
+                } else {
+                    factors.emplace_back((*this)(factor), 1);
+                }
+            }
+            return program_.product(coefficient, factors);
+        }
+        if (is_a<GiNaC::power>(e)) {
+            const int base = (*this)(e.op(0));
+            if (e.op(1).info(GiNaC::info_flags::rational)) return program_.power(base, rational(e.op(1)));
+            return program_.call(Op::pow, {base, (*this)(e.op(1))});
+        }
+        if (is_a<GiNaC::function>(e)) {
+            std::vector<int> args;
+            for (const ex& arg : e) args.push_back((*this)(arg));
+            return program_.call(operations().at(function_name(e)), std::move(args));
+        }
+        throw ModelError(fmt::format("an expression of kind '{}' cannot be turned into code",
+                                     ex_to<GiNaC::basic>(e).class_name()));
+    }
+
+    static Rational rational(const ex& e) {
+        const GiNaC::numeric& value = ex_to<GiNaC::numeric>(e);
+        if (!value.is_rational()) throw ModelError("a number that is not rational cannot be turned into exact code");
+        return cln::the<cln::cl_RA>(value.to_cl_N());
+    }
+
+    int symbol(const GiNaC::symbol& s) {
+        if (const Intermediates::Entry* entry = m_.z->find(s)) {
+            program_.set_sources(entry->sources);
+            const int node = (*this)(entry->definition);
+            program_.set_sources({});
+            return node;
+        }
+        const SymbolInfo& info = m_.symbols->info(s);
+        switch (info.kind) {
+            case SymbolInfo::Kind::time: return program_.variable({Variable::Kind::time, 0});
+            case SymbolInfo::Kind::parameter: return parameter(info.index);
+            case SymbolInfo::Kind::input: return input(info.index, info.order);
+            case SymbolInfo::Kind::coordinate: {
+                const auto kind = info.order == 0   ? Variable::Kind::coordinate
+                                  : info.order == 1 ? Variable::Kind::rate
+                                                    : Variable::Kind::acceleration;
+                return program_.variable({kind, info.index});
+            }
+            default: break;
+        }
+        throw ModelError(fmt::format("'{}' has no value", info.text()));
+    }
+
+    int parameter(int index) {
+        const Mechanism::Parameter& p = m_.parameters[index];
+        if (!p.independent || fold_) return (*this)(p.value);
+        int position = 0;
+        for (int i = 0; i < index; ++i) position += m_.parameters[i].independent ? 1 : 0;
+        return program_.variable({Variable::Kind::parameter, position});
+    }
+
+    int input(int index, int order) {
+        ex value = m_.inputs[index].value;
+        for (int i = 0; i < order; ++i) value = m_.explicit_time_derivative({value})[0];
+        return (*this)(value);
+    }
+
+    Program& program_;
+    const Mechanism& m_;
+    bool fold_;
+    std::map<ex, int, GiNaC::ex_is_less> known_;
+};
+
+}  // namespace
+
+Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+    Program program;
+    program.source_labels = m.z->source_labels();
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent && !options.fold)
+            program.parameters.push_back({p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
+    for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
+    program.name = m.name;
+    program.formulation = equations.formalism;
+    Lowering lowering(program, m, options.fold);
+
+    const int n = equations.size();
+    std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.power, energy.jacobi};
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j <= i; ++j) wanted.push_back(equations.M(i, j));
+        wanted.push_back(equations.forcing(i));
+    }
+    for (const auto* parts : {&m.outputs, &m.events})
+        for (const Part& part : *parts) wanted.push_back(part.value);
+    lowering.lower_definitions(wanted);
+
+    std::vector<int> mass, forcing;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j <= i; ++j) {
+            mass.push_back(lowering(equations.M(i, j)));
+            program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
+        }
+    for (int i = 0; i < n; ++i) {
+        forcing.push_back(lowering(equations.forcing(i)));
+        program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
+    }
+    if (const auto accelerations = solve_symmetric(program, mass, forcing)) {
+        for (int i = 0; i < n; ++i)
+            program.roots.push_back({"acceleration", fmt::format("a{}", i), (*accelerations)[i]});
+    } else {
+        program.singular = true;
+    }
+    program.roots.push_back({"kinetic", "T", lowering(energy.kinetic)});
+    program.roots.push_back({"potential", "V", lowering(energy.potential)});
+    program.roots.push_back({"energy", "E", lowering(energy.energy)});
+    program.roots.push_back({"power", "P", lowering(energy.power)});
+    program.roots.push_back({"jacobi", "h", lowering(energy.jacobi)});
+    for (const Part& part : m.outputs) program.roots.push_back({"output", part.label, lowering(part.value)});
+    for (const Part& part : m.events) program.roots.push_back({"event", part.label, lowering(part.value)});
+    return program;
+}
+
+int lower_expression(Program& program, const Mechanism& mechanism, const ex& e) {
+    return Lowering(program, mechanism, false)(e);
+}
+
+}  // namespace alembert

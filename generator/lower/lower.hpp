@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// From equations to straight-line code: the last place that knows GiNaC.
+///
+///     const Program program = lower(mechanism, equations, energy_of(mechanism));
+///     program.nodes_of("acceleration");
+///
+/// Groups of roots: "mass" (lower triangle, row by row), "forcing", "acceleration", "kinetic", "potential",
+/// "energy", "power", "jacobi", "output", "event".
+
+#include "formalism/equations.hpp"
+#include "lower/program.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+struct LowerOptions {
+    bool fold = false;  ///< parameters become constants, at the scene's values
+};
+
+/// Throws ModelError where something cannot be lowered (a name that has no value).
+Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
+              const LowerOptions& options = {});
+
+/// Lowers single expressions in parameters and t into `program`, for initial values and the like.
+int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);
+
+}  // namespace alembert

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// M = L D Lᵀ:  d_k = M_kk,  l_ik = M_ik / d_k,  M_ij ← M_ij − l_ik M_jk;  then L y = f, z = D⁻¹ y, Lᵀ x = z
+// (Golub & Van Loan, Matrix Computations, §4.1).
+#include "lower/solve.hpp"
+
+#include <utility>
+
+namespace alembert {
+
+namespace {
+
+class Elimination {
+public:
+    Elimination(Program& program, const std::vector<int>& lower, std::vector<int> f)
+        : p_(program), n_(static_cast<int>(f.size())), b_(std::move(f)), rows_(n_, std::vector<int>(n_)) {
+        for (int i = 0, k = 0; i < n_; ++i)
+            for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
+    }
+
+    std::optional<std::vector<int>> solve() {
+        std::vector<int> left(n_);
+        for (int i = 0; i < n_; ++i) left[i] = i;
+        while (!left.empty()) {
+            const int place = next_pivot(left);
+            if (place < 0) return with_exchanges(left);
+            const int k = left[place];
+            left.erase(left.begin() + place);
+            eliminate(k, left);
+            order_.push_back(k);
+        }
+        return back_substituted(std::vector<int>(n_, -1));
+    }
+
+private:
+    int times(int a, int b) { return p_.product(1, {{a, 1}, {b, 1}}); }
+    int minus(int a, int b) { return p_.sum(0, {{1, a}, {-1, b}}); }
+    bool zero(int i, int j) const { return p_.is_zero(rows_[i][j]); }
+
+    /// The position in `left` of the regular pivot with the fewest neighbours; the last of equals, so that a chain
+    /// is eliminated from its tip.
+    int next_pivot(const std::vector<int>& left) const {
+        int best = -1, fewest = 0;
+        for (std::size_t place = 0; place < left.size(); ++place) {
+            const int k = left[place];
+            if (zero(k, k)) continue;
+            int neighbours = 0;
+            for (const int i : left) neighbours += i != k && !zero(i, k) ? 1 : 0;
+            if (best < 0 || neighbours <= fewest) best = static_cast<int>(place), fewest = neighbours;
+        }
+        return best;
+    }
+
+    void eliminate(int k, const std::vector<int>& left) {
+        const int inverse = p_.product(1, {{rows_[k][k], -1}});
+        for (const int i : left) {
+            if (zero(i, k)) continue;
+            const int l = times(rows_[i][k], inverse);
+            for (const int j : left)
+                if (j <= i && !zero(j, k))
+                    rows_[i][j] = rows_[j][i] = minus(rows_[i][j], times(l, rows_[j][k]));
+            b_[i] = minus(b_[i], times(l, b_[k]));
+        }
+        for (const int i : left)
+            if (!zero(i, k)) rows_[k][i] = times(rows_[k][i], inverse);  // now Lᵀ
+        b_[k] = times(b_[k], inverse);
+    }
+
+    /// Lᵀ x = z for the rows in `order_`, last first; `x` holds what is known already.
+    std::optional<std::vector<int>> back_substituted(std::vector<int> x) {
+        for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
+            std::vector<Program::Term> terms{{1, b_[*k]}};
+            for (int i = 0; i < n_; ++i)
+                if (i != *k && x[i] >= 0 && !zero(*k, i)) terms.emplace_back(-1, times(rows_[*k][i], x[i]));
+            x[*k] = p_.sum(0, terms);
+        }
+        return x;
+    }
+
+    /// Gaussian elimination with row exchanges on the rows and columns in `left`.
+    std::optional<std::vector<int>> with_exchanges(const std::vector<int>& left) {
+        std::vector<int> rows = left;
+        for (std::size_t c = 0; c < left.size(); ++c) {
+            std::size_t r = c;
+            while (r < rows.size() && zero(rows[r], left[c])) ++r;
+            if (r == rows.size()) return std::nullopt;
+            std::swap(rows[c], rows[r]);
+            const int inverse = p_.product(1, {{rows_[rows[c]][left[c]], -1}});
+            for (std::size_t i = c + 1; i < rows.size(); ++i) {
+                if (zero(rows[i], left[c])) continue;
+                const int factor = times(rows_[rows[i]][left[c]], inverse);
+                for (std::size_t j = c; j < left.size(); ++j)
+                    rows_[rows[i]][left[j]] = minus(rows_[rows[i]][left[j]], times(factor, rows_[rows[c]][left[j]]));
+                b_[rows[i]] = minus(b_[rows[i]], times(factor, b_[rows[c]]));
+            }
+        }
+        std::vector<int> x(n_, -1);
+        for (std::size_t c = left.size(); c-- > 0;) {
+            std::vector<Program::Term> terms{{1, b_[rows[c]]}};
+            for (std::size_t j = c + 1; j < left.size(); ++j)
+                terms.emplace_back(-1, times(rows_[rows[c]][left[j]], x[left[j]]));
+            x[left[c]] = p_.product(1, {{p_.sum(0, terms), 1}, {rows_[rows[c]][left[c]], -1}});
+        }
+        return back_substituted(std::move(x));
+    }
+
+    Program& p_;
+    int n_;
+    std::vector<int> b_;
+    std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
+    std::vector<int> order_;
+};
+
+}  // namespace
+
+std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
+                                                const std::vector<int>& f) {
+    return Elimination(program, lower, f).solve();
+}
+
+}  // namespace alembert

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// M x = f, unrolled into a program on the sparsity of M.
+
+#include <optional>
+
+#include "lower/program.hpp"
+
+namespace alembert {
+
+/// Solves the symmetric n×n system whose lower triangle is `lower` (row-major, row i has i + 1 entries) by LDLᵀ
+/// in an order that keeps the factor sparse (minimum degree: George & Liu, Computer Solution of Large Sparse
+/// Positive Definite Systems (1981), chapter 5). Where no diagonal entry can be a pivot (an indefinite matrix from
+/// a given Lagrangian) the rest is eliminated with row exchanges. Nothing if the matrix is structurally singular.
+/// Pivots that vanish at some state only show there, as infinities.
+std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
+                                                const std::vector<int>& f);
+
+}  // namespace alembert

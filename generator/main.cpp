@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "alembert/error.hpp"
+#include "commands/command.hpp"
+
+namespace {
+
+using alembert::Request;
+
+constexpr int input_is_wrong = 3, numbers_failed = 4, environment_failed = 5;
+
+/// Runs a command and turns what it throws into one message and an exit code.
+int guarded(int (*command)(const Request&), const Request& request) {
+    const auto complain = [](const std::string& text, int code) {
+        std::cout.flush();
+        std::cerr << text << (text.ends_with('\n') ? "" : "\n");
+        return code;
+    };
+    try {
+        return command(request);
+    } catch (const alembert::SceneError& e) {
+        return complain(e.what(), input_is_wrong);
+    } catch (const alembert::ModelError& e) {
+        return complain(fmt::format("{}: {}", request.scene, e.what()), input_is_wrong);
+    } catch (const std::invalid_argument& e) {
+        return complain(fmt::format("{}: {}", request.scene, e.what()), input_is_wrong);
+    } catch (const alembert::IntegrationError& e) {
+        return complain(fmt::format("{}: {}", request.scene, e.what()), numbers_failed);
+    } catch (const alembert::CompileError& e) {
+        return complain(e.what(), environment_failed);
+    } catch (const std::bad_alloc&) {
+        return complain("out of memory", environment_failed);
+    } catch (const std::exception& e) {
+        return complain(fmt::format("{}: internal error: {}", request.scene, e.what()), environment_failed);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"alembert derives the equations of motion of a mechanical system, and runs them."};
+    app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
+    app.require_subcommand(1);
+    Request request;
+    int (*command)(const Request&) = nullptr;
+
+    const auto verb = [&](const char* name, const char* about, int (*run)(const Request&)) {
+        CLI::App* sub = app.add_subcommand(name, about);
+        sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
+        sub->add_flag("--json", request.json, "print one JSON object");
+        sub->add_option("--by", request.by, "formalism: lagrange");
+        sub->callback([&command, run] { command = run; });
+        return sub;
+    };
+    CLI::App* derive = verb("derive", "print the equations of motion in textbook form", alembert::derive);
+    derive->add_option("--format", request.format, "text, latex or mathml")->check(CLI::IsMember({"text", "latex", "mathml"}));
+    derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
+
+    CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
+    eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+
+    CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
+    emit->add_option("-o,--output", request.output, "folder")->required();
+    emit->add_flag("--fold", request.fold, "parameters as constants");
+
+    CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
+    simulate->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+    simulate->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
+        ->check(CLI::PositiveNumber);
+    simulate->add_option("--method", request.method, "auto, euler, rk4, dopri5 or dop853");
+    simulate->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
+    simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
+    simulate->add_option("-o,--output", request.output, "CSV file");
+    simulate->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+    simulate->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        const int code = app.exit(e);
+        return code == 0 ? 0 : input_is_wrong;
+    }
+    return guarded(command, request);
+}

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "model/translate.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::ex_to;
+using GiNaC::numeric;
+
+namespace {
+
+/// Builds one mechanism, table by table; mistakes are gathered and reported together.
+class Builder {
+public:
+    explicit Builder(const Scene& scene)
+        : scene_(scene), translator_(m_, {.position = [this](const std::string& p) { return position(p); },
+                                          .velocity = [this](const std::string& p) { return velocity(p); },
+                                          .orientation = [this](const std::string& f) -> const Orientation& {
+                                              return orientation(f);
+                                          }}) {}
+
+    Mechanism build() {
+        m_.name = std::filesystem::path(scene_.file).stem().string();
+        m_.title = scene_.title;
+        m_.symbols = std::make_shared<Symbols>();
+        m_.z = std::make_shared<Intermediates>(*m_.symbols);
+        m_.t = m_.symbols->declare("t", SymbolInfo::Kind::time);
+        translator_.know("t", m_.t);
+        declare_parameters();
+        declare_inputs();
+        declare_coordinates();
+        define();
+        if (!mistakes_.empty()) fail(scene_, mistakes_);
+        check_values();
+        add_masses();
+        add_links();
+        add_forces();
+        add_energy();
+        add_outputs();
+        add_run();
+        if (!mistakes_.empty()) fail(scene_, mistakes_);
+        return std::move(m_);
+    }
+
+private:
+    using Kind = SymbolInfo::Kind;
+
+    // Runs `step`; what it finds wrong is kept, and the building goes on.
+    template <typename Step>
+    void attempt(const Step& step) {
+        try {
+            step();
+        } catch (const SceneMistake& mistake) {
+            mistakes_.push_back(mistake.diagnostic);
+        }
+    }
+
+    void declare_parameters() {
+        for (std::size_t i = 0; i < scene_.parameters.size(); ++i) {
+            const Parameter& p = scene_.parameters[i];
+            const auto s = m_.symbols->declare(p.name.text, Kind::parameter, static_cast<int>(i));
+            translator_.know(p.name.text, s);
+            m_.parameters.push_back({.symbol = s, .value = 0, .unit = p.unit, .about = p.about});
+        }
+        for (std::size_t i = 0; i < scene_.parameters.size(); ++i)
+            attempt([&] {
+                m_.parameters[i].value = m_.z->expand(translator_.scalar(scene_.parameters[i].value));
+                m_.parameters[i].independent = GiNaC::is_a<numeric>(m_.parameters[i].value);
+            });
+    }
+
+    void declare_inputs() {
+        for (std::size_t i = 0; i < scene_.inputs.size(); ++i) {
+            const Input& input = scene_.inputs[i];
+            Mechanism::Input made{.derivative = {}, .value = 0, .unit = input.unit};
+            for (int order = 0; order < 3; ++order)
+                made.derivative[order] =
+                    m_.symbols->declare(input.name.text, Kind::input, static_cast<int>(i), order);
+            translator_.know(input.name.text, made.derivative[0]);
+            m_.inputs.push_back(made);
+        }
+        for (std::size_t i = 0; i < scene_.inputs.size(); ++i)
+            attempt([&] { m_.inputs[i].value = m_.z->name(translator_.scalar(scene_.inputs[i].value)); });
+    }
+
+    void declare_coordinates() {
+        for (std::size_t i = 0; i < scene_.coordinates.size(); ++i) {
+            const Coordinate& c = scene_.coordinates[i];
+            const int index = static_cast<int>(i);
+            m_.q.push_back(m_.symbols->declare(c.name.text, Kind::coordinate, index, 0));
+            m_.qdot.push_back(m_.symbols->declare(c.name.text, Kind::coordinate, index, 1));
+            m_.qddot.push_back(m_.symbols->declare(c.name.text, Kind::coordinate, index, 2));
+            m_.units.push_back(c.unit);
+        }
+        for (const Coordinate& c : scene_.coordinates) {
+            m_.q_start.emplace_back(0);
+            m_.qdot_start.emplace_back(0);
+            attempt([&] {
+                m_.q_start.back() = m_.z->expand(translator_.scalar(c.initial));
+                m_.qdot_start.back() = m_.z->expand(translator_.scalar(c.rate));
+            });
+        }
+    }
+
+    void define() {
+        for (const Definition& d : scene_.definitions)
+            translator_.know_later(d.name.text, [this, &d] {
+                SourceScope source(*m_.z, "definition " + d.name.text);
+                return m_.z->name(translator_.scalar(d.value));
+            });
+        for (const Definition& d : scene_.definitions)
+            attempt([&] {
+                const Tree self{.kind = Tree::Kind::name, .text = d.name.text};
+                const Expression whole{d.name.text, {d.name.place}, std::make_shared<Tree>(self)};
+                m_.definitions.push_back({d.name.text, translator_.scalar(whole)});
+            });
+    }
+
+    // Geometry, made when first asked for
+
+    const Orientation& orientation(const std::string& name) {
+        if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
+        if (name == "N") return orientations_["N"];
+        for (const Frame& frame : scene_.frames)
+            if (frame.name.text == name) return orientations_[name] = turn(frame);
+        for (const Body& body : scene_.bodies)
+            if (body.name.text == name) return orientation(body.frame.text);
+        throw std::out_of_range("frame '" + name + "'");
+    }
+
+    Orientation turn(const Frame& frame) {
+        SourceScope source(*m_.z, "frame " + frame.name.text);
+        Orientation o = orientation(frame.parent.text);
+        for (const Rotation& r : frame.rotations) {
+            const ex angle = m_.z->name(translator_.scalar(r.angle));
+            o = o.turned(unit_axis(r), angle, m_.time_derivative({angle})[0], *m_.z);
+        }
+        return o;
+    }
+
+    Vector3 unit_axis(const Rotation& r) {
+        if (r.letter == 'x') return {1, 0, 0};
+        if (r.letter == 'y') return {0, 1, 0};
+        if (r.letter == 'z') return {0, 0, 1};
+        const Vector3 a = vector(r.axis);
+        const ex square = m_.z->expand(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+        if (number(square) == 0.0)
+            throw SceneMistake{{r.axis.place, "this axis is the zero vector; expected a direction"}};
+        return scale(1 / sqrt(square), a, *m_.z);
+    }
+
+    Vector3 vector(const Vector& v) {
+        return {m_.z->name(translator_.scalar(v.component[0])), m_.z->name(translator_.scalar(v.component[1])),
+                m_.z->name(translator_.scalar(v.component[2]))};
+    }
+
+    Vector3 along(const Vector& v, const Name& axes) {
+        const Vector3 components = vector(v);
+        return axes.text == "N" ? components : orientation(axes.text).to_inertial(components, *m_.z);
+    }
+
+    Vector3 place(const Position& p) { return add(position(p.from.text), along(p.offset, p.axes), *m_.z); }
+
+    const Position* find_position(const std::string& name) const {
+        for (const Point& p : scene_.points)
+            if (p.name.text == name) return &p.position;
+        for (const Particle& p : scene_.particles)
+            if (p.name.text == name) return &p.position;
+        for (const Body& b : scene_.bodies)
+            if (b.name.text == name) return &b.position;
+        return nullptr;
+    }
+
+    Vector3 position(const std::string& name) {
+        if (name == "O") return {0, 0, 0};
+        if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
+        const Position* where = find_position(name);
+        if (where == nullptr) throw std::out_of_range("point '" + name + "'");
+        SourceScope source(*m_.z, "point " + name);
+        return positions_[name] = place(*where);
+    }
+
+    Vector3 velocity(const std::string& name) {
+        if (const auto found = velocities_.find(name); found != velocities_.end()) return found->second;
+        const Vector3 r = position(name);
+        SourceScope source(*m_.z, "point " + name);
+        const std::vector<ex> v = m_.time_derivative({r[0], r[1], r[2]});
+        return velocities_[name] = {v[0], v[1], v[2]};
+    }
+
+    // Values at the scene's own parameters
+
+    double number(const ex& e) const {
+        ex value = e;
+        for (std::size_t round = 0; round <= m_.parameters.size() && !GiNaC::is_a<numeric>(value.evalf()); ++round) {
+            GiNaC::exmap known;
+            for (const Mechanism::Parameter& p : m_.parameters) known[p.symbol] = p.value;
+            value = value.subs(known, GiNaC::subs_options::no_pattern);
+        }
+        const ex result = value.evalf();
+        if (!GiNaC::is_a<numeric>(result) || !ex_to<numeric>(result).is_real()) return std::nan("");
+        return ex_to<numeric>(result).to_double();
+    }
+
+    double number_at(const Expression& e) {
+        try {
+            return number(m_.z->expand(translator_.scalar(e)));
+        } catch (const GiNaC::pole_error&) {
+            return std::nan("");
+        } catch (const std::overflow_error&) {
+            return std::nan("");
+        }
+    }
+
+    void require(const Expression& e, const std::string& what, bool not_negative) {
+        attempt([&] {
+            const double value = number_at(e);
+            if (!std::isfinite(value))
+                throw SceneMistake{{e.place(), what + " is not a finite real number at the scene's values"}};
+            if (not_negative && value < 0)
+                throw SceneMistake{{e.place(), fmt::format("{} is {}; expected zero or more", what, value)}};
+        });
+    }
+
+    void check_values() {
+        for (const Parameter& p : scene_.parameters) require(p.value, "parameter '" + p.name.text + "'", false);
+        for (const Coordinate& c : scene_.coordinates) {
+            require(c.initial, "the initial value of '" + c.name.text + "'", false);
+            require(c.rate, "the initial rate of '" + c.name.text + "'", false);
+        }
+        for (const Particle& p : scene_.particles) require(p.mass, "the mass of particle '" + p.name.text + "'", true);
+        for (const Body& b : scene_.bodies) {
+            require(b.mass, "the mass of body '" + b.name.text + "'", true);
+            if (!b.inertia) continue;
+            if (b.inertia->planar) require(*b.inertia->planar, "the moment of inertia of body '" + b.name.text + "'", true);
+            for (std::size_t k = 0; !b.inertia->planar && k < 6; ++k)
+                require(b.inertia->tensor[k], "the moment of inertia of body '" + b.name.text + "'", k < 3);
+        }
+        if (!mistakes_.empty()) fail(scene_, mistakes_);
+    }
+
+    // T, V and the loads
+
+    void add_masses() {
+        for (const Particle& p : scene_.particles)
+            attempt([&] {
+                SourceScope source(*m_.z, "particle " + p.name.text);
+                add_translation("particle " + p.name.text, p.name.text, translator_.scalar(p.mass));
+            });
+        for (const Body& b : scene_.bodies)
+            attempt([&] {
+                SourceScope source(*m_.z, "body " + b.name.text);
+                const ex mass = translator_.scalar(b.mass);
+                add_translation("body " + b.name.text, b.name.text, mass);
+                add_rotation(b, mass);
+            });
+    }
+
+    // ½ m v², and −m g·r
+    void add_translation(const std::string& label, const std::string& point, const ex& mass) {
+        const Vector3 v = velocity(point);
+        m_.kinetic.push_back({label, m_.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
+        if (!scene_.gravity) return;
+        const Vector3 g = vector(*scene_.gravity), r = position(point);
+        const ex weight = m_.z->name(-mass * (g[0] * r[0] + g[1] * r[1] + g[2] * r[2]));
+        if (!weight.is_zero()) m_.potential.push_back({"gravity on " + label, weight});
+    }
+
+    // ½ ω·I ω with I about the mass centre; if I is about P, less ½ m (v − v_P)², what the transport adds.
+    void add_rotation(const Body& b, const ex& mass) {
+        if (!b.inertia) return;
+        const Vector3 w = orientation(b.frame.text).angular_velocity();
+        ex energy;
+        if (b.inertia->planar) {
+            if (!w[0].is_zero() || !w[1].is_zero())
+                throw SceneMistake{{b.inertia->place,
+                                    fmt::format("body '{}' turns in space and has one moment of inertia; expected "
+                                                "three, [Ixx, Iyy, Izz], or a tensor",
+                                                b.name.text)}};
+            energy = translator_.scalar(*b.inertia->planar) * w[2] * w[2] / 2;
+        } else {
+            std::array<ex, 6> I;
+            for (int k = 0; k < 6; ++k) I[k] = translator_.scalar(b.inertia->tensor[k]);
+            energy = (I[0] * w[0] * w[0] + I[1] * w[1] * w[1] + I[2] * w[2] * w[2]) / 2 + I[3] * w[0] * w[1] +
+                     I[4] * w[1] * w[2] + I[5] * w[2] * w[0];
+        }
+        if (b.about) {
+            const Vector3 d = add(velocity(b.name.text), scale(-1, velocity(b.about->text), *m_.z), *m_.z);
+            energy -= mass / 2 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+        m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});
+    }
+
+    /// The length of a spring or damper, or the expression along which it acts.
+    ex length_of(const Link& link) {
+        if (!link.between) return m_.z->name(translator_.scalar(link.along));
+        return norm(add(position(link.between->second.text), scale(-1, position(link.between->first.text), *m_.z),
+                        *m_.z),
+                    *m_.z);
+    }
+
+    // Spring: V = ½ k (d − d₀)². Damper: −c d' along d.
+    void add_links() {
+        for (std::size_t i = 0; i < scene_.springs.size(); ++i)
+            attempt([&] {
+                const Link& s = scene_.springs[i];
+                const std::string label = fmt::format("spring {}", i + 1);
+                SourceScope source(*m_.z, label);
+                const ex k = translator_.scalar(s.constant), free_length = translator_.scalar(s.length);
+                ex square;
+                if (s.between && free_length.is_zero()) {
+                    const Vector3 d = add(position(s.between->second.text),
+                                          scale(-1, position(s.between->first.text), *m_.z), *m_.z);
+                    square = dot(d, d, *m_.z);
+                } else {
+                    square = pow(length_of(s) - free_length, 2);
+                }
+                m_.potential.push_back({label, m_.z->name(k / 2 * square)});
+            });
+        for (std::size_t i = 0; i < scene_.dampers.size(); ++i)
+            attempt([&] {
+                const std::string label = fmt::format("damper {}", i + 1);
+                SourceScope source(*m_.z, label);
+                const ex rate = m_.time_derivative({length_of(scene_.dampers[i])})[0];
+                const ex force = m_.z->name(-translator_.scalar(scene_.dampers[i].constant) * rate);
+                m_.loads.push_back({label, true, {{rate, force}}});
+            });
+    }
+
+    void add_forces() {
+        const auto add_pairs = [](Load& load, const Vector3& velocity, const Vector3& force, int sign) {
+            for (int k = 0; k < 3; ++k)
+                if (!force[k].is_zero() && !velocity[k].is_zero())
+                    load.pairs.push_back({velocity[k], sign * force[k]});
+        };
+        for (std::size_t i = 0; i < scene_.forces.size(); ++i)
+            attempt([&] {
+                const Force& f = scene_.forces[i];
+                Load load{.label = fmt::format("force {} at {}", i + 1, f.at.text), .pairs = {}};
+                SourceScope source(*m_.z, load.label);
+                const Vector3 F = along(f.vector, f.axes);
+                add_pairs(load, velocity(f.at.text), F, 1);
+                if (f.reaction) add_pairs(load, velocity(f.reaction->text), F, -1);
+                m_.loads.push_back(std::move(load));
+            });
+        for (std::size_t i = 0; i < scene_.torques.size(); ++i)
+            attempt([&] {
+                const Torque& tau = scene_.torques[i];
+                Load load{.label = fmt::format("torque {} on {}", i + 1, tau.on.text), .pairs = {}};
+                SourceScope source(*m_.z, load.label);
+                const Vector3 M = along(tau.vector, tau.axes);
+                const auto spin = [&](const std::string& frame) {
+                    const Orientation& o = orientation(frame);
+                    return o.to_inertial(o.angular_velocity(), *m_.z);
+                };
+                add_pairs(load, spin(tau.on.text), M, 1);
+                if (tau.reaction) add_pairs(load, spin(tau.reaction->text), M, -1);
+                m_.loads.push_back(std::move(load));
+            });
+    }
+
+    void add_energy() {
+        attempt([&] {
+            if (scene_.kinetic) m_.kinetic.push_back({"[energy] kinetic", m_.z->name(translator_.scalar(scene_.kinetic))});
+        });
+        attempt([&] {
+            if (scene_.potential)
+                m_.potential.push_back({"[energy] potential", m_.z->name(translator_.scalar(scene_.potential))});
+        });
+        attempt([&] {
+            if (scene_.lagrangian) m_.given_lagrangian = m_.z->name(translator_.scalar(scene_.lagrangian));
+        });
+        attempt([&] {
+            if (!scene_.rayleigh) return;
+            SourceScope source(*m_.z, "[dissipation]");
+            const ex R = m_.z->name(translator_.scalar(scene_.rayleigh));
+            const std::vector<ex> gradient = m_.z->pull_back({{R, 1}}, m_.qdot);
+            Load load{.label = "[dissipation]", .dissipative = true, .pairs = {}};
+            for (int i = 0; i < m_.size(); ++i)
+                if (!gradient[i].is_zero()) load.pairs.push_back({m_.qdot[i], -gradient[i]});
+            m_.loads.push_back(std::move(load));
+        });
+        for (const GeneralizedForce& f : scene_.generalized_forces)
+            attempt([&] {
+                const std::string label = "force on " + f.coordinate.text;
+                SourceScope source(*m_.z, label);
+                for (int i = 0; i < m_.size(); ++i)
+                    if (m_.q[i].get_name() == f.coordinate.text)
+                        m_.loads.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value))}}});
+            });
+    }
+
+    void add_outputs() {
+        for (const Output& o : scene_.outputs)
+            attempt([&] {
+                SourceScope source(*m_.z, "output " + o.name.text);
+                m_.outputs.push_back({o.name.text, m_.z->name(translator_.scalar(o.value))});
+            });
+        for (const EventRule& e : scene_.events)
+            attempt([&] {
+                SourceScope source(*m_.z, "event " + e.name.text);
+                m_.events.push_back({e.name.text, m_.z->name(translator_.scalar(e.when))});
+                m_.event_stops.push_back(e.stop);
+            });
+    }
+
+    void add_run() {
+        const Simulation& s = scene_.simulation;
+        const auto value = [&](const Expression& e, std::optional<ex>& to) {
+            attempt([&] {
+                if (e) to = m_.z->expand(translator_.scalar(e));
+            });
+        };
+        value(s.start, m_.run.start);
+        value(s.duration, m_.run.duration);
+        value(s.tolerance, m_.run.tolerance);
+        value(s.step, m_.run.step);
+        value(s.sample, m_.run.sample);
+        if (s.method) m_.run.method = s.method->text;
+    }
+
+    const Scene& scene_;
+    Mechanism m_;
+    Translator translator_;
+    std::map<std::string, Orientation> orientations_;
+    std::map<std::string, Vector3> positions_, velocities_;
+    std::vector<Diagnostic> mistakes_;
+};
+
+}  // namespace
+
+Mechanism build(const Scene& scene) { return Builder(scene).build(); }
+
+}  // namespace alembert

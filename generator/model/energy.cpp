@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/energy.hpp"
+
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+ex at_rest(const ex& e, const Mechanism& m) {
+    GiNaC::exmap still;
+    for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+    return m.z->expand(e).subs(still, GiNaC::subs_options::no_pattern);
+}
+
+std::vector<GiNaC::symbol> clock(const Mechanism& m) {
+    std::vector<GiNaC::symbol> symbols{m.t};
+    for (const Mechanism::Input& input : m.inputs)
+        symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
+    return symbols;
+}
+
+}  // namespace
+
+bool is_identically_zero(const ex& e, const Mechanism& mechanism) {
+    if (e.is_zero()) return true;
+    if (mechanism.z->tree_size(e) > 20000) return false;
+    const auto normal = fourier(mechanism.z->expand(e), *mechanism.symbols);
+    return normal && is_zero(*normal);
+}
+
+Energy energy_of(const Mechanism& m) {
+    Intermediates& z = *m.z;
+    const int n = m.size();
+    const ex L = m.lagrangian();
+    Energy result;
+
+    GiNaC::exvector p_dot_q;  // q'·∂L/∂q'
+    const std::vector<ex> p = z.pull_back({{L, 1}}, m.qdot);
+    for (int i = 0; i < n; ++i) p_dot_q.push_back(p[i] * m.qdot[i]);
+    const ex pq = z.name(GiNaC::add(std::move(p_dot_q)));
+    result.jacobi = z.name(pq - L);
+
+    ex extra = 0;  // T₁ + 2T₀ = 2T − q'·∂T/∂q'
+    if (m.given_lagrangian) {
+        GiNaC::exvector twice;
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; const ex& entry : z.push_forward(p, {{m.qdot[j], 1}}))
+                twice.push_back(entry * m.qdot[i++] * m.qdot[j]);
+        result.kinetic = z.name(GiNaC::add(std::move(twice)) / 2);
+        result.potential = z.name(-at_rest(L, m));
+        result.energy = result.jacobi;
+    } else {
+        result.kinetic = m.kinetic_energy();
+        result.potential = m.potential_energy();
+        result.energy = z.name(result.kinetic + result.potential);
+        const bool bodies_alone = !(m.kinetic.empty()) && m.kinetic.back().label != "[energy] kinetic";
+        const bool scleronomic = bodies_alone && !z.depends(result.kinetic, clock(m));
+        if (!scleronomic) extra = z.name(2 * result.kinetic - pq);
+        if (is_identically_zero(extra, m)) extra = 0;
+    }
+
+    GiNaC::exvector work;
+    const std::vector<ex> damping = m.generalized_forces(true), applied = m.generalized_forces(false);
+    for (int i = 0; i < n; ++i) work.push_back((damping[i] + applied[i]) * m.qdot[i]);
+    ex jacobi_power = z.name(GiNaC::add(std::move(work)) - m.explicit_time_derivative({L})[0]);
+    if (is_identically_zero(jacobi_power, m)) jacobi_power = 0;
+    result.jacobi_conserved = jacobi_power.is_zero();
+    result.power = z.name(jacobi_power + (extra.is_zero() ? ex(0) : m.time_derivative({extra})[0]));
+    result.conserved = result.power.is_zero() || (extra.is_zero() && result.jacobi_conserved);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+ex total(const std::vector<Part>& parts, Intermediates& z) {
+    GiNaC::exvector values;
+    for (const Part& part : parts) values.push_back(part.value);
+    return z.name(GiNaC::add(std::move(values)));
+}
+
+Intermediates::Direction along_time(const Mechanism& m) {
+    Intermediates::Direction direction{{m.t, 1}};
+    for (const Mechanism::Input& input : m.inputs) {
+        direction.emplace_back(input.derivative[0], input.derivative[1]);
+        direction.emplace_back(input.derivative[1], input.derivative[2]);
+    }
+    return direction;
+}
+
+void append(Intermediates::Direction& direction, const std::vector<GiNaC::symbol>& moving,
+            const std::vector<GiNaC::symbol>& rates) {
+    for (std::size_t i = 0; i < moving.size(); ++i) direction.emplace_back(moving[i], rates[i]);
+}
+
+}  // namespace
+
+ex Mechanism::kinetic_energy() const { return total(kinetic, *z); }
+
+ex Mechanism::potential_energy() const { return total(potential, *z); }
+
+ex Mechanism::lagrangian() const {
+    return given_lagrangian ? *given_lagrangian : z->name(kinetic_energy() - potential_energy());
+}
+
+std::vector<ex> Mechanism::time_derivative(const std::vector<ex>& values) const {
+    Intermediates::Direction direction = along_time(*this);
+    append(direction, q, qdot);
+    append(direction, qdot, qddot);
+    return z->push_forward(values, direction);
+}
+
+std::vector<ex> Mechanism::time_derivative_without_acceleration(const std::vector<ex>& values) const {
+    Intermediates::Direction direction = along_time(*this);
+    append(direction, q, qdot);
+    return z->push_forward(values, direction);
+}
+
+std::vector<ex> Mechanism::explicit_time_derivative(const std::vector<ex>& values) const {
+    return z->push_forward(values, along_time(*this));
+}
+
+std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Load& load : loads)
+        if (load.dissipative == dissipative)
+            for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
+    return z->pull_back(targets, qdot);
+}
+
+}  // namespace alembert

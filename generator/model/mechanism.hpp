@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A mechanical system as symbols: what every formalism starts from.
+///
+///     const Mechanism mechanism = build(read_scene("pendulum.toml"));
+///     const ex T = mechanism.kinetic_energy();
+///
+/// All expressions are in the symbols of `symbols`; whatever is more than an atom is an intermediate symbol of `z`.
+/// Vectors have three components along the axes of the inertial frame N.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "symbolic/intermediates.hpp"
+
+namespace alembert {
+
+using Vector3 = std::array<GiNaC::ex, 3>;
+
+/// One body's share of T, one spring's of V …
+struct Part {
+    std::string label;  ///< "particle M1", "spring 2", "gravity on M1"
+    GiNaC::ex value;
+};
+
+/// A load that is not in V, as what it does: forces times velocities. Its generalized force is
+/// Q_i = Σ force · ∂velocity/∂q'_i, its power Σ force · velocity.
+struct Load {
+    std::string label;
+    bool dissipative = false;  ///< a damper or Rayleigh's function: a textbook keeps it on the left
+    struct Pair {
+        GiNaC::ex velocity, force;
+    };
+    std::vector<Pair> pairs;
+};
+
+struct Mechanism {
+    struct Parameter {
+        GiNaC::symbol symbol;
+        GiNaC::ex value;  ///< an exact number, or an expression in other parameters
+        bool independent = true;
+        std::string unit, about;
+    };
+    struct Input {
+        std::array<GiNaC::symbol, 3> derivative;  ///< F, F', F''
+        GiNaC::ex value;                          ///< in t, parameters and other inputs
+        std::string unit;
+    };
+    struct Definition {
+        std::string name;
+        GiNaC::ex value;
+    };
+
+    std::string name;   ///< of the scene's file, without folder and ending
+    std::string title;
+    std::shared_ptr<Symbols> symbols;
+    std::shared_ptr<Intermediates> z;
+    GiNaC::symbol t;
+    std::vector<Parameter> parameters;
+    std::vector<Input> inputs;
+    std::vector<Definition> definitions;
+    std::vector<GiNaC::symbol> q, qdot, qddot;
+    std::vector<std::string> units;            ///< of the coordinates
+    std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
+    std::vector<Part> kinetic, potential;
+    std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
+    std::vector<Load> loads;
+    std::vector<Part> outputs, events;
+    std::vector<bool> event_stops;
+
+    /// [simulation], in parameters; nothing where the scene is silent.
+    struct Run {
+        std::optional<GiNaC::ex> start, duration, tolerance, step, sample;
+        std::string method = "auto";
+    };
+    Run run;
+
+    /// Degrees of freedom of a scene without constraints: the number of coordinates.
+    int size() const { return static_cast<int>(q.size()); }
+
+    GiNaC::ex kinetic_energy() const;
+    GiNaC::ex potential_energy() const;
+    /// T − V, or the Lagrangian that the scene gives.
+    GiNaC::ex lagrangian() const;
+
+    /// The total time derivative of each value: q → q', q' → q'', inputs → their derivatives, t → 1.
+    std::vector<GiNaC::ex> time_derivative(const std::vector<GiNaC::ex>& values) const;
+    /// The part of it at q'' = 0 that is not due to q: ∂/∂t, inputs included.
+    std::vector<GiNaC::ex> explicit_time_derivative(const std::vector<GiNaC::ex>& values) const;
+    /// The time derivative at q'' = 0.
+    std::vector<GiNaC::ex> time_derivative_without_acceleration(const std::vector<GiNaC::ex>& values) const;
+
+    /// Q_i of the loads, per coordinate; `dissipative` selects dampers and Rayleigh's function, or all the others.
+    std::vector<GiNaC::ex> generalized_forces(bool dissipative) const;
+};
+
+/// Builds the mechanism of a scene. Throws SceneError for what is wrong with the scene's values (a negative mass
+/// or moment of inertia, a parameter that is not finite), each with its place.
+Mechanism build(const Scene& scene);
+
+/// An exact number from a literal such as `0.1` or `2e3`.
+GiNaC::numeric exact_number(const std::string& literal);
+
+}  // namespace alembert

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/translate.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "symbolic/functions.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+numeric exact_number(const std::string& literal) {
+    std::string digits;
+    long exponent = 0;
+    bool after_point = false;
+    for (std::size_t i = 0; i < literal.size(); ++i) {
+        const char c = literal[i];
+        if (c == '.') {
+            after_point = true;
+        } else if (c == 'e' || c == 'E') {
+            exponent += std::stol(literal.substr(i + 1));
+            break;
+        } else if (std::isdigit(static_cast<unsigned char>(c)) != 0) {
+            digits += c;
+            if (after_point) --exponent;
+        }
+    }
+    const numeric mantissa(digits.empty() ? "0" : digits.c_str());
+    return mantissa * GiNaC::pow(numeric(10), numeric(exponent));
+}
+
+ex Translator::scalar(const Expression& expression) {
+    const Expression* const former = current_;
+    current_ = &expression;
+    const ex value = scalar_of(*expression.tree);
+    current_ = former;
+    return value;
+}
+
+ex Translator::scalar_of(const Tree& tree) {
+    const Value value = evaluate(tree);
+    if (const ex* scalar = std::get_if<ex>(&value)) return *scalar;
+    throw SceneMistake{{current_->place(tree.offset), "a vector stands where a number is expected; take a component "
+                                                      "with dot(…, ex(N)) or its length with norm(…)"}};
+}
+
+Vector3 Translator::vector_of(const Tree& tree) {
+    const Value value = evaluate(tree);
+    if (const Vector3* vector = std::get_if<Vector3>(&value)) return *vector;
+    throw SceneMistake{{current_->place(tree.offset), "a number stands where a vector is expected"}};
+}
+
+ex Translator::differentiated(ex value, int times) {
+    for (int i = 0; i < times; ++i) value = mechanism_.time_derivative({value})[0];
+    return value;
+}
+
+ex Translator::named(const Tree& tree) {
+    const auto place = current_->place(tree.offset);
+    if (tree.text == "pi") return GiNaC::Pi;
+    for (std::size_t i = 0; i < mechanism_.q.size(); ++i)
+        if (mechanism_.q[i].get_name() == tree.text) {
+            if (tree.primes > 2) break;
+            return tree.primes == 0 ? mechanism_.q[i] : tree.primes == 1 ? mechanism_.qdot[i] : mechanism_.qddot[i];
+        }
+    if (auto found = later_.find(tree.text); found != later_.end()) {
+        const auto make = std::move(found->second);
+        later_[tree.text] = [&tree, place]() -> ex {
+            throw SceneMistake{{place, fmt::format("'{}' is defined by itself, through the geometry", tree.text)}};
+        };
+        const Expression* const here = current_;
+        values_[tree.text] = make();
+        current_ = here;
+        later_.erase(tree.text);
+    }
+    if (const auto found = values_.find(tree.text); found != values_.end())
+        return differentiated(found->second, tree.primes);
+    throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
+}
+
+Value Translator::call(const Tree& tree) {
+    Intermediates& z = *mechanism_.z;
+    const auto name_of = [&](std::size_t k) -> const std::string& { return tree.args.at(k)->text; };
+    if (tree.text == "pos") {
+        if (tree.args.size() == 1) return queries_.position(name_of(0));
+        return add(queries_.position(name_of(1)), scale(-1, queries_.position(name_of(0)), z), z);
+    }
+    if (tree.text == "vel") return queries_.velocity(name_of(0));
+    if (tree.text == "omega") {
+        const Orientation& frame = queries_.orientation(name_of(0));
+        return frame.to_inertial(frame.angular_velocity(), z);
+    }
+    if (tree.text == "ex") return queries_.orientation(name_of(0)).axis(0);
+    if (tree.text == "ey") return queries_.orientation(name_of(0)).axis(1);
+    if (tree.text == "ez") return queries_.orientation(name_of(0)).axis(2);
+    if (tree.text == "dot") return dot(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
+    if (tree.text == "cross") return cross(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
+    if (tree.text == "norm") return norm(vector_of(*tree.args[0]), z);
+    std::vector<ex> args;
+    for (const TreePtr& arg : tree.args) args.push_back(z.name(scalar_of(*arg)));
+    if (const auto value = apply_function(tree.text, args)) return *value;
+    throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown function '{}'", tree.text)}};
+}
+
+Value Translator::evaluate(const Tree& tree) {
+    Intermediates& z = *mechanism_.z;
+    try {
+        switch (tree.kind) {
+            case Tree::Kind::number: return ex(exact_number(tree.text));
+            case Tree::Kind::name: return named(tree);
+            case Tree::Kind::call: return call(tree);
+            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes);
+            case Tree::Kind::power: return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
+            case Tree::Kind::reciprocal: return ex(1 / scalar_of(*tree.args[0]));
+            case Tree::Kind::negate: {
+                const Value value = evaluate(*tree.args[0]);
+                if (const Vector3* v = std::get_if<Vector3>(&value)) return scale(-1, *v, z);
+                return ex(-std::get<ex>(value));
+            }
+            case Tree::Kind::sum: {
+                const Value first = evaluate(*tree.args[0]);
+                if (const Vector3* v = std::get_if<Vector3>(&first)) {
+                    Vector3 sum = *v;
+                    for (std::size_t i = 1; i < tree.args.size(); ++i) sum = add(sum, vector_of(*tree.args[i]), z);
+                    return sum;
+                }
+                GiNaC::exvector terms{std::get<ex>(first)};
+                for (std::size_t i = 1; i < tree.args.size(); ++i) terms.push_back(scalar_of(*tree.args[i]));
+                return ex(GiNaC::add(std::move(terms)));
+            }
+            case Tree::Kind::product: {
+                GiNaC::exvector factors;
+                std::optional<Vector3> vector;
+                for (const TreePtr& arg : tree.args) {
+                    const Value value = evaluate(*arg);
+                    if (const ex* scalar = std::get_if<ex>(&value))
+                        factors.push_back(*scalar);
+                    else if (!vector)
+                        vector = std::get<Vector3>(value);
+                    else
+                        throw SceneMistake{{current_->place(arg->offset),
+                                            "a product of two vectors; write dot(a,b) or cross(a,b)"}};
+                }
+                const ex product = GiNaC::mul(std::move(factors));
+                if (vector) return scale(product, *vector, z);
+                return product;
+            }
+        }
+    } catch (const GiNaC::pole_error&) {
+        throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
+    } catch (const std::overflow_error&) {
+        throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
+    }
+    return ex(0);
+}
+
+}  // namespace alembert

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// From the scene's expression trees to symbols: names are looked up, primes differentiate, vector functions ask
+/// the geometry.
+
+#include <functional>
+#include <map>
+#include <variant>
+
+#include "model/geometry.hpp"
+
+namespace alembert {
+
+/// A scalar, or a vector along the axes of N.
+using Value = std::variant<GiNaC::ex, Vector3>;
+
+/// What the geometry answers; each may throw std::out_of_range for a name that it does not know.
+struct GeometryQueries {
+    std::function<Vector3(const std::string& point)> position, velocity;
+    std::function<const Orientation&(const std::string& frame)> orientation;
+};
+
+class Translator {
+public:
+    Translator(const Mechanism& mechanism, GeometryQueries queries)
+        : mechanism_(mechanism), queries_(std::move(queries)) {}
+
+    /// A name that stands for a value: a coordinate's symbol, a definition's value …
+    void know(const std::string& name, const GiNaC::ex& value) { values_[name] = value; }
+    /// A name whose value is made when first asked for (definitions, in any order).
+    void know_later(const std::string& name, std::function<GiNaC::ex()> value) { later_[name] = std::move(value); }
+
+    /// Throws SceneMistake for what the reader could not see.
+    GiNaC::ex scalar(const Expression& expression);
+
+private:
+    Value evaluate(const Tree& tree);
+    GiNaC::ex scalar_of(const Tree& tree);
+    Vector3 vector_of(const Tree& tree);
+    GiNaC::ex named(const Tree& tree);
+    Value call(const Tree& tree);
+    GiNaC::ex differentiated(GiNaC::ex value, int times);
+
+    const Mechanism& mechanism_;
+    GeometryQueries queries_;
+    std::map<std::string, GiNaC::ex> values_;
+    std::map<std::string, std::function<GiNaC::ex()>> later_;
+    const Expression* current_ = nullptr;
+};
+
+/// Thrown where a translated expression turns out wrong; the builder gathers these into one SceneError.
+struct SceneMistake {
+    Diagnostic diagnostic;
+};
+
+}  // namespace alembert

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "scene/tables.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+/// `at = "P"`, or `key` (a vector) with `from` and `axes`.
+Position read_position(const Table& table, std::string_view key, bool has_at) {
+    Position position;
+    position.offset.place = table.place();
+    if (has_at && table.has("at")) {
+        for (const std::string_view other : {key, std::string_view("from"), std::string_view("axes")})
+            if (table.has(other))
+                table.complain(other, fmt::format("{} has both 'at' and '{}'; 'at' alone says where it is", table.title(),
+                                                  other));
+        position.from = table.needed_name("at");
+        for (Expression& component : position.offset.component) component = zero(position.from.place);
+        return position;
+    }
+    if (has_at && !table.has(key)) {
+        if (!table.reading().has_joints)
+            table.reading().complain(table.place(), fmt::format("{} needs 'at' or '{}': where it is", table.title(), key));
+    } else {
+        position.offset = table.needed_vector(key);
+    }
+    if (auto from = table.name("from")) position.from = std::move(*from);
+    if (auto axes = table.name("axes")) position.axes = std::move(*axes);
+    return position;
+}
+
+std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node) {
+    const toml::array* const pair = node.as_array();
+    if (!pair || pair->size() != 2) {
+        reading.complain(place_of(node), pair ? "a rotation has two parts: [axis, angle]"
+                                              : "'rotate' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]");
+        return {};
+    }
+    Rotation rotation;
+    const toml::node& axis = *pair->get(0);
+    if (const auto* letter = axis.as_string()) {
+        const std::string& name = letter->get();
+        if (name == "x" || name == "y" || name == "z")
+            rotation.letter = name[0];
+        else
+            reading.complain(place_of(axis), fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
+                                                         in_quotes(name)));
+    } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
+        rotation.axis = read_vector(reading, axis, "the axis");
+    } else {
+        reading.complain(place_of(axis), fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
+                                                     components ? fmt::format("an array of {}", components->size())
+                                                                : kind_of(axis)));
+    }
+    rotation.angle = read_expression(reading, *pair->get(1), "the angle");
+    return rotation;
+}
+
+Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
+    Inertia inertia;
+    const Table table(reading, node, "the inertia", place);
+    table.allow({"xx", "yy", "zz", "xy", "yz", "zx"});
+    const std::string_view keys[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (std::size_t i = 0; i < 6; ++i)
+        inertia.tensor[i] = table.has(keys[i]) ? table.expression(keys[i]) : zero(place);
+    return inertia;
+}
+
+std::optional<Inertia> read_inertia(const Table& table) {
+    const Entry* const entry = table.find("inertia");
+    if (!entry) return {};
+    const Reading& reading = table.reading();
+    Inertia inertia;
+    if (const toml::table* const tensor = entry->node->as_table()) {
+        inertia = read_tensor(reading, *tensor, entry->place);
+    } else if (const toml::array* const diagonal = entry->node->as_array()) {
+        inertia.is_diagonal = true;
+        if (diagonal->size() != 3)
+            reading.complain(place_of(*entry->node),
+                             fmt::format("the inertia has {} elements; expected one expression about z, "
+                                         "[Ixx, Iyy, Izz] or {{ xx, yy, zz, xy, yz, zx }}",
+                                         diagonal->size()));
+        for (std::size_t i = 0; i < 6; ++i)
+            inertia.tensor[i] = i < 3 && i < diagonal->size()
+                                    ? read_expression(reading, *diagonal->get(i), "an element of the inertia")
+                                    : zero(entry->place);
+    } else {
+        inertia.planar = read_expression(reading, *entry->node, table.what("inertia"));
+    }
+    inertia.place = place_of(*entry->node);
+    return inertia;
+}
+
+}  // namespace
+
+void read_frame(Table table, Scene& scene) {
+    table.allow({"name", "parent", "rotate"}, {"quaternion"});
+    Frame frame;
+    frame.name = table.needed_name("name");
+    table.entitle(frame.name);
+    if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
+    if (const Entry* const rotate = table.find("rotate")) {
+        const toml::array* const list = rotate->node->as_array();
+        if (!list)
+            table.complain("rotate", fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
+                                                 table.what("rotate"), kind_of(*rotate->node)));
+        else
+            for (const toml::node& node : *list)
+                if (auto rotation = read_rotation(table.reading(), node))
+                    frame.rotations.push_back(std::move(*rotation));
+                else
+                    break;
+    } else if (!table.has("quaternion")) {
+        table.complain("rotate", fmt::format("{} needs 'rotate'", table.title()));
+    }
+    scene.frames.push_back(std::move(frame));
+}
+
+void read_point(Table table, Scene& scene) {
+    table.allow({"name", "from", "offset", "axes"});
+    Point point;
+    point.name = table.needed_name("name");
+    table.entitle(point.name);
+    point.position = read_position(table, "offset", false);
+    scene.points.push_back(std::move(point));
+}
+
+void read_particle(Table table, Scene& scene) {
+    table.allow({"name", "mass", "at", "position", "from", "axes"});
+    Particle particle;
+    particle.name = table.needed_name("name");
+    table.entitle(particle.name);
+    particle.mass = table.needed_expression("mass");
+    particle.position = read_position(table, "position", true);
+    scene.particles.push_back(std::move(particle));
+}
+
+void read_body(Table table, Scene& scene) {
+    table.allow({"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"});
+    Body body;
+    body.name = table.needed_name("name");
+    table.entitle(body.name);
+    body.mass = table.needed_expression("mass");
+    if (auto frame = table.name("frame")) body.frame = std::move(*frame);
+    body.position = read_position(table, "position", true);
+    body.inertia = read_inertia(table);
+    body.about = table.name("about");
+    if (body.about && !table.has("inertia"))
+        table.complain("about", fmt::format("{} says about which point the inertia is, but there is no 'inertia'",
+                                            table.what("about")));
+    scene.bodies.push_back(std::move(body));
+}
+
+}  // namespace alembert

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/check.hpp"
+
+#include <fmt/format.h>
+
+#include "scene/names.hpp"
+#include "scene/quantity.hpp"
+#include "scene/references.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+class Checker {
+public:
+    Checker(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics)
+        : scene_(scene), diagnostics_(diagnostics), names_(declare(scene, others, diagnostics)),
+          quantities_(names_, diagnostics) {}
+
+    void check() {
+        for (const std::size_t k : follow(scene_, names_, diagnostics_).definitions)
+            quantities_.describe(scene_.definitions[k]);
+        check_values();
+        check_geometry();
+        check_masses();
+        check_loads();
+        check_energy();
+        check_runs();
+        for (const Claim& claim : scene_.claims) check(claim);
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<Diagnostic>& diagnostics_;
+    const NameSpaces names_;
+    Quantities quantities_;
+
+    void complain(Place place, std::string message) { diagnostics_.push_back({place, std::move(message)}); }
+
+    void check(const Vector& vector, const Legal& legal) {
+        for (const Expression& component : vector.component) quantities_.check(component, legal);
+    }
+
+    void check_values() {
+        const Legal parameter{.subject = "a parameter", .definitions = false};
+        const Legal input{.subject = "an input", .input_order = 2, .time = true, .definitions = false};
+        const Legal initial{.subject = "an initial value", .definitions = false};
+        for (const Parameter& p : scene_.parameters) quantities_.check(p.value, parameter);
+        for (const Input& i : scene_.inputs) quantities_.check(i.value, input);
+        for (const Coordinate& c : scene_.coordinates) {
+            quantities_.check(c.initial, initial);
+            quantities_.check(c.rate, initial);
+        }
+    }
+
+    void check_geometry() {
+        const Legal angle{.subject = "an angle", .order = 0, .input_order = 0, .time = true};
+        const Legal axis{.subject = "an axis"};
+        for (const Frame& frame : scene_.frames) {
+            quantities_.check_frame(frame.parent);
+            for (const Rotation& rotation : frame.rotations) {
+                quantities_.check(rotation.angle, angle);
+                check(rotation.axis, axis);
+            }
+        }
+        for (const Point& point : scene_.points) check(point.position);
+    }
+
+    void check(const Position& position) {
+        quantities_.check_point(position.from);
+        quantities_.check_frame(position.axes);
+        check(position.offset, {.subject = "a position", .order = 0, .input_order = 0, .time = true});
+    }
+
+    void check_masses() {
+        const Legal mass{.subject = "a mass"}, moment{.subject = "a moment of inertia"};
+        if (scene_.gravity) check(*scene_.gravity, {.subject = "gravity", .input_order = 2, .time = true});
+        for (const Particle& particle : scene_.particles) {
+            quantities_.check(particle.mass, mass);
+            check(particle.position);
+        }
+        for (const Body& body : scene_.bodies) {
+            quantities_.check(body.mass, mass);
+            quantities_.check_frame(body.frame);
+            check(body.position);
+            if (body.about) quantities_.check_point(*body.about);
+            if (!body.inertia) continue;
+            if (body.inertia->planar) quantities_.check(*body.inertia->planar, moment);
+            for (const Expression& element : body.inertia->tensor) quantities_.check(element, moment);
+        }
+    }
+
+    void check_loads() {
+        const Legal force{.subject = "a force", .order = 1, .input_order = 2, .time = true};
+        const Legal torque{.subject = "a torque", .order = 1, .input_order = 2, .time = true};
+        for (const Force& f : scene_.forces) {
+            quantities_.check_point(f.at);
+            quantities_.check_frame(f.axes);
+            if (f.reaction) quantities_.check_point(*f.reaction);
+            check(f.vector, force);
+        }
+        for (const Torque& t : scene_.torques) {
+            quantities_.check_frame(t.on);
+            quantities_.check_frame(t.axes);
+            if (t.reaction) quantities_.check_frame(*t.reaction);
+            check(t.vector, torque);
+        }
+        for (const Link& spring : scene_.springs)
+            check(spring, {.subject = "a stiffness", .order = 0, .input_order = 2, .time = true});
+        for (const Link& damper : scene_.dampers)
+            check(damper, {.subject = "a damping", .order = 1, .input_order = 2, .time = true});
+        for (const GeneralizedForce& f : scene_.generalized_forces) {
+            check_coordinate(f.coordinate);
+            quantities_.check(f.value, force);
+        }
+    }
+
+    void check(const Link& link, const Legal& constant) {
+        if (link.between) {
+            quantities_.check_point(link.between->first);
+            quantities_.check_point(link.between->second);
+        }
+        const Legal length{.subject = "a length", .order = 0, .input_order = 0, .time = true};
+        quantities_.check(link.along, length);
+        quantities_.check(link.length, length);
+        quantities_.check(link.constant, constant);
+    }
+
+    void check_coordinate(const Name& name) {
+        const Declared* const declared = NameSpaces::find(names_.values, name.text);
+        if (declared && (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::other)) return;
+        std::vector<std::string> coordinates;
+        for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
+        complain(name.place, declared ? fmt::format("{} is {}; expected a coordinate", in_quotes(name.text), described(declared->kind))
+                                      : fmt::format("unknown coordinate {}{}", in_quotes(name.text),
+                                                    quantities_.suggestion(name.text, coordinates)));
+    }
+
+    void check_energy() {
+        const std::string advice = "; a potential that depends on rates belongs in 'lagrangian'";
+        quantities_.check(scene_.kinetic, {.subject = "the kinetic energy", .order = 1, .input_order = 1, .time = true});
+        quantities_.check(scene_.potential,
+                          {.subject = "the potential", .order = 0, .input_order = 2, .time = true, .advice = advice});
+        quantities_.check(scene_.lagrangian, {.subject = "the Lagrangian", .order = 1, .input_order = 1, .time = true});
+        quantities_.check(scene_.rayleigh, {.subject = "the dissipation", .order = 1, .input_order = 2, .time = true});
+        if (!scene_.lagrangian) return;
+        const auto refuse = [&](const char* what, Place place) {
+            complain(place, fmt::format("{} beside a 'lagrangian' (line {}), which stands for the whole energy; leave one out",
+                                        what, scene_.lagrangian.place().line));
+        };
+        if (scene_.gravity) refuse("'gravity'", scene_.gravity->place);
+        if (!scene_.particles.empty()) refuse("a [[particle]]", scene_.particles.front().name.place);
+        if (!scene_.bodies.empty()) refuse("a [[body]]", scene_.bodies.front().name.place);
+        if (!scene_.springs.empty()) refuse("a [[spring]]", scene_.springs.front().place);
+    }
+
+    void check_runs() {
+        Legal anything{.subject = "an output", .order = 2, .input_order = 2, .time = true};
+        for (const Output& output : scene_.outputs) {
+            check_name(output.name);
+            quantities_.check(output.value, anything);
+        }
+        std::unordered_map<std::string, Place> events;
+        for (const EventRule& event : scene_.events) {
+            quantities_.check(event.when, {.subject = "an event", .order = 1, .input_order = 2, .time = true});
+            if (event.name.place.line == 0 || !check_name(event.name)) continue;
+            const auto [first, is_new] = events.emplace(event.name.text, event.name.place);
+            if (!is_new)
+                complain(event.name.place, fmt::format("the name {} is taken: an event has it on line {}",
+                                                       in_quotes(event.name.text), first->second.line));
+        }
+        const Legal constant{.subject = "a setting of the simulation", .definitions = false};
+        const Simulation& s = scene_.simulation;
+        for (const Expression* value : {&s.start, &s.duration, &s.tolerance, &s.step, &s.sample, &s.period})
+            quantities_.check(*value, constant);
+    }
+
+    bool check_name(const Name& name) {
+        if (is_name(name.text)) return true;
+        complain(name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text)));
+        return false;
+    }
+
+    void check(const Claim& claim) {
+        std::unordered_set<std::string> more;
+        for (const std::vector<Name>* list : {&claim.unknowns, &claim.constants})
+            for (const Name& name : *list) {
+                if (!check_name(name)) continue;
+                if (const Declared* const declared = NameSpaces::find(names_.values, name.text))
+                    complain(name.place, fmt::format("{} cannot be left open: it is {} of the scene", in_quotes(name.text),
+                                                     described(declared->kind)));
+                more.insert(name.text);
+            }
+        const Legal anything{.subject = "a claim", .order = 2, .input_order = 2, .time = true, .advice = {}, .more = &more,
+                             .claim = true};
+        quantities_.check(claim.equation.lhs, anything);
+        quantities_.check(claim.equation.rhs, anything);
+    }
+};
+
+}  // namespace
+
+std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others) {
+    std::vector<Diagnostic> diagnostics;
+    Checker(scene, others, diagnostics).check();
+    return diagnostics;
+}
+
+}  // namespace alembert

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What can be known of a scene without algebra: every name declared once and known where it is used, nothing
+/// defined by itself, every quantity made only of what it may depend on, vectors and scalars where they belong.
+
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+/// `others` are names that tables of later issues declare: known, but nothing more is said of them.
+std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others);
+
+}  // namespace alembert

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A first look at a TOML file, for what its parser tells badly or not at all: a key given twice in a table (the
+/// parser stops at the first and does not say where the other stands), and keys so deep that trees built from them
+/// would overflow the stack.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/source.hpp"
+
+namespace alembert {
+
+struct Layout {
+    std::string text;                      ///< the file with doubled keys and their values blanked out
+    std::map<std::string, Place> headers;  ///< where `[name]` stands first
+    std::vector<Diagnostic> mistakes;
+    bool is_too_deep = false;              ///< then it must not be parsed
+};
+
+Layout survey(const SourceText& source);
+
+}  // namespace alembert

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "scene/tables.hpp"
+
+namespace alembert {
+namespace {
+
+/// Between two points or along an expression.
+Link read_link(const Table& table, std::string_view constant) {
+    Link link{.place = table.place(), .between = {}, .along = {}, .constant = {}, .length = {}};
+    const Entry* const between = table.find("between");
+    if (between && table.has("along"))
+        table.complain("along", fmt::format("{} has both 'between' and 'along'; give one", table.title()));
+    else if (!between && !table.has("along"))
+        table.reading().complain(table.place(), fmt::format("{} needs 'between' (two points) or 'along' (an expression)",
+                                                            table.title()));
+    if (between) {
+        std::vector<Name> ends = table.names("between");
+        if (const auto* array = between->node->as_array(); array && array->size() != 2)
+            table.complain("between", fmt::format("{} names {} points; expected two", table.what("between"), array->size()));
+        else if (ends.size() == 2)
+            link.between.emplace(std::move(ends[0]), std::move(ends[1]));
+    } else {
+        link.along = table.expression("along");
+    }
+    link.constant = table.needed_expression(constant);
+    link.length = table.has("length") ? table.expression("length") : zero(table.place());
+    return link;
+}
+
+}  // namespace
+
+void read_force(Table table, Scene& scene) {
+    table.allow({"at", "vector", "axes", "reaction"});
+    Force force;
+    force.place = table.place();
+    force.at = table.needed_name("at");
+    force.vector = table.needed_vector("vector");
+    if (auto axes = table.name("axes")) force.axes = std::move(*axes);
+    force.reaction = table.name("reaction");
+    scene.forces.push_back(std::move(force));
+}
+
+void read_torque(Table table, Scene& scene) {
+    table.allow({"on", "vector", "axes", "reaction"});
+    Torque torque;
+    torque.place = table.place();
+    torque.on = table.needed_name("on");
+    const Entry* const vector = table.find("vector");
+    if (vector && !vector->node->is_array()) {
+        torque.vector.place = place_of(*vector->node);
+        torque.vector.component = {zero(torque.vector.place), zero(torque.vector.place), table.expression("vector")};
+    } else {
+        torque.vector = table.needed_vector("vector");
+    }
+    if (auto axes = table.name("axes")) torque.axes = std::move(*axes);
+    torque.reaction = table.name("reaction");
+    scene.torques.push_back(std::move(torque));
+}
+
+void read_spring(Table table, Scene& scene) {
+    table.allow({"between", "along", "stiffness", "length"});
+    scene.springs.push_back(read_link(table, "stiffness"));
+}
+
+void read_damper(Table table, Scene& scene) {
+    table.allow({"between", "along", "damping"});
+    scene.dampers.push_back(read_link(table, "damping"));
+}
+
+}  // namespace alembert

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/functions.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+using Kind = Declared::Kind;
+
+struct Declaration {
+    const Name* name;
+    Kind kind;
+    std::size_t index;
+};
+
+/// A name without a place was missing in the file, which the reader has told.
+template <typename Item>
+void add(std::vector<Declaration>& list, const std::vector<Item>& items, Kind kind) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (items[i].name.place.line > 0) list.push_back({&items[i].name, kind, i});
+}
+
+bool is_reserved(const std::string& name, Kind kind) {
+    switch (kind) {
+        case Kind::frame: return name == "N";
+        case Kind::point:
+        case Kind::particle: return name == "O";
+        case Kind::body: return name == "N" || name == "O";
+        default: return name == "t" || name == "pi" || find_function(name) != nullptr;
+    }
+}
+
+std::string reason(const std::string& name) {
+    if (name == "N") return "the fixed frame";
+    if (name == "O") return "the origin";
+    if (name == "t") return "the time";
+    if (name == "pi") return "the number π";
+    return "a function";
+}
+
+/// Tells an illegal or reserved name; true where it may be used.
+bool check(const Name& name, Kind kind, std::vector<Diagnostic>& diagnostics) {
+    if (!is_name(name.text))
+        diagnostics.push_back({name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
+                                                       in_quotes(name.text))});
+    else if (is_reserved(name.text, kind))
+        diagnostics.push_back({name.place, fmt::format("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
+    else
+        return true;
+    return false;
+}
+
+/// Enters the declarations in the order of the file; the second of two is the mistake.
+NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& diagnostics) {
+    NameSpaces::Space space;
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Declaration& a, const Declaration& b) { return a.name->place < b.name->place; });
+    for (const auto& [name, kind, index] : list) {
+        const auto [first, is_new] = space.emplace(name->text, Declared{kind, index, name->place});
+        if (!is_new)
+            diagnostics.push_back({name->place, fmt::format("the name {} is taken: {} has it on line {}", in_quotes(name->text),
+                                                            described(first->second.kind), first->second.place.line)});
+    }
+    return space;
+}
+
+}  // namespace
+
+std::string described(Kind kind) {
+    switch (kind) {
+        case Kind::coordinate: return "a coordinate";
+        case Kind::parameter: return "a parameter";
+        case Kind::input: return "an input";
+        case Kind::definition: return "a definition";
+        case Kind::frame: return "a frame";
+        case Kind::point: return "a point";
+        case Kind::particle: return "a particle";
+        case Kind::body: return "a body";
+        default: return "a table that is not supported yet";
+    }
+}
+
+NameSpaces declare(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics) {
+    std::vector<Declaration> values, frames, points;
+    add(values, scene.coordinates, Kind::coordinate);
+    add(values, scene.parameters, Kind::parameter);
+    add(values, scene.inputs, Kind::input);
+    add(values, scene.definitions, Kind::definition);
+    add(frames, scene.frames, Kind::frame);
+    add(points, scene.points, Kind::point);
+    add(points, scene.particles, Kind::particle);
+    const auto refuse = [&](std::vector<Declaration>& list) {
+        std::erase_if(list, [&](const Declaration& d) { return !check(*d.name, d.kind, diagnostics); });
+    };
+    refuse(values);
+    refuse(frames);
+    refuse(points);
+    std::vector<Declaration> bodies;
+    add(bodies, scene.bodies, Kind::body);
+    refuse(bodies);
+    frames.insert(frames.end(), bodies.begin(), bodies.end());
+    points.insert(points.end(), bodies.begin(), bodies.end());
+    NameSpaces names{enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics)};
+    for (const std::string& other : others)
+        for (NameSpaces::Space* space : {&names.values, &names.frames, &names.points})
+            space->emplace(other, Declared{Kind::other, 0, {}});
+    return names;
+}
+
+std::vector<std::string> spellings(const NameSpaces::Space& space) {
+    std::vector<std::pair<Place, std::string>> list;
+    for (const auto& [name, declared] : space) list.emplace_back(declared.place, name);
+    std::sort(list.begin(), list.end());
+    std::vector<std::string> result;
+    for (auto& [place, name] : list) result.push_back(std::move(name));
+    return result;
+}
+
+}  // namespace alembert

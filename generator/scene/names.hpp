@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The three name spaces of a scene: values (coordinates, parameters, inputs, definitions), frames (and bodies), points
+/// (and particles and bodies' mass centres).
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+struct Declared {
+    enum class Kind { coordinate, parameter, input, definition, frame, point, particle, body, other };
+    Kind kind;
+    std::size_t index;  ///< in the scene's list of its kind
+    Place place;
+};
+
+/// "a coordinate", "an input", …
+std::string described(Declared::Kind kind);
+
+struct NameSpaces {
+    using Space = std::unordered_map<std::string, Declared>;
+    Space values, frames, points;
+
+    static const Declared* find(const Space& space, const std::string& name) {
+        const auto found = space.find(name);
+        return found == space.end() ? nullptr : &found->second;
+    }
+};
+
+/// Gathers what the scene declares; illegal, reserved and doubled names are told. `others` belong to tables of later
+/// issues: they are known in all spaces.
+NameSpaces declare(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics);
+
+/// All names of a space, for "did you mean".
+std::vector<std::string> spellings(const NameSpaces::Space& space);
+
+}  // namespace alembert

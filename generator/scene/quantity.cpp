@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/functions.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+using Kind = Tree::Kind;
+
+constexpr int most_suggestions = 200;  // looking for them takes time, and no one reads more
+
+const char* order_name(int order) { return order == 1 ? "rates" : "accelerations"; }
+
+bool begins_with(const std::string& text, const char* beginning) { return text.rfind(beginning, 0) == 0; }
+
+}  // namespace
+
+void Quantities::complain(const Context& context, const Tree& tree, std::string message) {
+    diagnostics_.push_back({context.expression.place(tree.offset), std::move(message)});
+}
+
+std::string Quantities::suggestion(const std::string& word, const std::vector<std::string>& known) {
+    if (++suggestions_ > most_suggestions) return {};
+    const std::string meant = word == "π" ? "pi" : nearest(word, known);
+    return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+}
+
+void Quantities::describe(const Definition& definition) {
+    if (!definition.value.tree) return;
+    const Legal anything{.subject = "a definition", .order = 2, .input_order = 2, .time = true};
+    Context context{definition.value, anything};
+    need_scalar(context, *definition.value.tree, 0);
+    definitions_[definition.name.text] = context.contents;
+}
+
+void Quantities::check(const Expression& expression, const Legal& legal) {
+    if (!expression.tree) return;
+    unknown_.clear();
+    Context context{expression, legal};
+    need_scalar(context, *expression.tree, 0);
+}
+
+void Quantities::need_scalar(Context& context, const Tree& tree, int raised) {
+    if (is_vector(context, tree, raised))
+        complain(context, tree, "a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)");
+}
+
+bool Quantities::is_vector(Context& context, const Tree& tree, int raised) {
+    switch (tree.kind) {
+        case Kind::number: return false;
+        case Kind::name: meet_name(context, tree, raised); return false;
+        case Kind::call: return is_vector_call(context, tree, raised);
+        case Kind::sum: return is_vector_sum(context, tree, raised);
+        case Kind::product: return is_vector_product(context, tree, raised);
+        case Kind::negate: return is_vector(context, *tree.args[0], raised);
+        case Kind::reciprocal:
+            if (is_vector(context, *tree.args[0], raised)) complain(context, tree, "a division by a vector");
+            return false;
+        case Kind::power:
+            for (const TreePtr& arg : tree.args)
+                if (is_vector(context, *arg, raised))
+                    complain(context, *arg, "a vector in a power; its square is dot(u, u)");
+            return false;
+        case Kind::derivative:
+            if (is_vector(context, *tree.args[0], raised + tree.primes))
+                complain(context, tree, "a vector has no plain derivative; the rate of pos(P) is vel(P)");
+            return false;
+    }
+    return false;
+}
+
+bool Quantities::is_vector_sum(Context& context, const Tree& tree, int raised) {
+    bool first = false;
+    for (std::size_t i = 0; i < tree.args.size(); ++i) {
+        const bool vector = is_vector(context, *tree.args[i], raised);
+        if (i == 0) first = vector;
+        if (vector != first) {
+            complain(context, *tree.args[i], vector ? "a vector is added to a number" : "a number is added to a vector");
+            return false;
+        }
+    }
+    return first;
+}
+
+bool Quantities::is_vector_product(Context& context, const Tree& tree, int raised) {
+    bool vector = false;
+    for (const TreePtr& arg : tree.args) {
+        if (!is_vector(context, *arg, raised)) continue;
+        if (vector) {
+            complain(context, *arg, "a product of two vectors; write dot(u, v) or cross(u, v)");
+            return false;
+        }
+        vector = true;
+    }
+    return vector;
+}
+
+bool Quantities::is_vector_call(Context& context, const Tree& tree, int raised) {
+    const Function* const function = find_function(tree.text);
+    if (!function) {  // x'(-)
+        for (const TreePtr& arg : tree.args) need_scalar(context, *arg, raised);
+        return false;
+    }
+    for (const TreePtr& arg : tree.args) switch (function->takes) {
+            case Function::Takes::scalars:
+                if (is_vector(context, *arg, raised))
+                    complain(context, *arg, fmt::format("'{}' takes numbers, and this is a vector", function->name));
+                break;
+            case Function::Takes::vectors:
+                if (!is_vector(context, *arg, raised))
+                    complain(context, *arg,
+                             fmt::format("'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
+                                         "and this is a number",
+                                         function->name));
+                break;
+            case Function::Takes::points:
+                check_place(arg->text, context.expression.place(arg->offset), "point");
+                break;
+            case Function::Takes::frames:
+                check_place(arg->text, context.expression.place(arg->offset), "frame");
+                break;
+        }
+    if (function->takes == Function::Takes::points || function->takes == Function::Takes::frames) {
+        const bool is_rate = function->name == "vel" || function->name == "omega";
+        meet(context, tree, {.order = is_rate ? 1 : 0}, raised);
+    }
+    return function->gives_vector;
+}
+
+void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
+    const auto constant = [&](const std::string& what) {
+        if (tree.primes > 0)
+            complain(context, tree, fmt::format("{} {}: it has no derivative", in_quotes(tree.text), what));
+    };
+    if (context.legal.more && context.legal.more->count(tree.text) > 0) return;
+    if (tree.text == "pi") return constant("is a number");
+    if (tree.text == "t") {
+        constant("is the time, whose derivative is 1");
+        return meet(context, tree, {.time = true}, raised);
+    }
+    const Declared* const declared = NameSpaces::find(names_.values, tree.text);
+    if (!declared) return meet_unknown(context, tree);
+    switch (declared->kind) {
+        case Declared::Kind::parameter: return constant("is a parameter and does not change with time");
+        case Declared::Kind::coordinate: return meet(context, tree, {.order = 0}, raised + tree.primes);
+        case Declared::Kind::input: return meet(context, tree, {.input_order = 0, .time = true}, raised + tree.primes);
+        case Declared::Kind::definition:
+            if (!context.legal.definitions)
+                return complain(context, tree, fmt::format("{} may not refer to a definition: {}", context.legal.subject,
+                                                           in_quotes(tree.text)));
+            return meet(context, tree, definitions_[tree.text], raised + tree.primes);
+        default: return;
+    }
+}
+
+void Quantities::meet(Context& context, const Tree& tree, Contents found, int raised) {
+    if (found.order >= 0) found.order += raised;
+    if (found.input_order >= 0) found.input_order += raised;
+    context.contents.order = std::max(context.contents.order, found.order);
+    context.contents.input_order = std::max(context.contents.input_order, found.input_order);
+    context.contents.time |= found.time;
+
+    const Legal& legal = context.legal;
+    const Declared* const declared = tree.kind == Kind::name ? NameSpaces::find(names_.values, tree.text) : nullptr;
+    const std::string word = in_quotes(tree.text + std::string(static_cast<std::size_t>(tree.primes), '\''));
+    const bool indirect = declared && declared->kind == Declared::Kind::definition;
+    if (std::max(found.order, found.input_order) > 2)
+        return complain(context, tree, fmt::format("a third derivative, by {}; mechanics knows rates and accelerations only", word));
+    if (found.order >= 0 && legal.order < 0)
+        return complain(context, tree, fmt::format("{} may depend on {} only; {} {}", legal.subject,
+                                                   legal.time ? "the time and parameters" : "parameters", word,
+                                                   indirect ? "contains a coordinate"
+                                                   : declared ? "is a coordinate" : "depends on the coordinates"));
+    if (found.time && !legal.time)
+        return complain(context, tree, fmt::format("{} may depend on parameters only; {} {}", legal.subject, word,
+                                                   tree.text == "t" ? "is the time" : indirect ? "contains the time"
+                                                                                               : "is an input, a function of time"));
+    if (found.order > legal.order)
+        return complain(context, tree, fmt::format("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order), word,
+                                                   indirect ? " contains one" : "", legal.advice));
+    if (found.input_order > legal.input_order)
+        complain(context, tree, fmt::format("{} may not depend on the {} derivative of an input: {}", legal.subject,
+                                            found.input_order == 1 ? "first" : "second", word));
+}
+
+void Quantities::meet_unknown(Context& context, const Tree& tree) {
+    if (context.legal.claim && (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda"))) return;
+    if (!unknown_.insert(tree.text).second) return;
+    std::string message = fmt::format("unknown name {} in this expression", in_quotes(tree.text));
+    if (const Declared* const other = NameSpaces::find(names_.points, tree.text)) {
+        message += fmt::format("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
+    } else if (const Declared* const frame = NameSpaces::find(names_.frames, tree.text)) {
+        message += fmt::format("; {} is {}, not a number", tree.text, described(frame->kind));
+    } else {
+        message += suggestion(tree.text, values_);
+    }
+    complain(context, tree, std::move(message));
+}
+
+void Quantities::check_place(const std::string& name, Place place, const std::string& kind) {
+    const bool is_point = kind == "point";
+    const NameSpaces::Space& other = is_point ? names_.frames : names_.points;
+    if (place.line == 0 || name == (is_point ? "O" : "N") || NameSpaces::find(is_point ? names_.points : names_.frames, name)) return;
+    std::string message = fmt::format("unknown {} {}", kind, in_quotes(name));
+    if (const Declared* const declared = NameSpaces::find(other, name))
+        message = fmt::format("{} is {}; expected a {}", in_quotes(name), described(declared->kind), kind);
+    else
+        message += suggestion(name, is_point ? points_ : frames_);
+    diagnostics_.push_back({place, std::move(message)});
+}
+
+}  // namespace alembert

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What a quantity may be made of, and whether an expression keeps to it.
+
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "scene/names.hpp"
+
+namespace alembert {
+
+/// What an expression may contain. Orders count derivatives: of coordinates (-1: no coordinates at all) and inputs.
+struct Legal {
+    std::string subject;  ///< "a mass", for messages
+    int order = -1;
+    int input_order = -1;
+    bool time = false;
+    bool definitions = true;
+    std::string advice = {};  ///< what to do instead, where a rate is refused
+    const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
+    bool claim = false;       ///< momenta p_…, multipliers lambda… are legal, known or not
+};
+
+class Quantities {
+public:
+    Quantities(const NameSpaces& names, std::vector<Diagnostic>& diagnostics)
+        : names_(names), diagnostics_(diagnostics), values_(spellings(names.values)), frames_(spellings(names.frames)),
+          points_(spellings(names.points)) {
+        values_.insert(values_.end(), {"t", "pi"});
+    }
+
+    /// Definitions must be described in an order in which each comes after those it refers to.
+    void describe(const Definition& definition);
+
+    /// Tells unknown names, illegal contents, and vectors where a number is expected.
+    void check(const Expression& expression, const Legal& legal);
+
+    void check_point(const Name& name) { check_place(name.text, name.place, "point"); }
+    void check_frame(const Name& name) { check_place(name.text, name.place, "frame"); }
+
+    std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+
+private:
+    /// What is in an expression: the highest orders met, -1 for none.
+    struct Contents {
+        int order = -1;
+        int input_order = -1;
+        bool time = false;
+    };
+    struct Context {
+        const Expression& expression;
+        const Legal& legal;
+        Contents contents = {};
+    };
+
+    const NameSpaces& names_;
+    std::vector<Diagnostic>& diagnostics_;
+    std::vector<std::string> values_, frames_, points_;  // as spelled, for "did you mean"
+    std::unordered_map<std::string, Contents> definitions_;
+    std::unordered_set<std::string> unknown_;  // each is told once for each expression
+    int suggestions_ = 0;
+
+    void complain(const Context& context, const Tree& tree, std::string message);
+    bool is_vector(Context& context, const Tree& tree, int raised);
+    void need_scalar(Context& context, const Tree& tree, int raised);
+    bool is_vector_sum(Context& context, const Tree& tree, int raised);
+    bool is_vector_product(Context& context, const Tree& tree, int raised);
+    bool is_vector_call(Context& context, const Tree& tree, int raised);
+    void meet_name(Context& context, const Tree& tree, int raised);
+    void meet_unknown(Context& context, const Tree& tree);
+    void meet(Context& context, const Tree& tree, Contents found, int raised);
+    void check_place(const std::string& name, Place place, const std::string& kind);
+};
+
+}  // namespace alembert

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "scene/check.hpp"
+#include "scene/later.hpp"
+#include "scene/layout.hpp"
+#include "scene/scene.hpp"
+#include "scene/tables.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+constexpr std::size_t most_bytes = 1024 * 1024;
+
+template <void (*read)(const Table&, Scene&)>
+void one(const Table& table, Scene& scene) {
+    read(table, scene);
+}
+
+template <void (*read)(Table, Scene&)>
+void each(const Table& table, Scene& scene) {
+    read(table, scene);
+}
+
+struct Section {
+    std::string_view name;
+    bool is_list;
+    void (*read)(const Table&, Scene&);
+};
+
+constexpr Section sections[] = {
+    {"parameters", false, one<read_parameters>},   {"inputs", false, one<read_inputs>},
+    {"coordinates", false, one<read_coordinates>}, {"definitions", false, one<read_definitions>},
+    {"frame", true, each<read_frame>},             {"point", true, each<read_point>},
+    {"particle", true, each<read_particle>},       {"body", true, each<read_body>},
+    {"force", true, each<read_force>},             {"torque", true, each<read_torque>},
+    {"spring", true, each<read_spring>},           {"damper", true, each<read_damper>},
+    {"energy", false, one<read_energy>},           {"dissipation", false, one<read_dissipation>},
+    {"forces", false, one<read_forces>},           {"outputs", false, one<read_outputs>},
+    {"event", true, each<read_event>},             {"simulation", false, one<read_simulation>},
+    {"claim", true, each<read_claim>},
+};
+
+/// Where a table's header is: of one written `x = { … }` the key.
+Place header_of(const Entry& entry) {
+    const Place place = place_of(*entry.node);
+    return place.line > 0 ? std::min(place, entry.place) : entry.place;
+}
+
+void read_section(const Reading& reading, const Section& section, const Entry& entry, Scene& scene) {
+    if (!section.is_list) {
+        if (const toml::table* const table = entry.node->as_table())
+            return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)), scene);
+        const bool is_list = entry.node->is_array_of_tables();
+        return reading.complain(header_of(entry), is_list ? fmt::format("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
+                                                          : fmt::format("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
+    }
+    const toml::array* const list = entry.node->as_array();
+    if (!list) {
+        const std::string found = entry.node->is_table() ? fmt::format("[{}]", section.name)
+                                                         : fmt::format("'{}' is {}", section.name, kind_of(*entry.node));
+        return reading.complain(header_of(entry), fmt::format("{0}; expected a list of tables: write [[{1}]] for each",
+                                                              found, section.name));
+    }
+    for (const toml::node& node : *list)
+        if (const toml::table* const table = node.as_table())
+            section.read(Table(reading, *table, fmt::format("[[{}]]", section.name), place_of(node)), scene);
+        else
+            reading.complain(place_of(node), fmt::format("an element of '{0}' is {1}; expected a table: write [[{0}]] for each",
+                                                         section.name, kind_of(node)));
+}
+
+void refuse_unknown(const Reading& reading, const Entry& entry) {
+    std::vector<std::string> known{"title", "source", "notes", "gravity"};
+    for (const Section& section : sections) known.emplace_back(section.name);
+    for (const std::string& name : later_sections()) known.push_back(name);
+    const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
+    const std::string meant = nearest(entry.key, known);
+    reading.complain(header_of(entry),
+                     fmt::format("unknown {} {}{}", is_table ? "table" : "key", in_quotes(entry.key),
+                                 meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant)));
+}
+
+void read_tables(const Reading& reading, const toml::table& root, Scene& scene, std::vector<std::string>& others) {
+    const Table top(reading, root, "the scene", {1, 1});
+    bool has_later = false;
+    for (const Entry& entry : top.entries()) {
+        const auto section = std::find_if(std::begin(sections), std::end(sections),
+                                          [&](const Section& s) { return s.name == entry.key; });
+        if (section != std::end(sections))
+            read_section(reading, *section, entry, scene);
+        else if (entry.key == "gravity")
+            scene.gravity = top.vector("gravity");
+        else if (refuse_later(reading, entry, others))
+            has_later = true;
+        else if (entry.key != "title" && entry.key != "source" && entry.key != "notes")
+            refuse_unknown(reading, entry);
+    }
+    const Entry* const coordinates = top.find("coordinates");
+    if (scene.coordinates.empty() && !has_later)
+        reading.complain(coordinates ? header_of(*coordinates) : Place{},
+                         "the scene has no [coordinates]; at least one is needed");
+    scene.title = top.text("title");
+    scene.source = top.text("source");
+    scene.notes = top.text("notes");
+    if (!scene.simulation.start) scene.simulation.start = zero({});
+}
+
+/// toml++'s message without its framing, in the words of a scene's author.
+Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout) {
+    const toml::source_position at = error.source().begin;
+    Place place{static_cast<int>(at.line), static_cast<int>(at.column)};
+    std::string message(error.description());
+    if (message.rfind("Error while parsing ", 0) == 0)
+        if (const std::size_t colon = message.find(": "); colon != std::string::npos) message.erase(0, colon + 2);
+    const auto between_quotes = [&] {
+        const std::size_t first = message.find('\''), last = message.rfind('\'');
+        return first < last ? message.substr(first + 1, last - first - 1) : std::string();
+    };
+    if (message.find("is not representable in 64 bits") != std::string::npos)
+        return {place, fmt::format("the number {} is beyond the range of double precision or of 64-bit integers",
+                                   escaped(between_quotes(), 40))};
+    if (message.rfind("cannot redefine existing", 0) == 0) {
+        const std::string name = message.find(" as ") == std::string::npos ? between_quotes() : "";
+        const auto first = layout.headers.find(name);
+        if (first != layout.headers.end())
+            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name), first->second.line)};
+    }
+    return {place, "not valid TOML: " + escaped(message, 200)};
+}
+
+[[noreturn]] void refuse_file(const std::string& file, std::string message) {
+    Scene scene;
+    scene.file = file;
+    fail(scene, {{{}, std::move(message)}});
+}
+
+}  // namespace
+
+Scene parse_scene(std::string text, std::string file) {
+    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    Scene scene;
+    scene.file = std::move(file);
+    scene.text = std::move(text);
+    if (std::vector<Diagnostic> mistakes = check_bytes(scene.text); !mistakes.empty()) fail(scene, std::move(mistakes));
+
+    const SourceText source(scene.text);
+    Layout layout = survey(source);
+    std::vector<Diagnostic> mistakes = std::move(layout.mistakes);
+    if (layout.is_too_deep) fail(scene, std::move(mistakes));
+    std::vector<std::string> others;
+    try {
+        const toml::table root = toml::parse(layout.text);
+        read_tables(Reading{source, mistakes, root.contains("joint")}, root, scene, others);
+    } catch (const toml::parse_error& error) {
+        mistakes.push_back(syntax_mistake(error, layout));
+        fail(scene, std::move(mistakes));
+    }
+    std::vector<Diagnostic> more = check_scene(scene, others);
+    mistakes.insert(mistakes.end(), more.begin(), more.end());
+    if (!mistakes.empty()) fail(scene, std::move(mistakes));
+    return scene;
+}
+
+Scene read_scene(const std::string& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) refuse_file(file, "is a directory; expected a scene file");
+    if (!std::filesystem::exists(file, error)) refuse_file(file, "no such file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) refuse_file(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
+    std::string text(most_bytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad()) refuse_file(file, "cannot be read");
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > most_bytes) refuse_file(file, "has more than 1048576 bytes (1 MiB), the limit for a scene");
+    return parse_scene(std::move(text), file);
+}
+
+}  // namespace alembert

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Depth-first search with an explicit stack: a chain of definitions may be longer than the machine's stack.
+#include "scene/references.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scene/functions.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+using Kind = Declared::Kind;
+
+constexpr int most_levels = 2000;
+
+struct Node {
+    Kind kind;
+    std::size_t index;
+    const Name* name;
+    std::vector<std::size_t> targets = {};
+    int weight = 1;  ///< levels of nesting within its own expressions
+    enum class State { fresh, open, done } state = State::fresh;
+    int levels = 0;
+    bool in_circle = false;
+};
+
+int levels_of(const Tree& tree) {
+    int most = 0;
+    for (const TreePtr& arg : tree.args) most = std::max(most, levels_of(*arg));
+    return most + 1;
+}
+
+class Graph {
+public:
+    Graph(const Scene& scene, const NameSpaces& names) : scene_(scene), names_(names) {
+        add(scene.parameters, Kind::parameter, values_);
+        add(scene.inputs, Kind::input, values_);
+        add(scene.definitions, Kind::definition, values_);
+        add(scene.frames, Kind::frame, frames_);
+        add(scene.bodies, Kind::body, frames_);
+        add(scene.points, Kind::point, points_);
+        add(scene.particles, Kind::particle, points_);
+        add(scene.bodies, Kind::body, points_);
+        connect();
+    }
+
+    References follow(std::vector<Diagnostic>& diagnostics) {
+        for (std::size_t start = 0; start < nodes_.size(); ++start) search(start, diagnostics);
+        return std::move(references_);
+    }
+
+private:
+    using Index = std::unordered_map<std::string, std::size_t>;
+    const Scene& scene_;
+    const NameSpaces& names_;
+    std::vector<Node> nodes_;
+    Index values_, frames_, points_;
+    References references_;
+
+    template <typename Item>
+    void add(const std::vector<Item>& items, Kind kind, Index& index) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            index.emplace(items[i].name.text, nodes_.size());
+            nodes_.push_back({kind, i, &items[i].name});
+        }
+    }
+
+    /// Nodes were made in this order; each now gets what it refers to.
+    void connect() {
+        std::size_t n = 0;
+        for (const Parameter& p : scene_.parameters) look(nodes_[n++], p.value);
+        for (const Input& i : scene_.inputs) look(nodes_[n++], i.value);
+        for (const Definition& d : scene_.definitions) look(nodes_[n++], d.value);
+        for (const Frame& frame : scene_.frames) {
+            Node& node = nodes_[n++];
+            target(node, frames_, frame.parent.text);
+            for (const Rotation& rotation : frame.rotations) {
+                look(node, rotation.angle);
+                for (const Expression& component : rotation.axis.component) look(node, component);
+            }
+        }
+        for (const Body& body : scene_.bodies) target(nodes_[n++], frames_, body.frame.text);
+        for (const Point& point : scene_.points) look(nodes_[n++], point.position);
+        for (const Particle& particle : scene_.particles) look(nodes_[n++], particle.position);
+        for (const Body& body : scene_.bodies) look(nodes_[n++], body.position);
+    }
+
+    static void target(Node& node, const Index& index, const std::string& name) {
+        if (const auto found = index.find(name); found != index.end()) node.targets.push_back(found->second);
+    }
+
+    void look(Node& node, const Position& position) {
+        target(node, points_, position.from.text);
+        target(node, frames_, position.axes.text);
+        for (const Expression& component : position.offset.component) look(node, component);
+    }
+
+    void look(Node& node, const Expression& expression) {
+        if (!expression.tree) return;
+        node.weight = std::max(node.weight, levels_of(*expression.tree));
+        look(node, *expression.tree);
+    }
+
+    void look(Node& node, const Tree& tree) {
+        if (tree.kind == Tree::Kind::name) target(node, values_, tree.text);
+        const Function* const function = tree.kind == Tree::Kind::call ? find_function(tree.text) : nullptr;
+        const auto takes = function ? function->takes : Function::Takes::scalars;
+        for (const TreePtr& arg : tree.args)
+            if (takes == Function::Takes::points)
+                target(node, points_, arg->text);
+            else if (takes == Function::Takes::frames)
+                target(node, frames_, arg->text);
+            else
+                look(node, *arg);
+    }
+
+    void search(std::size_t start, std::vector<Diagnostic>& diagnostics) {
+        if (nodes_[start].state != Node::State::fresh) return;
+        std::vector<std::pair<std::size_t, std::size_t>> path{{start, 0}};  // node, next of its targets
+        nodes_[start].state = Node::State::open;
+        while (!path.empty()) {
+            const std::size_t here = path.back().first;
+            if (path.back().second < nodes_[here].targets.size()) {
+                const std::size_t next = nodes_[here].targets[path.back().second++];
+                if (nodes_[next].state == Node::State::open) {
+                    tell_circle(path, next, diagnostics);
+                } else if (nodes_[next].state == Node::State::fresh) {
+                    nodes_[next].state = Node::State::open;
+                    path.emplace_back(next, 0);
+                }
+                continue;
+            }
+            leave(here, diagnostics);
+            path.pop_back();
+        }
+    }
+
+    void leave(std::size_t here, std::vector<Diagnostic>& diagnostics) {
+        Node& node = nodes_[here];
+        node.state = Node::State::done;
+        int deepest = 0;
+        for (const std::size_t next : node.targets) deepest = std::max(deepest, nodes_[next].levels);
+        node.levels = std::min(deepest + node.weight, most_levels + 1);
+        if (node.levels > most_levels && deepest <= most_levels)
+            diagnostics.push_back({node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
+                                                                 in_quotes(node.name->text), most_levels)});
+        if (node.kind == Kind::definition && !node.in_circle) references_.definitions.push_back(node.index);
+    }
+
+    void tell_circle(const std::vector<std::pair<std::size_t, std::size_t>>& path, std::size_t closing,
+                     std::vector<Diagnostic>& diagnostics) {
+        std::vector<std::size_t> circle;
+        for (auto step = path.rbegin(); step != path.rend(); ++step) {
+            circle.push_back(step->first);
+            if (step->first == closing) break;
+        }
+        std::reverse(circle.begin(), circle.end());
+        if (std::all_of(circle.begin(), circle.end(), [&](std::size_t k) { return nodes_[k].in_circle; })) return;
+        for (const std::size_t k : circle) nodes_[k].in_circle = true;
+        std::rotate(circle.begin(), std::min_element(circle.begin(), circle.end(), [&](std::size_t a, std::size_t b) {
+                        return nodes_[a].name->place < nodes_[b].name->place;
+                    }), circle.end());
+        const Node& first = nodes_[circle.front()];
+        std::string chain;
+        for (std::size_t i = 0; i < circle.size(); ++i) {
+            if (i == 8 && circle.size() > 10) {
+                chain += "… → ";
+                i = circle.size() - 1;
+            }
+            chain += escaped(nodes_[circle[i]].name->text) + " → ";
+        }
+        diagnostics.push_back({first.name->place, meaning(circle) + ": " + chain + escaped(first.name->text)});
+    }
+
+    std::string meaning(const std::vector<std::size_t>& circle) const {
+        std::set<Kind> kinds;
+        for (const std::size_t k : circle) kinds.insert(nodes_[k].kind);
+        const std::string first = in_quotes(nodes_[circle.front()].name->text);
+        if (kinds == std::set{Kind::definition}) return "definitions in a circle";
+        if (kinds == std::set{Kind::parameter}) return "parameters in a circle";
+        if (kinds == std::set{Kind::input}) return "inputs in a circle";
+        if (kinds == std::set{Kind::frame}) return "the frame " + first + " is its own ancestor";
+        const bool is_place = std::all_of(kinds.begin(), kinds.end(), [](Kind kind) {
+            return kind == Kind::point || kind == Kind::particle || kind == Kind::body;
+        });
+        if (is_place) return first + " is where it is by itself";
+        return first + " is determined by itself";
+    }
+};
+
+}  // namespace
+
+References follow(const Scene& scene, const NameSpaces& names, std::vector<Diagnostic>& diagnostics) {
+    return Graph(scene, names).follow(diagnostics);
+}
+
+}  // namespace alembert

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A scene as the file says it: plain names, numbers and expression trees with their places; no symbols.
+///
+///     const Scene scene = read_scene("scenes/textbook/double_pendulum.toml");
+///
+/// Everything stands in the order of the file. What `read_scene` returns is consistent as far as names go: every
+/// name is declared, no definitions go in a circle, every frame's and point's ancestors exist. What it cannot
+/// know without algebra (a negative mass at the scene's values, a singular system) is the model's to say.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/expression.hpp"
+
+namespace alembert {
+
+struct Name {
+    std::string text;
+    Place place;
+};
+
+/// Three components (a missing third is the number 0) along the axes of some frame.
+struct Vector {
+    std::array<Expression, 3> component;
+    Place place;
+};
+
+struct Parameter {
+    Name name;
+    Expression value;  ///< a number, or an expression in other parameters
+    std::string unit, about;
+};
+
+struct Input {
+    Name name;
+    Expression value;  ///< in t, parameters (and other inputs)
+    std::string unit, about;
+};
+
+struct Coordinate {
+    Name name;
+    Expression initial, rate;  ///< in parameters; never null after reading (missing: 0)
+    std::string unit, about;
+};
+
+struct Definition {
+    Name name;
+    Expression value;
+};
+
+/// One simple rotation about an axis of the frame reached so far.
+struct Rotation {
+    char letter = 0;   ///< 'x', 'y' or 'z'; 0 where the axis is a vector
+    Vector axis;       ///< three expressions in parameters, not normalized; empty where a letter is given
+    Expression angle;
+};
+
+struct Frame {
+    Name name;
+    Name parent{"N", {}};
+    std::vector<Rotation> rotations;
+};
+
+/// Where something is: `from` the point, by the `offset` along `axes`. (`at = "P"` is P with a zero offset.)
+struct Position {
+    Name from{"O", {}};
+    Vector offset;
+    Name axes{"N", {}};
+};
+
+struct Point {
+    Name name;
+    Position position;
+};
+
+struct Particle {
+    Name name;
+    Expression mass;
+    Position position;
+};
+
+struct Inertia {
+    std::optional<Expression> planar;  ///< about the z axis; then the tensor is empty
+    std::array<Expression, 6> tensor;  ///< xx, yy, zz, xy, yz, zx elements; missing ones are the number 0
+    Place place;
+    bool is_diagonal = false;          ///< was given as [Ixx, Iyy, Izz]
+};
+
+struct Body {
+    Name name;
+    Expression mass;
+    Name frame{"N", {}};
+    Position position;  ///< of the mass centre
+    std::optional<Inertia> inertia;
+    std::optional<Name> about;
+};
+
+struct Force {
+    Place place;
+    Name at;
+    Vector vector;
+    Name axes{"N", {}};
+    std::optional<Name> reaction;
+};
+
+struct Torque {
+    Place place;
+    Name on;
+    Vector vector;
+    Name axes{"N", {}};
+    std::optional<Name> reaction;
+};
+
+/// A spring or a damper: between two points or along an expression.
+struct Link {
+    Place place;
+    std::optional<std::pair<Name, Name>> between;
+    Expression along;     ///< null where `between` is given
+    Expression constant;  ///< stiffness or damping
+    Expression length;    ///< unstretched (springs), the number 0 when missing
+};
+
+struct GeneralizedForce {
+    Name coordinate;
+    Expression value;
+};
+
+struct Output {
+    Name name;
+    Expression value;
+};
+
+struct EventRule {
+    Name name;
+    Expression when;
+    bool stop = false;
+};
+
+struct Simulation {
+    Expression start, duration, tolerance, step, sample, period;  ///< null where missing, but start: 0
+    std::optional<Name> method;
+};
+
+struct Claim {
+    Place place;
+    Equality equation;
+    std::string source;
+    std::vector<Name> unknowns, constants;
+    std::string at = "motion";  ///< motion, rest or impact
+};
+
+struct Scene {
+    std::string file;     ///< as given by the user
+    std::string text;     ///< the whole file, for messages that show its lines
+    std::string title, source, notes;
+    std::optional<Vector> gravity;
+    std::vector<Parameter> parameters;
+    std::vector<Input> inputs;
+    std::vector<Coordinate> coordinates;
+    std::vector<Definition> definitions;
+    std::vector<Frame> frames;
+    std::vector<Point> points;
+    std::vector<Particle> particles;
+    std::vector<Body> bodies;
+    std::vector<Force> forces;
+    std::vector<Torque> torques;
+    std::vector<Link> springs, dampers;
+    Expression kinetic, potential, lagrangian;  ///< [energy]; null where missing
+    Expression rayleigh;
+    std::vector<GeneralizedForce> generalized_forces;
+    std::vector<Output> outputs;
+    std::vector<EventRule> events;
+    Simulation simulation;
+    std::vector<Claim> claims;
+    std::vector<Diagnostic> warnings;
+};
+
+/// Reads and checks a scene. Throws SceneError with every mistake found, or if the file cannot be read.
+Scene read_scene(const std::string& file);
+
+/// The same from a text already in memory; `file` is only what messages call it.
+Scene parse_scene(std::string text, std::string file);
+
+/// Throws SceneError for mistakes found after reading (by the model), in the same form and order of place.
+[[noreturn]] void fail(const Scene& scene, std::vector<Diagnostic> diagnostics);
+
+/// `file:line:column: message`, the line and a caret, for each diagnostic.
+std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnostics);
+
+/// The nearest of `known` to `word` if near enough to be meant (edit distance), else empty.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace alembert

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/tables.hpp"
+
+#include <utility>
+
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+/// `name = value` or `name = { value, unit, about }`, as parameters and inputs have it.
+template <typename Item>
+Item read_item(const Table& table, const Entry& entry, const std::string& what) {
+    Item item{.name = {entry.key, entry.place}, .value = {}, .unit = {}, .about = {}};
+    const toml::table* const inner = entry.node->as_table();
+    if (!inner) {
+        item.value = read_expression(table.reading(), *entry.node, what);
+        return item;
+    }
+    const Table keys(table.reading(), *inner, what, entry.place);
+    keys.allow({"value", "unit", "about"});
+    if (const Entry* const value = keys.find("value"))
+        item.value = read_expression(table.reading(), *value->node, what);
+    else
+        keys.complain("value", what + " needs 'value'");
+    item.unit = keys.text("unit");
+    item.about = keys.text("about");
+    return item;
+}
+
+}  // namespace
+
+void read_parameters(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.parameters.push_back(read_item<Parameter>(table, entry, "parameter " + in_quotes(entry.key)));
+}
+
+void read_inputs(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.inputs.push_back(read_item<Input>(table, entry, "input " + in_quotes(entry.key)));
+}
+
+void read_coordinates(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries()) {
+        const std::string what = "coordinate " + in_quotes(entry.key);
+        Coordinate coordinate{{entry.key, entry.place}, {}, zero(entry.place), {}, {}};
+        if (const toml::table* const inner = entry.node->as_table()) {
+            const Table keys(table.reading(), *inner, what, entry.place);
+            keys.allow({"initial", "rate", "unit", "about"}, {"guess", "rate_guess"});
+            coordinate.initial = keys.has("initial") || keys.has("guess") ? keys.expression("initial") : zero(entry.place);
+            if (keys.has("rate")) coordinate.rate = keys.expression("rate");
+            coordinate.unit = keys.text("unit");
+            coordinate.about = keys.text("about");
+        } else {
+            coordinate.initial = read_expression(table.reading(), *entry.node, what);
+        }
+        scene.coordinates.push_back(std::move(coordinate));
+    }
+}
+
+void read_definitions(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.definitions.push_back({{entry.key, entry.place},
+                                     read_expression(table.reading(), *entry.node, "definition " + in_quotes(entry.key))});
+}
+
+void read_energy(const Table& table, Scene& scene) {
+    table.allow({"kinetic", "potential", "lagrangian"});
+    scene.kinetic = table.expression("kinetic");
+    scene.potential = table.expression("potential");
+    scene.lagrangian = table.expression("lagrangian");
+    if (table.has("lagrangian") && (table.has("kinetic") || table.has("potential")))
+        table.complain("lagrangian", "'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'");
+}
+
+void read_dissipation(const Table& table, Scene& scene) {
+    table.allow({"rayleigh"});
+    scene.rayleigh = table.needed_expression("rayleigh");
+}
+
+void read_forces(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.generalized_forces.push_back(
+            {{entry.key, entry.place},
+             read_expression(table.reading(), *entry.node, "the force along " + in_quotes(entry.key))});
+}
+
+void read_outputs(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.outputs.push_back({{entry.key, entry.place},
+                                 read_expression(table.reading(), *entry.node, "output " + in_quotes(entry.key))});
+}
+
+}  // namespace alembert

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The tables of a scene, one function for each: reads the table and appends what it says to the scene.
+
+#include "scene/value.hpp"
+
+namespace alembert {
+
+// tables.cpp: symbols and their values
+void read_parameters(const Table& table, Scene& scene);
+void read_inputs(const Table& table, Scene& scene);
+void read_coordinates(const Table& table, Scene& scene);
+void read_definitions(const Table& table, Scene& scene);
+void read_energy(const Table& table, Scene& scene);
+void read_dissipation(const Table& table, Scene& scene);
+void read_forces(const Table& table, Scene& scene);
+void read_outputs(const Table& table, Scene& scene);
+
+// bodies.cpp: where things are, and how heavy
+void read_frame(Table table, Scene& scene);
+void read_point(Table table, Scene& scene);
+void read_particle(Table table, Scene& scene);
+void read_body(Table table, Scene& scene);
+
+// loads.cpp: what acts on them
+void read_force(Table table, Scene& scene);
+void read_torque(Table table, Scene& scene);
+void read_spring(Table table, Scene& scene);
+void read_damper(Table table, Scene& scene);
+
+// runs.cpp: what is to be done
+void read_simulation(const Table& table, Scene& scene);
+void read_event(Table table, Scene& scene);
+void read_claim(Table table, Scene& scene);
+
+}  // namespace alembert

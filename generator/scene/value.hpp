@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Values of a TOML file, read as what the scene language expects of them. Every mistake is noted and reading goes
+/// on with an empty value; keys come in the order of the file.
+///
+///     const Table table(reading, node, "[[particle]]", place);
+///     table.allow({"name", "mass", "at"});
+///     particle.mass = table.needed_expression("mass");
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/source.hpp"
+#include "scene/toml.hpp"
+
+namespace alembert {
+
+/// What one reading shares.
+struct Reading {
+    const SourceText& source;
+    std::vector<Diagnostic>& diagnostics;
+    bool has_joints = false;  ///< then bodies may be placed by them
+
+    void complain(Place place, std::string message) const { diagnostics.push_back({place, std::move(message)}); }
+};
+
+struct Entry {
+    std::string key;
+    Place place;  ///< of the key
+    const toml::node* node;
+};
+
+Place place_of(const toml::node& node);
+
+/// "a string", "the integer 3", "an array", …, for messages.
+std::string kind_of(const toml::node& node);
+
+/// A string or a plain number. `what` names the value in messages: `'mass'`, `parameter 'm'`.
+Expression read_expression(const Reading& reading, const toml::node& node, const std::string& what);
+
+/// An equation, which must be a string.
+Equality read_equality(const Reading& reading, const toml::node& node, bool rates_before);
+
+/// The number 0, where a value may be missing.
+Expression zero(Place place);
+
+/// A string, with the place of its first character.
+std::optional<Name> read_name(const Reading& reading, const toml::node& node, const std::string& what);
+
+std::vector<Name> read_names(const Reading& reading, const toml::node& node, const std::string& what);
+
+/// Two or three expressions.
+Vector read_vector(const Reading& reading, const toml::node& node, const std::string& what);
+
+class Table {
+public:
+    Table(const Reading& reading, const toml::table& table, std::string title, Place place);
+
+    const Reading& reading() const { return *reading_; }
+    const std::string& title() const { return title_; }
+    Place place() const { return place_; }
+    const std::vector<Entry>& entries() const { return entries_; }
+
+    /// Complains of each key that is neither `known` nor among those of `later` issues.
+    void allow(std::initializer_list<std::string_view> known, std::initializer_list<std::string_view> later = {}) const;
+
+    const Entry* find(std::string_view key) const;
+    bool has(std::string_view key) const { return find(key) != nullptr; }
+    void complain(std::string_view key, const std::string& message) const;
+
+    std::string text(std::string_view key) const;
+    bool flag(std::string_view key) const;
+    std::optional<Name> name(std::string_view key) const;
+    std::vector<Name> names(std::string_view key) const;
+    Expression expression(std::string_view key) const;  ///< null where missing
+    std::optional<Vector> vector(std::string_view key) const;
+
+    Name needed_name(std::string_view key) const;
+    Expression needed_expression(std::string_view key) const;
+    Vector needed_vector(std::string_view key) const;
+
+    /// `'key' of [[table]]`, for messages.
+    std::string what(std::string_view key) const;
+
+    /// The title with the table's own name, for messages that come after it was read.
+    void entitle(const Name& name);
+
+private:
+    const Reading* reading_;
+    std::string title_;
+    Place place_;
+    std::vector<Entry> entries_;
+
+    void need(std::string_view key) const;
+};
+
+}  // namespace alembert

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "symbolic/functions.hpp"
+
+#include <array>
+#include <stdexcept>
+
+namespace alembert {
+
+using GiNaC::ex;
+
+REGISTER_FUNCTION(minimum, dummy())
+REGISTER_FUNCTION(maximum, dummy())
+
+namespace {
+
+struct Unary {
+    const char* name;         // in the scene language
+    const char* ginac;        // as GiNaC calls it
+    ex (*apply)(const ex& x);
+    ex (*derivative)(const ex& x, const ex& call);
+};
+
+// GiNaC's own derivatives of abs and csgn are those of complex functions; everything here is real.
+const std::array<Unary, 13> unary{{
+    {"sin", "sin", [](const ex& x) -> ex { return sin(x); }, [](const ex& x, const ex&) -> ex { return cos(x); }},
+    {"cos", "cos", [](const ex& x) -> ex { return cos(x); }, [](const ex& x, const ex&) -> ex { return -sin(x); }},
+    {"tan", "tan", [](const ex& x) -> ex { return tan(x); }, [](const ex&, const ex& y) -> ex { return 1 + y * y; }},
+    {"asin", "asin", [](const ex& x) -> ex { return asin(x); },
+     [](const ex& x, const ex&) -> ex { return 1 / sqrt(1 - x * x); }},
+    {"acos", "acos", [](const ex& x) -> ex { return acos(x); },
+     [](const ex& x, const ex&) -> ex { return -1 / sqrt(1 - x * x); }},
+    {"atan", "atan", [](const ex& x) -> ex { return atan(x); },
+     [](const ex& x, const ex&) -> ex { return 1 / (1 + x * x); }},
+    {"sinh", "sinh", [](const ex& x) -> ex { return sinh(x); }, [](const ex& x, const ex&) -> ex { return cosh(x); }},
+    {"cosh", "cosh", [](const ex& x) -> ex { return cosh(x); }, [](const ex& x, const ex&) -> ex { return sinh(x); }},
+    {"tanh", "tanh", [](const ex& x) -> ex { return tanh(x); }, [](const ex&, const ex& y) -> ex { return 1 - y * y; }},
+    {"exp", "exp", [](const ex& x) -> ex { return exp(x); }, [](const ex&, const ex& y) -> ex { return y; }},
+    {"log", "log", [](const ex& x) -> ex { return log(x); }, [](const ex& x, const ex&) -> ex { return 1 / x; }},
+    {"abs", "abs", [](const ex& x) -> ex { return abs(x); }, [](const ex& x, const ex&) -> ex { return csgn(x); }},
+    {"sign", "csgn", [](const ex& x) -> ex { return csgn(x); }, [](const ex&, const ex&) -> ex { return 0; }},
+}};
+
+const Unary& find_unary(const std::string& ginac_name) {
+    for (const Unary& f : unary)
+        if (ginac_name == f.ginac) return f;
+    throw std::invalid_argument("the function '" + ginac_name + "' is not one of the scene language's");
+}
+
+}  // namespace
+
+std::optional<ex> apply_function(const std::string& name, const std::vector<ex>& args) {
+    if (args.size() == 1) {
+        if (name == "sqrt") return sqrt(args[0]);
+        for (const Unary& f : unary)
+            if (name == f.name) return f.apply(args[0]);
+    }
+    if (name == "atan2" && args.size() == 2) return ex(atan2(args[0], args[1]));
+    if ((name == "min" || name == "max") && args.size() >= 2) {
+        ex value = args[0];
+        for (std::size_t i = 1; i < args.size(); ++i)
+            value = name == "min" ? ex(minimum(value, args[i])) : ex(maximum(value, args[i]));
+        return value;
+    }
+    return std::nullopt;
+}
+
+std::string function_name(const ex& call) {
+    const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();
+    if (name == "atan2") return name;
+    if (name == "minimum") return "min";
+    if (name == "maximum") return "max";
+    return find_unary(name).name;
+}
+
+ex function_derivative(const ex& call, int k) {
+    const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();
+    if (name == "atan2") {
+        const ex &y = call.op(0), &x = call.op(1);
+        return (k == 0 ? x : -y) / (x * x + y * y);
+    }
+    if (name == "minimum" || name == "maximum") {  // 1 where this argument is the one chosen, else 0
+        const ex difference = name == "minimum" ? call.op(1) - call.op(0) : call.op(0) - call.op(1);
+        const ex chosen = (1 + csgn(difference)) / 2;
+        return k == 0 ? chosen : 1 - chosen;
+    }
+    return find_unary(name).derivative(call.op(0), call);
+}
+
+}  // namespace alembert

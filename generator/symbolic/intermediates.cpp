@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "symbolic/intermediates.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "symbolic/functions.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using GiNaC::numeric;
+using GiNaC::symbol;
+
+namespace {
+
+bool is_number(const ex& e) { return is_a<numeric>(e) || is_a<GiNaC::constant>(e); }
+
+bool is_atom(const ex& e) {
+    if (is_number(e) || is_a<symbol>(e)) return true;
+    return is_a<GiNaC::mul>(e) && e.nops() == 2 &&
+           ((is_a<numeric>(e.op(0)) && is_a<symbol>(e.op(1))) || (is_a<numeric>(e.op(1)) && is_a<symbol>(e.op(0))));
+}
+
+/// A power that a polynomial may contain.
+bool is_whole_power(const ex& e) { return is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer); }
+
+/// Sum kept flat: GiNaC adds n terms at once faster than one by one.
+ex sum_of(GiNaC::exvector terms) {
+    if (terms.empty()) return 0;
+    return terms.size() == 1 ? terms.front() : ex(GiNaC::add(std::move(terms)));
+}
+
+}  // namespace
+
+int Intermediates::set_source(const std::string& label) {
+    const int former = current_source_;
+    const auto found = std::find(labels_.begin(), labels_.end(), label);
+    current_source_ = static_cast<int>(found - labels_.begin());
+    if (found == labels_.end()) labels_.push_back(label);
+    return former;
+}
+
+const Intermediates::Entry* Intermediates::find(const symbol& s) const {
+    const auto found = position_.find(s.gethash());
+    return found == position_.end() ? nullptr : &entries_[found->second];
+}
+
+std::vector<symbol> Intermediates::symbols_in(const ex& e) const {
+    std::map<int, symbol> found;
+    std::vector<ex> stack{e};
+    while (!stack.empty()) {
+        const ex top = stack.back();
+        stack.pop_back();
+        if (is_a<symbol>(top))
+            found.emplace(symbols_->info(ex_to<symbol>(top)).rank, ex_to<symbol>(top));
+        else
+            for (const ex& child : top) stack.push_back(child);
+    }
+    std::vector<symbol> result;
+    for (auto& [rank, s] : found) result.push_back(s);
+    return result;
+}
+
+/// Replaces functions and powers that are not whole by symbols; what is left is a polynomial in atoms.
+ex Intermediates::flatten(const ex& e) {
+    if (is_number(e) || is_a<symbol>(e)) return e;
+    if (is_a<GiNaC::function>(e)) {
+        GiNaC::exvector args;
+        for (const ex& arg : e) args.push_back(name(arg));
+        return name_whole(ex_to<GiNaC::function>(e).thiscontainer(args));
+    }
+    if (is_a<GiNaC::power>(e)) {
+        if (is_whole_power(e)) {
+            const ex base = flatten(e.op(0));
+            return pow(is_a<symbol>(base) || is_number(base) ? base : name(base), e.op(1));
+        }
+        const ex value = pow(name(e.op(0)), name(e.op(1)));
+        // A number may have come out of the power, or the power may have turned whole.
+        if (is_a<GiNaC::power>(value) && !is_whole_power(value)) return name_whole(value);
+        return is_a<GiNaC::power>(value) || is_atom(value) ? value : flatten(value);
+    }
+    GiNaC::exvector parts;
+    for (const ex& part : e) parts.push_back(flatten(part));
+    return is_a<GiNaC::add>(e) ? ex(GiNaC::add(std::move(parts))) : ex(GiNaC::mul(std::move(parts)));
+}
+
+ex Intermediates::name_whole(const ex& e) {
+    if (is_atom(e)) return e;
+    if (const auto found = known_.find(e); found != known_.end()) return found->second;
+    Entry entry;
+    entry.definition = e;
+    entry.uses = symbols_in(e);
+    entry.tree_size = tree_size(e);
+    std::set<int> sources{current_source_};
+    // What several share keeps its own sources; a sum over bodies has them all, up to a readable number.
+    for (const symbol& s : entry.uses)
+        if (const Entry* used = find(s); used && current_source_ == 0) sources.insert(used->sources.begin(), used->sources.end());
+    if (sources.size() > 1) sources.erase(0);
+    entry.sources.assign(sources.begin(), sources.end());
+    if (entry.sources.size() > 4) entry.sources.resize(4);
+    entry.symbol = symbols_->declare("z" + std::to_string(entries_.size()), SymbolInfo::Kind::other,
+                                     static_cast<int>(entries_.size()));
+    position_.emplace(entry.symbol.gethash(), entries_.size());
+    known_.emplace(e, entry.symbol);
+    entries_.push_back(std::move(entry));
+    return entries_.back().symbol;
+}
+
+ex Intermediates::name(const ex& e) {
+    const ex flat = flatten(e);
+    if (is_atom(flat)) return flat;
+    if (is_a<GiNaC::mul>(flat) && is_a<numeric>(flat.op(flat.nops() - 1))) {  // GiNaC keeps the number last
+        const ex number = flat.op(flat.nops() - 1);
+        return number * name_whole(flat / number);
+    }
+    return name_whole(flat);
+}
+
+double Intermediates::tree_size(const ex& e) const {
+    if (is_a<symbol>(e)) {
+        const Entry* entry = find(ex_to<symbol>(e));
+        return entry ? entry->tree_size : 1;
+    }
+    double size = 1;
+    for (const ex& child : e) size += tree_size(child);
+    return size;
+}
+
+/// ∂definition/∂by, the symbols in the definition being independent.
+ex Intermediates::partial(const Entry& entry, const symbol& by) {
+    const auto key = std::pair(static_cast<std::size_t>(&entry - entries_.data()), symbols_->info(by).rank);
+    if (const auto found = partials_.find(key); found != partials_.end()) return found->second;
+    const ex definition = entry.definition;  // a copy: naming below may move the entries
+    const ex self = entry.symbol;
+    ex result = 0;
+    if (is_a<GiNaC::function>(definition)) {
+        for (std::size_t k = 0; k < definition.nops(); ++k) {
+            const ex inner = definition.op(k).diff(by);
+            if (inner.is_zero()) continue;
+            result += inner * flatten(function_derivative(definition, static_cast<int>(k)));
+        }
+    } else if (is_a<GiNaC::power>(definition) && !is_whole_power(definition)) {
+        const ex &base = definition.op(0), &exponent = definition.op(1);
+        result = exponent * self / base * base.diff(by);
+        if (const ex outer = exponent.diff(by); !outer.is_zero()) result += flatten(log(base)) * self * outer;
+    } else {
+        result = definition.diff(by);
+    }
+    partials_.emplace(key, result);
+    return result;
+}
+
+std::vector<std::size_t> Intermediates::reachable(const std::vector<ex>& roots) const {
+    std::set<std::size_t> seen;
+    std::vector<std::size_t> stack;
+    const auto visit = [&](const symbol& s) {
+        const auto found = position_.find(s.gethash());
+        if (found != position_.end() && seen.insert(found->second).second) stack.push_back(found->second);
+    };
+    for (const ex& root : roots)
+        for (const symbol& s : symbols_in(root)) visit(s);
+    while (!stack.empty()) {
+        const std::size_t k = stack.back();
+        stack.pop_back();
+        for (const symbol& s : entries_[k].uses) visit(s);
+    }
+    return {seen.begin(), seen.end()};
+}
+
+bool Intermediates::depends(const ex& e, const std::vector<symbol>& on) const {
+    std::set<unsigned> wanted;
+    for (const symbol& s : on) wanted.insert(s.gethash());
+    const auto any = [&](const std::vector<symbol>& uses) {
+        return std::any_of(uses.begin(), uses.end(), [&](const symbol& s) { return wanted.contains(s.gethash()); });
+    };
+    if (any(symbols_in(e))) return true;
+    for (const std::size_t k : reachable({e}))
+        if (any(entries_[k].uses)) return true;
+    return false;
+}
+
+std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& targets,
+                                         const std::vector<symbol>& wrt) {
+    std::map<unsigned, GiNaC::exvector> adjoint;  // by symbol hash
+    std::vector<ex> roots;
+    for (const auto& [target, weight] : targets) roots.push_back(flatten(target));
+
+    // Which entries lead to one of `wrt` at all.
+    std::set<unsigned> leads;
+    for (const symbol& s : wrt) leads.insert(s.gethash());
+    const std::vector<std::size_t> order = reachable(roots);
+    for (const std::size_t k : order)
+        for (const symbol& s : entries_[k].uses)
+            if (leads.contains(s.gethash())) {
+                leads.insert(entries_[k].symbol.gethash());
+                break;
+            }
+
+    for (std::size_t i = 0; i < roots.size(); ++i)
+        for (const symbol& s : symbols_in(roots[i]))
+            if (leads.contains(s.gethash())) adjoint[s.gethash()].push_back(targets[i].second * roots[i].diff(s));
+
+    for (auto k = order.rbegin(); k != order.rend(); ++k) {
+        const auto found = adjoint.find(entries_[*k].symbol.gethash());
+        if (found == adjoint.end()) continue;
+        const int former = current_source_;
+        current_source_ = entries_[*k].sources.size() == 1 ? entries_[*k].sources.front() : 0;
+        const ex weight = name(sum_of(found->second));
+        const std::vector<symbol> uses = entries_[*k].uses;
+        for (const symbol& s : uses)
+            if (leads.contains(s.gethash()))
+                adjoint[s.gethash()].push_back(name(weight * partial(entries_[*k], s)));
+        current_source_ = former;
+    }
+    std::vector<ex> result;
+    for (const symbol& s : wrt) result.push_back(name(sum_of(adjoint[s.gethash()])));
+    return result;
+}
+
+std::vector<ex> Intermediates::push_forward(const std::vector<ex>& values, const Direction& direction) {
+    std::vector<ex> roots;
+    for (const ex& value : values) roots.push_back(flatten(value));
+    std::map<unsigned, ex> dot;
+    for (const auto& [s, rate] : direction)
+        if (!rate.is_zero()) dot.emplace(s.gethash(), rate);
+    const auto along = [&](const auto& uses, const auto& derivative) {
+        GiNaC::exvector terms;
+        for (const symbol& s : uses)
+            if (const auto found = dot.find(s.gethash()); found != dot.end())
+                terms.push_back(derivative(s) * found->second);
+        return sum_of(std::move(terms));
+    };
+    for (const std::size_t k : reachable(roots)) {
+        const int former = current_source_;
+        current_source_ = entries_[k].sources.size() == 1 ? entries_[k].sources.front() : 0;
+        const std::vector<symbol> uses = entries_[k].uses;
+        const ex rate = name(along(uses, [&](const symbol& s) { return partial(entries_[k], s); }));
+        if (!rate.is_zero()) dot.emplace(entries_[k].symbol.gethash(), rate);
+        current_source_ = former;
+    }
+    std::vector<ex> result;
+    for (const ex& root : roots)
+        result.push_back(name(along(symbols_in(root), [&](const symbol& s) { return root.diff(s); })));
+    return result;
+}
+
+ex Intermediates::expand(const ex& e) const {
+    GiNaC::exmap full;
+    for (const std::size_t k : reachable({e}))
+        full[entries_[k].symbol] = entries_[k].definition.subs(full, GiNaC::subs_options::no_pattern);
+    return e.subs(full, GiNaC::subs_options::no_pattern);
+}
+
+}  // namespace alembert

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The symbols of one scene: GiNaC symbols with what they stand for, in the order of their declaration.
+///
+/// GiNaC's own order of terms changes from run to run; everything that is printed or emitted is ordered by
+/// `info(s).rank` instead.
+
+#include <ginac/ginac.h>
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace alembert {
+
+struct SymbolInfo {
+    enum class Kind {
+        time,
+        parameter,
+        input,       ///< a given function of time; order counts its derivatives
+        coordinate,  ///< order 0: q, 1: q', 2: q''
+        definition,  ///< a name of the scene's [definitions], kept as a symbol
+        other,       ///< multipliers, claim unknowns, intermediate symbols
+    };
+    std::string name;  ///< as the user wrote it, without primes
+    Kind kind = Kind::other;
+    int index = 0;     ///< position among its kind
+    int order = 0;     ///< number of primes
+    int rank = 0;      ///< position among all symbols of the scene
+
+    /// name and primes, as a user would type it.
+    std::string text() const { return name + std::string(static_cast<std::size_t>(order), '\''); }
+};
+
+class Symbols {
+public:
+    /// Declares a new symbol. Its rank is the number of symbols declared before.
+    GiNaC::symbol declare(std::string name, SymbolInfo::Kind kind, int index = 0, int order = 0);
+
+    /// Throws std::out_of_range for a symbol that was not declared here.
+    const SymbolInfo& info(const GiNaC::symbol& symbol) const;
+
+    /// All symbols by rank.
+    const std::vector<GiNaC::symbol>& all() const { return by_rank_; }
+
+private:
+    std::vector<GiNaC::symbol> by_rank_;
+    std::vector<SymbolInfo> infos_;
+    std::unordered_map<unsigned, std::size_t> position_;  // keyed by gethash(), one-to-one in a symbol's serial number
+};
+
+}  // namespace alembert

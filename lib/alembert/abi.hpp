@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The binary interface between an emitted solver and whoever runs it.
+///
+/// An emitted file exports one C function, `alembert_solver()`, that returns the table below. The emitted file
+/// includes nothing, so it carries its own copy of the struct (templates/solver.cpp.mustache): whoever changes
+/// one changes the other and raises `abi_version`; a test compares the two word for word.
+///
+/// Arrays (all row-major, all doubles, SI or whatever units the scene uses throughout):
+///   state  2n       coordinates q, then rates q'
+///   par    p + k    parameters in the scene's order, then k constants that `prepare` computes from them
+///   rate   2n       q', then q''
+///   energy 4        T, V, E, power: kinetic and potential energy; E = T + V, or q'·∂L/∂q' − L where a
+///                   Lagrangian is given; the power dE/dt of everything that changes E (loads outside V,
+///                   prescribed motions)
+///   jacobi 1        T₂ − T₀ + V, the generalized energy
+/// `par` must have been through `prepare` after its last change. No function keeps state: all are thread-safe.
+
+extern "C" {
+
+/// What `alembert_solver()` of an emitted file returns; it lives as long as the loaded file.
+struct alembert_solver_table {
+    int abi;           ///< alembert::abi_version of the emitter
+    int coordinates;   ///< n
+    int parameters;    ///< p, the numbers a caller sets
+    int constants;     ///< k, the numbers `prepare` adds
+    int outputs;       ///< length of what `outputs` writes
+    int events;        ///< length of what `events` writes
+    const char* scene;        ///< title or file name of the scene
+    const char* formulation;  ///< formalism and form, e.g. "lagrange, textbook form"
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;  ///< the scene's own values, p of them
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    /// mass: n×n symmetric, forcing: n; M q'' = f.
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    /// `rate` as from `rhs` at the same t and state; energy: T, V, E, power; jacobi: one number.
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+};
+
+}  // extern "C"
+
+namespace alembert {
+inline constexpr int abi_version = 1;
+}

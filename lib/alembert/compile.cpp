@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/compile.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "alembert/abi.hpp"
+#include "alembert/error.hpp"
+#include "alembert/fingerprint.hpp"
+#include "alembert/process.hpp"
+
+namespace alembert {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Straight-line code of this size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster than the
+/// size; the code from -O1 is a few per cent slower, since there are no loops in it to transform.
+constexpr std::size_t large_source = 200'000;
+
+constexpr std::size_t digits = 32;  ///< of a fingerprint, at the end of every object in the cache
+
+std::string joined(const std::vector<std::string>& words, const char* between) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+/// The compiler as words for argv, the first an absolute path.
+std::vector<std::string> find_compiler(const std::string& wanted) {
+    const char* const variable = std::getenv("CXX");
+    std::vector<std::string> candidates;
+    if (!wanted.empty()) candidates = {wanted};
+    else if (variable != nullptr && *variable != '\0') candidates = {variable};
+    else candidates = {"g++", "clang++"};
+
+    for (const std::string& candidate : candidates) {
+        std::vector<std::string> words;
+        std::istringstream stream(candidate);
+        for (std::string word; stream >> word;) words.push_back(word);
+        if (!find_program(candidate).empty()) words = {candidate};  // a path with spaces
+        if (words.empty()) continue;
+        const fs::path program = find_program(words.front());
+        if (program.empty()) continue;
+        words.front() = fs::absolute(program).string();
+        return words;
+    }
+    throw CompileError(fmt::format(
+        "no C++ compiler: looked for {}{} in $PATH; install one (on Debian: apt install g++) or name one with $CXX",
+        joined(candidates, " and "), wanted.empty() && candidates.size() == 1 ? " (from $CXX)" : ""));
+}
+
+/// Path, size and date of every program among the words: `ccache g++` is two.
+std::string identity(const std::vector<std::string>& compiler) {
+    std::string text;
+    for (const std::string& word : compiler) {
+        text += word + '\n';
+        const fs::path program = word.starts_with('-') ? fs::path() : find_program(word);
+        std::error_code none;
+        const fs::path real = program.empty() ? program : fs::canonical(program, none);
+        struct stat info {};
+        if (!real.empty() && stat(real.c_str(), &info) == 0)
+            text += fmt::format("{} {} {}.{}\n", real.string(), info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    }
+    return text;
+}
+
+/// The lines about the first processor that decide what -march=native means.
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    std::string text;
+    for (std::string line; std::getline(file, line) && !line.empty();)
+        for (const char* key : {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ", "isa"})
+            if (line.starts_with(key)) text += line + '\n';
+    return text;
+}
+
+std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOptions& options) {
+    std::vector<std::string> flags = {"-std=c++20", "-shared", "-fPIC", source_size > large_source ? "-O1" : "-O2",
+                                      "-march=native", "-ffp-contract=fast", "-fno-math-errno",
+                                      "-fno-trapping-math", "-nostdlib", "-pipe"};
+    if (options.fast_math)
+        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math"}) flags.emplace_back(flag);
+    flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
+    return flags;
+}
+
+/// A folder that nobody else can write, removed with what is in it when the process ends.
+struct PrivateFolder {
+    PrivateFolder() {
+        std::error_code none;
+        std::string pattern = (fs::temp_directory_path(none) / "alembert-XXXXXX").string();
+        if (none || mkdtemp(pattern.data()) == nullptr)
+            throw CompileError(fmt::format("cannot write to the cache, nor make a temporary folder {}: {}; "
+                                           "name a writable folder with $XDG_CACHE_HOME or $TMPDIR",
+                                           pattern, std::strerror(errno)));
+        path = pattern;
+    }
+    PrivateFolder(const PrivateFolder&) = delete;
+    PrivateFolder& operator=(const PrivateFolder&) = delete;
+    ~PrivateFolder() {
+        std::error_code none;
+        if (owner == getpid()) fs::remove_all(path, none);
+    }
+    fs::path path;
+    pid_t owner = getpid();
+};
+
+const fs::path& private_folder() {
+    static const PrivateFolder folder;
+    return folder.path;
+}
+
+bool is_writable(const fs::path& folder) {
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    return !failure && access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+fs::path cache_folder(const fs::path& wanted) {
+    fs::path folder = wanted;
+    const char* const xdg = std::getenv("XDG_CACHE_HOME");
+    const char* const home = std::getenv("HOME");
+    if (folder.empty() && xdg != nullptr && fs::path(xdg).is_absolute()) folder = fs::path(xdg) / "alembert";
+    if (folder.empty() && home != nullptr && *home != '\0') folder = fs::path(home) / ".cache" / "alembert";
+    return !folder.empty() && is_writable(folder) ? folder : private_folder();
+}
+
+std::optional<std::string> read_file(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return std::move(text).str();
+}
+
+void write_file(const fs::path& path, std::string_view text, std::ios::openmode mode) {
+    std::ofstream file(path, std::ios::binary | mode);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file)
+        throw CompileError(fmt::format("cannot write {}: {}; is the disk full?", path.string(), std::strerror(errno)));
+}
+
+std::string fingerprint(std::string_view bytes) {
+    Fingerprint print;
+    print.add_bytes(bytes);
+    return print.hex();
+}
+
+/// Does the object end in the fingerprint of what comes before? (The loader does not mind bytes after the last section.)
+bool is_intact(const fs::path& object) {
+    const std::optional<std::string> bytes = read_file(object);
+    if (!bytes || bytes->size() <= digits) return false;
+    const std::string_view view = *bytes;
+    return view.substr(view.size() - digits) == fingerprint(view.substr(0, view.size() - digits));
+}
+
+void seal(const fs::path& object) {
+    const std::optional<std::string> bytes = read_file(object);
+    if (!bytes) throw CompileError("the compiler succeeded but left no " + object.string());
+    write_file(object, fingerprint(*bytes), std::ios::app);
+}
+
+void move_into_place(const fs::path& from, const fs::path& to) {
+    std::error_code failure;
+    fs::rename(from, to, failure);
+    if (failure) throw CompileError(fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), failure.message()));
+}
+
+/// Removes what is left under a temporary name, whichever way the block ends.
+struct Leftover {
+    explicit Leftover(fs::path file) : path(std::move(file)) {}
+    Leftover(const Leftover&) = delete;
+    Leftover& operator=(const Leftover&) = delete;
+    ~Leftover() {
+        std::error_code none;
+        fs::remove(path, none);
+    }
+    fs::path path;
+};
+
+void build(std::vector<std::string> command, const std::string& source_text, const fs::path& object) {
+    static std::atomic<int> counter = 0;
+    const fs::path stem = object.parent_path() / fmt::format(".{}-{}-{}", object.stem().string(), getpid(), counter++);
+    const Leftover source(fs::path(stem) += ".cpp");
+    const Leftover result(fs::path(stem) += ".so");
+    write_file(source.path, source_text, std::ios::trunc);
+    command.insert(command.end(), {source.path.string(), "-o", result.path.string(), "-lm", "-lc"});
+    const Finished compiler = run(command);
+    if (compiler.status != 0)
+        throw CompileError(fmt::format("the compiler failed with status {}:\n  {}\n{}", compiler.status,
+                                       joined(command, " "), compiler.output.substr(0, 8000)));
+    seal(result.path);
+    move_into_place(source.path, fs::path(object).replace_extension(".cpp"));
+    move_into_place(result.path, object);
+}
+
+std::string file_stem(const std::string& name, const std::string& key) {
+    std::string stem = name.substr(0, 64);
+    for (char& letter : stem)
+        if (!std::isalnum(static_cast<unsigned char>(letter)) && letter != '-' && letter != '_') letter = '_';
+    return stem + '-' + key;
+}
+
+}  // namespace
+
+Compiled compile(const std::string& source_text, const std::string& name, const CompileOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::string> command = find_compiler(options.compiler);
+    Fingerprint key;
+    key.add(source_text);
+    key.add(identity(command));
+    const std::vector<std::string> flags = compiler_flags(source_text.size(), options);
+    for (const std::string& flag : flags) key.add(flag);
+    key.add(std::to_string(abi_version));
+    key.add(processor());
+
+    const fs::path object = cache_folder(options.cache) / (file_stem(name, key.hex()) + ".so");
+    const bool from_cache = is_intact(object);
+    if (!from_cache) {
+        command.insert(command.end(), flags.begin(), flags.end());
+        build(std::move(command), source_text, object);
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    return {.object = object, .from_cache = from_cache, .seconds = elapsed.count()};
+}
+
+}  // namespace alembert

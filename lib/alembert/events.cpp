@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/events.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace alembert {
+namespace {
+
+constexpr int points = 5;  ///< where a step is looked at, ends included
+constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+int sign(double g) { return (g > 0) - (g < 0); }
+
+struct EmittedEvents {
+    Module module;
+    std::vector<double> par;
+};
+
+double simultaneous(const Stretch& step) { return 1e-12 * std::max(std::abs(step.end), step.end - step.start); }
+
+}  // namespace
+
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop) {
+    const alembert_solver_table& table = module.table();
+    const auto count = static_cast<std::size_t>(table.events);
+    if (!stop.empty() && stop.size() != count)
+        throw std::invalid_argument(
+            fmt::format("{} has {} events, {} stop flags were given", table.scene, count, stop.size()));
+    Events events;
+    for (std::size_t k = 0; k < count; ++k)
+        events.list.push_back({.name = table.event_names[k], .stop = !stop.empty() && stop[k]});
+    events.context = std::make_shared<const EmittedEvents>(EmittedEvents{module, prepared(module, values)});
+    events.call = [](const void* context, double t, const double* state, const double* rate, double* out) {
+        const auto& emitted = *static_cast<const EmittedEvents*>(context);
+        emitted.module.table().events_at(t, state, rate, emitted.par.data(), out);
+    };
+    return events;
+}
+
+EventWatch::EventWatch(const Events& events, const Rhs& rhs)
+    : events_(events),
+      rhs_(rhs),
+      state_(static_cast<std::size_t>(rhs.dimension)),
+      rate_(state_.size()),
+      out_(events.list.size()),
+      last_(out_.size()),
+      sign_(out_.size()),
+      grid_(points * out_.size()) {}
+
+void EventWatch::begin(double t, const double* state, const double* rate) {
+    run_start_ = t;
+    if (last_.empty()) return;
+    events_(t, state, rate, last_.data());
+    std::transform(last_.begin(), last_.end(), sign_.begin(), sign);
+}
+
+std::vector<Crossing> EventWatch::look(const Stretch& step) {
+    std::vector<Crossing> found;
+    if (last_.empty()) return found;
+    const std::size_t count = last_.size();
+    std::copy(last_.begin(), last_.end(), grid_.begin());
+    for (std::size_t i = 1; i + 1 < points; ++i) {
+        value(step, 0, places[i]);
+        std::copy(out_.begin(), out_.end(), grid_.begin() + static_cast<std::ptrdiff_t>(i * count));
+    }
+    events_(step.end, step.end_state, step.end_rate, last_.data());
+    std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
+
+    for (std::size_t k = 0; k < count; ++k) look_at_one(step, static_cast<int>(k), found);
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    for (std::size_t i = 1; i < found.size(); ++i)  // neighbours that are simultaneous: as declared
+        for (std::size_t j = i; j > 0 && found[j].index < found[j - 1].index &&
+                                found[j].time - found[j - 1].time <= simultaneous(step); --j)
+            std::swap(found[j], found[j - 1]);
+    return found;
+}
+
+double EventWatch::value(const Stretch& step, int index, double theta) {
+    const double t = step.start + theta * (step.end - step.start);
+    step.interpolate(theta, state_.data());
+    rhs_(t, state_.data(), rate_.data());
+    ++evaluations_;
+    events_(t, state_.data(), rate_.data(), out_.data());
+    return out_[static_cast<std::size_t>(index)];
+}
+
+/// Walks over the points of the step and the turning points between them, and records where the sign changes.
+void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossing>& found) {
+    const auto k = static_cast<std::size_t>(index);
+    std::vector<double> theta(places.begin(), places.end());
+    std::vector<double> g;
+    for (std::size_t i = 0; i < points; ++i) g.push_back(grid_[i * last_.size() + k]);
+    for (std::size_t i = 0; i + 2 < theta.size(); ++i) {
+        const double turn = turning_point(step, index, &theta[i], &g[i]);
+        if (std::isnan(turn)) continue;
+        const auto after = std::upper_bound(theta.begin(), theta.end(), turn);
+        g.insert(g.begin() + (after - theta.begin()), value(step, index, turn));
+        theta.insert(after, turn);
+        i += 2;
+    }
+    int& last_sign = sign_[k];
+    for (std::size_t i = 1; i < g.size(); ++i) {
+        const int now = sign(g[i]);
+        if (last_sign != 0 && now == 0) record(step, index, theta[i], found);
+        if (last_sign * now < 0) record(step, index, locate(step, index, theta[i - 1], g[i - 1], theta[i], g[i]), found);
+        if (!std::isnan(g[i])) last_sign = now;
+    }
+}
+
+void EventWatch::record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const {
+    const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
+    if (time - run_start_ > simultaneous(step)) found.push_back({.index = index, .time = time, .theta = theta});
+}
+
+/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at
+/// all and the search then finds the other sign. Not a number otherwise.
+double EventWatch::turning_point(const Stretch& step, int index, const double* theta, const double* g) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const int side = sign(g[1]);
+    if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return none;
+    const double slope = (g[2] - g[0]) / (theta[2] - theta[0]);
+    const double half = (theta[2] - theta[0]) / 2;
+    const double curvature = (g[2] - 2 * g[1] + g[0]) / (half * half);
+    const double vertex = theta[1] - slope / curvature;
+    const double lowest = side * (g[1] - slope * slope / (2 * curvature));
+    const double nearest = std::min({side * g[0], side * g[1], side * g[2]});
+    if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2] || lowest > nearest / 2) return none;
+
+    constexpr double golden = 0.6180339887498949;
+    double left = theta[0], right = theta[2];
+    double a = vertex, g_a = side * value(step, index, a);
+    for (int i = 0; i < 24 && g_a > 0; ++i) {
+        const double b = a - left > right - a ? a - (1 - golden) * (a - left) : a + (1 - golden) * (right - a);
+        const double g_b = side * value(step, index, b);
+        (g_b < g_a ? (b < a ? right : left) : (b < a ? left : right)) = g_b < g_a ? a : b;
+        if (g_b < g_a) a = b, g_a = g_b;
+    }
+    return g_a <= 0 ? a : none;
+}
+
+double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right, double g_right) {
+    double b = left, g_b = g_left;    // the newest point
+    double a = right, g_a = g_right;  // the other side of the zero
+    double c = a, g_c = g_a;          // the point before
+    const double least = 4 * epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
+    double part = 0.5;
+    for (int i = 0; i < 100; ++i) {
+        const double next = b + part * (a - b);
+        const double g_next = value(step, index, next);
+        if (sign(g_next) == sign(g_b)) {
+            c = b, g_c = g_b;
+        } else {
+            c = a, g_c = g_a;
+            a = b, g_a = g_b;
+        }
+        b = next, g_b = g_next;
+        const double width = std::abs(a - b);
+        const double best = std::abs(g_b) < std::abs(g_a) ? b : a;
+        if (g_b == 0 || width <= 2 * least) return g_b == 0 ? b : best;
+
+        const double xi = (b - a) / (c - a);
+        const double phi = (g_b - g_a) / (g_c - g_a);
+        part = 0.5;
+        if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)  // inverse quadratic interpolation is safe
+            part = g_b / (g_a - g_b) * g_c / (g_a - g_c) + (c - b) / (a - b) * g_b / (g_c - g_b) * g_a / (g_c - g_a);
+        part = std::clamp(part, least / width, 1 - least / width);
+    }
+    return b;
+}
+
+}  // namespace alembert

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Events: zeros along a motion of functions g_k(t, y, y').
+///
+///     const Events landing = make_events({{.name = "ground", .stop = true}},
+///                                        [](double, const double* y, const double*, double* g) { g[0] = y[0]; });
+///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
+///
+/// What counts: g changes its sign, or is exactly zero after it was not. A zero at the very start (closer than 1e-12
+/// of the step, or of the time) is none. Every step is looked at in its interior too, so that two zeros in one step
+/// are found: at three points, and at the turning point of a parabola through three neighbours if that comes near
+/// zero. Two zeros closer together than this can see, and a touch that rounding keeps off zero, go unseen.
+///
+/// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
+/// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
+/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration.
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "alembert/rhs.hpp"
+
+namespace alembert {
+
+struct Event {
+    std::string name;
+    bool stop = false;  ///< the run ends there
+};
+
+struct Events {
+    using Call = void (*)(const void* context, double t, const double* state, const double* rate, double* out);
+    std::vector<Event> list;
+    std::shared_ptr<const void> context;
+    Call call = nullptr;
+
+    void operator()(double t, const double* state, const double* rate, double* out) const {
+        call(context.get(), t, state, rate, out);
+    }
+};
+
+/// The emitted events. `stop` has one flag for each, or is empty; throws std::invalid_argument otherwise.
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop);
+
+/// Any function (t, state, rate, out), `out` having a place for each of the list.
+template <std::invocable<double, const double*, const double*, double*> Function>
+Events make_events(std::vector<Event> list, Function function) {
+    const Events::Call call = [](const void* context, double t, const double* state, const double* rate, double* out) {
+        (*static_cast<const Function*>(context))(t, state, rate, out);
+    };
+    return {.list = std::move(list), .context = std::make_shared<const Function>(std::move(function)), .call = call};
+}
+
+/// A finished step, as the search sees it.
+struct Stretch {
+    double start = 0;
+    double end = 0;
+    const double* end_state = nullptr;
+    const double* end_rate = nullptr;
+    std::function<void(double theta, double* state)> interpolate;
+};
+
+/// A zero of event `index`.
+struct Crossing {
+    int index = 0;
+    double time = 0;
+    double theta = 0;  ///< (time − start) / (end − start) of the stretch
+};
+
+/// Follows the signs of all events along a run. Call `begin` once, then `look` for each step.
+class EventWatch {
+public:
+    EventWatch(const Events& events, const Rhs& rhs);
+    void begin(double t, const double* state, const double* rate);
+    std::vector<Crossing> look(const Stretch& step);
+    long evaluations() const { return evaluations_; }  ///< right-hand sides needed by the search
+
+private:
+    double value(const Stretch& step, int index, double theta);
+    void look_at_one(const Stretch& step, int index, std::vector<Crossing>& found);
+    void record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const;
+    double turning_point(const Stretch& step, int index, const double* theta, const double* g);
+    double locate(const Stretch& step, int index, double left, double g_left, double right, double g_right);
+
+    const Events& events_;
+    const Rhs& rhs_;
+    double run_start_ = 0;
+    long evaluations_ = 0;
+    std::vector<double> state_, rate_, out_;
+    std::vector<double> last_;   ///< values at the start of the step
+    std::vector<int> sign_;      ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
+    std::vector<double> grid_;   ///< values at the points of the step, by point
+};
+
+}  // namespace alembert

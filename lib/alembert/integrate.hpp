@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// A motion from a system and its state at the start.
+///
+///     const Rhs rhs = make_rhs(load(compile(text, "pendulum", {}).object));
+///     const Trajectory motion = integrate(rhs, {0.5, 0.0}, {.duration = 10, .tolerance = 1e-12});
+///     const std::span<const double> end = motion.final_state();
+///
+/// | method | order | steps | dense output |
+/// | --- | --- | --- | --- |
+/// | euler, rk4 | 1, 4 | fixed, `step` | cubic Hermite |
+/// | dopri5 | 5, estimate of order 4 | adaptive | order 4 |
+/// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 |
+///
+/// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance as
+/// given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step that a
+/// row or an event falls in, dense output adds its own error, for dop853 somewhat more than the tolerance; the
+/// last row of a run that completes is the end of a step.
+///
+/// What fails while it runs is in Trajectory::failure, with the rows until then. std::invalid_argument is thrown for
+/// options that make no sense: each message says which. Nothing is allocated per step.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "alembert/events.hpp"
+#include "alembert/rhs.hpp"
+#include "alembert/trajectory.hpp"
+
+namespace alembert {
+
+enum class Method { euler, rk4, dopri5, dop853 };
+
+/// "dop853" and so on.
+std::string_view name(Method method);
+std::optional<Method> method_named(std::string_view name);
+bool has_fixed_step(Method method);
+
+/// Called with the start, then with the end of each accepted step (or the event that cuts it short).
+using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
+
+struct Options {
+    Method method = Method::dop853;
+    double start = 0;
+    double duration = 0;      ///< from the start; 0 gives one row
+    double tolerance = 1e-9;  ///< adaptive methods
+    double step = 0;          ///< the step of euler and rk4; first step of the others, 0: found automatically
+    double longest_step = 0;  ///< adaptive methods; 0: no bound
+    double sample = 0;        ///< time between rows; 0: duration/200
+    long budget = 10'000'000; ///< evaluations of the right-hand side
+    OnStep on_step = {};      ///< may be empty
+};
+
+Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
+                     const Events& events = {});
+
+}  // namespace alembert

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// A loaded solver: the object file stays in the process as long as a copy of its Module lives.
+///
+///     const Module module = load(compile(text, "pendulum", {}).object);
+///     const int n = module.table().coordinates;
+///
+/// `load` throws CompileError if the file does not load, has no `alembert_solver`, or was emitted for another
+/// version of the ABI (both numbers are said).
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "alembert/abi.hpp"
+
+namespace alembert {
+
+class Module {
+public:
+    const alembert_solver_table& table() const { return *table_; }
+
+private:
+    friend Module load(const std::filesystem::path& object);
+    explicit Module(std::shared_ptr<const alembert_solver_table> table) : table_(std::move(table)) {}
+    std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
+};
+
+Module load(const std::filesystem::path& object);
+
+/// The array `par` of the ABI: `values` (the scene's own where empty) and what `prepare` makes of them. Throws
+/// std::invalid_argument if there are too many or too few.
+std::vector<double> prepared(const Module& module, const std::vector<double>& values = {});
+
+}  // namespace alembert

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/process.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "alembert/error.hpp"
+
+extern char** environ;
+
+namespace alembert {
+namespace {
+
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+    std::vector<char*> list;
+    for (const std::string& text : texts) list.push_back(const_cast<char*>(text.c_str()));
+    list.push_back(nullptr);
+    return list;
+}
+
+std::vector<std::string> english_environment() {
+    std::vector<std::string> list;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string_view text = *entry;
+        if (!text.starts_with("LC_ALL=") && !text.starts_with("LANGUAGE=")) list.emplace_back(text);
+    }
+    list.emplace_back("LC_ALL=C");
+    return list;
+}
+
+/// Everything until the last writer closes its end.
+std::string read_all(int descriptor) {
+    std::string text;
+    std::array<char, 4096> block;
+    for (;;) {
+        const ssize_t count = read(descriptor, block.data(), block.size());
+        if (count > 0) text.append(block.data(), static_cast<std::size_t>(count));
+        if (count == 0 || (count < 0 && errno != EINTR)) return text;
+    }
+}
+
+int wait_for(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR) return 127;
+    return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+bool is_program(const std::filesystem::path& path) {
+    struct stat info {};
+    return stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode) && access(path.c_str(), X_OK) == 0;
+}
+
+}  // namespace
+
+Finished run(const std::vector<std::string>& argv) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw CompileError(std::string("cannot make a pipe to a child process: ") + std::strerror(errno));
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    const std::vector<std::string> environment = english_environment();
+    pid_t child = 0;
+    const int failure = posix_spawn(&child, argv[0].c_str(), &actions, nullptr, pointers(argv).data(),
+                                    pointers(environment).data());
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+    if (failure != 0) {
+        close(ends[0]);
+        throw CompileError("cannot start " + argv[0] + ": " + std::strerror(failure));
+    }
+    std::string output = read_all(ends[0]);
+    close(ends[0]);
+    return {.status = wait_for(child), .output = std::move(output)};
+}
+
+std::filesystem::path find_program(const std::string& program) {
+    if (program.empty()) return {};
+    if (program.find('/') != std::string::npos) return is_program(program) ? program : std::string();
+    const char* const path = std::getenv("PATH");
+    std::string_view rest = path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin";
+    while (!rest.empty()) {
+        const std::string_view folder = rest.substr(0, rest.find(':'));
+        rest.remove_prefix(std::min(folder.size() + 1, rest.size()));
+        if (folder.empty()) continue;
+        if (auto file = std::filesystem::path(folder) / program; is_program(file)) return file;
+    }
+    return {};
+}
+
+}  // namespace alembert

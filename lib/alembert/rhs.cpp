@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/rhs.hpp"
+
+#include <fmt/format.h>
+
+namespace alembert {
+namespace {
+
+struct Emitted {
+    Module module;
+    std::vector<double> par;
+};
+
+void rate_of(const void* context, double t, const double* state, double* rate) {
+    const auto& solver = *static_cast<const Emitted*>(context);
+    solver.module.table().rhs(t, state, solver.par.data(), rate);
+}
+
+void rate_and_power(const void* context, double t, const double* state, double* rate) {
+    const auto& solver = *static_cast<const Emitted*>(context);
+    const alembert_solver_table& table = solver.module.table();
+    double energy[4];
+    double jacobi = 0;
+    table.rhs(t, state, solver.par.data(), rate);
+    table.energy(t, state, rate, solver.par.data(), energy, &jacobi);
+    rate[2 * table.coordinates] = energy[3];
+}
+
+}  // namespace
+
+std::string Rhs::describe(int component) const {
+    const auto index = static_cast<std::size_t>(component);
+    return index < names.size() ? fmt::format("{} (component {})", names[index], component)
+                                : fmt::format("component {}", component);
+}
+
+Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work) {
+    const alembert_solver_table& table = module.table();
+    const bool with_work = work == Work::integrated;
+    Rhs rhs{.dimension = 2 * table.coordinates + (with_work ? 1 : 0),
+            .extra = with_work ? 1 : 0,
+            .names = {},
+            .context = std::make_shared<const Emitted>(Emitted{module, prepared(module, values)}),
+            .call = with_work ? rate_and_power : rate_of};
+    for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
+    for (int i = 0; i < table.coordinates; ++i) rhs.names.push_back(std::string(table.coordinate_names[i]) + "'");
+    if (with_work) rhs.names.emplace_back("work");
+    return rhs;
+}
+
+}  // namespace alembert

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// One step of an explicit Runge-Kutta method, from a tableau: stages, new state, error estimate, dense output.
+///
+///     Step<dop853_tableau> step(rhs, t, state);
+///     step.attempt(t + h);                     // stages and y₁
+///     const double misfit = step.misfit();     // the largest error; infinite if something is not finite
+///     if (step.finish())                       // the rate at the end; false: not finite
+///         step.interpolate(0.5, middle);       // anywhere in the step, θ = 0…1
+///     step.advance();                          // the end becomes the start
+///
+/// After a misfit or a `finish` that is not to one's taste, `worst_component` says who is to blame.
+///
+/// Arrays are padded to whole lanes of four; the weights are compile-time constants, zeros cost nothing. Nothing is
+/// allocated after construction. The state is kept as a sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich,
+/// Wanner, Geometric Numerical Integration, §VIII.5): a small step then loses nothing of what it adds to a large
+/// state, and it is the two that the stages start from.
+///
+/// Error, component by component: |error_i| / max(1, |y_i|), the largest of which is the misfit; it is held against
+/// the tolerance as it is. With two rows of error weights (dop853) the error is that of Hairer, Nørsett, Wanner I,
+/// §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole vector, here each
+/// component has its own, as the convention wants (on the problems of step_size.hpp that needs 5-15 % fewer
+/// evaluations for the same error). Quadratures (Rhs::extra) do not take part.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "alembert/rhs.hpp"
+#include "alembert/tableau.hpp"
+
+namespace alembert {
+
+template <const auto& tableau>
+class Step {
+    using Lane [[gnu::vector_size(32)]] = double;
+    static constexpr int width = 4;
+    static constexpr int stages = tableau.stages;
+
+public:
+    Step(const Rhs& rhs, double t, std::span<const double> state)
+        : rhs_(rhs),
+          controlled_(rhs.dimension - rhs.extra),
+          blocks_((rhs.dimension + width - 1) / width),
+          memory_(static_cast<std::size_t>(blocks_) * (arrays + tableau.all_stages + tableau.dense_rows)),
+          t_(t) {
+        std::copy(state.begin(), state.end(), real(y_));
+        rate_into(0, t, real(y_));
+    }
+
+    double time() const { return t_; }
+    double end_time() const { return end_; }
+    double length() const { return h_; }
+    const double* state() const { return real(y_); }
+    const double* rate() const { return real(stage(0)); }
+    const double* end_state() const { return real(next_); }
+    const double* end_rate() const { return real(stage(stages)); }
+    long evaluations() const { return evaluations_; }
+    const Rhs& rhs() const { return rhs_; }
+
+    /// The stages of a step to `end` and the state there.
+    void attempt(double end) {
+        end_ = end;
+        h_ = end - t_;
+        looked_into_ = false;
+        [this]<int... i>(std::integer_sequence<int, i...>) {
+            (this->template evaluate<i + 1>(), ...);
+        }(std::make_integer_sequence<int, stages - 1>());
+        add_up();
+        if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
+    }
+
+    double misfit() {
+        for (int b = 0; b < blocks_; ++b) {
+            weighted_sum<ErrorRow<0>>(b, lanes(error_)[b]);
+            if constexpr (tableau.error_rows == 2) weighted_sum<ErrorRow<1>>(b, lanes(trial_)[b]);
+        }
+        double largest = 0;
+        double zero = 0;
+        for (int i = 0; i < controlled_; ++i) {
+            const double square = squared_error(i);
+            real(error_)[i] = square;
+            largest = std::max(largest, square);
+            zero += (square + end_state()[i]) * 0;
+        }
+        return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
+    }
+
+    /// The rate at the end, if the estimate did not need it already; false if it is not finite.
+    bool finish() {
+        if constexpr (!last_stage_in_estimate()) rate_into(stages, end_, real(next_));
+        return is_finite(end_rate()) && is_finite(end_state());
+    }
+
+    bool starts_finite() const { return is_finite(rate()); }
+
+    /// To blame: the first component that is not finite at the start or the attempted end, else the one of the largest
+    /// error.
+    int worst_component() const {
+        int worst = 0;
+        for (int i = 0; i < controlled_; ++i) {
+            if (!std::isfinite(rate()[i] + end_state()[i] + end_rate()[i] + real(error_)[i])) return i;
+            if (real(error_)[i] > real(error_)[worst]) worst = i;
+        }
+        return worst;
+    }
+
+    void advance() {
+        std::swap(y_, next_);
+        std::swap(rest_, next_rest_);
+        std::copy_n(stage(stages), blocks_, stage(0));
+        t_ = end_;
+    }
+
+    /// The state at t + θ h of a finished step; `out` has Rhs::dimension places.
+    void interpolate(double theta, double* out) {
+        if (!looked_into_) look_into();
+        const double other = 1 - theta;
+        const double* const r[2] = {real(difference_), real(stage(tableau.all_stages))};
+        for (int i = 0; i < rhs_.dimension; ++i) {
+            const double r1 = r[0][i];
+            const double r2 = h_ * rate()[i] - r1;
+            const double r3 = r1 - h_ * end_rate()[i] - r2;
+            double tail = 0;
+            for (int row = tableau.dense_rows - 1; row >= 0; --row)
+                tail = r[1][row * blocks_ * width + i] + (row % 2 == 0 ? theta : other) * tail;
+            out[i] = state()[i] + theta * (r1 + other * (r2 + theta * (r3 + other * tail)));
+        }
+    }
+
+private:
+    static constexpr int arrays = 7;  ///< y, rest, next, next_rest, and the three below
+
+    static constexpr bool last_stage_in_estimate() {
+        for (const auto& row : tableau.e)
+            if (row[stages] != 0) return true;
+        return false;
+    }
+
+    Lane* lanes(int array) { return memory_.data() + array * blocks_; }
+    const Lane* lanes(int array) const { return memory_.data() + array * blocks_; }
+    double* real(int array) { return reinterpret_cast<double*>(lanes(array)); }
+    const double* real(int array) const { return reinterpret_cast<const double*>(lanes(array)); }
+    Lane* stage(int i) { return lanes(arrays + i); }
+    const Lane* stage(int i) const { return lanes(arrays + i); }
+    static double* real(Lane* lane) { return reinterpret_cast<double*>(lane); }
+    static const double* real(const Lane* lane) { return reinterpret_cast<const double*>(lane); }
+
+    void rate_into(int i, double t, const double* state) {
+        rhs_(t, state, real(stage(i)));
+        ++evaluations_;
+    }
+
+    /// Σ_j weight_j k_j of block b, j running over the non-zero weights; `Row` gives weight j as a constant.
+    template <class Row>
+    void weighted_sum(int b, Lane& sum) const {
+        sum = Lane{};
+        [&]<int... j>(std::integer_sequence<int, j...>) {
+            const auto add = [&]<int column>() {
+                constexpr double weight = Row::weight(column);
+                if constexpr (weight != 0) sum += weight * stage(column)[b];
+            };
+            (add.template operator()<j>(), ...);
+        }(std::make_integer_sequence<int, tableau.all_stages>());
+    }
+
+    template <int i>
+    struct StageRow {
+        static constexpr double weight(int j) { return tableau.a[i][static_cast<std::size_t>(j)]; }
+    };
+    template <int i>
+    struct ErrorRow {
+        static constexpr double weight(int j) { return tableau.e[i][static_cast<std::size_t>(j)]; }
+    };
+    template <int i>
+    struct DenseRow {
+        static constexpr double weight(int j) { return tableau.d[i][static_cast<std::size_t>(j)]; }
+    };
+
+    template <int i>
+    void evaluate() {
+        for (int b = 0; b < blocks_; ++b) {
+            Lane sum;
+            weighted_sum<StageRow<i>>(b, sum);
+            lanes(trial_)[b] = lanes(y_)[b] + (h_ * sum + lanes(rest_)[b]);
+        }
+        rate_into(i, t_ + tableau.c[i] * h_, real(trial_));
+    }
+
+    /// y₁ + rest₁ = y + (rest + h Σ b_j k_j), by Knuth's exact sum of two doubles.
+    void add_up() {
+        for (int b = 0; b < blocks_; ++b) {
+            Lane sum;
+            weighted_sum<StageRow<stages>>(b, sum);
+            const Lane y = lanes(y_)[b];
+            const Lane change = h_ * sum + lanes(rest_)[b];
+            const Lane next = y + change;
+            const Lane taken = next - y;
+            lanes(next_)[b] = next;
+            lanes(next_rest_)[b] = (y - (next - taken)) + (change - taken);
+        }
+    }
+
+    /// From the sums that `misfit` has left, in units of max(1, |y_i|).
+    double squared_error(int i) const {
+        const double scale = h_ / std::max({1.0, std::abs(state()[i]), std::abs(end_state()[i])});
+        const double error = real(error_)[i] * scale;
+        const double square = error * error;
+        if constexpr (tableau.error_rows == 1) return square;
+        const double third = real(trial_)[i] * scale;
+        constexpr double tiny = 1e-300;  // 0/0 is 0
+        return square * (square / (square + 0.01 * third * third + tiny));
+    }
+
+    bool is_finite(const double* values) const {
+        double zero = 0;
+        for (int i = 0; i < controlled_; ++i) zero += values[i] * 0;
+        return zero == 0;
+    }
+
+    /// The additional stages of dense output and its rows.
+    void look_into() {
+        [this]<int... i>(std::integer_sequence<int, i...>) {
+            (this->template evaluate<stages + 1 + i>(), ...);
+        }(std::make_integer_sequence<int, tableau.all_stages - stages - 1>());
+        for (int b = 0; b < blocks_; ++b) {
+            lanes(difference_)[b] =
+                (lanes(next_)[b] - lanes(y_)[b]) + (lanes(next_rest_)[b] - lanes(rest_)[b]);
+            [&]<int... i>(std::integer_sequence<int, i...>) {
+                (this->template dense_row<i>(b), ...);
+            }(std::make_integer_sequence<int, tableau.dense_rows>());
+        }
+        looked_into_ = true;
+    }
+
+    template <int i>
+    void dense_row(int b) {
+        Lane sum;
+        weighted_sum<DenseRow<i>>(b, sum);
+        stage(tableau.all_stages + i)[b] = h_ * sum;
+    }
+
+    const Rhs& rhs_;
+    int controlled_;  ///< components under error control
+    int blocks_;
+    std::vector<Lane> memory_;
+    int y_ = 0, rest_ = 1, next_ = 2, next_rest_ = 3;  ///< places in memory; y and next change theirs
+    static constexpr int trial_ = 4, difference_ = 5, error_ = 6;
+    double t_, end_ = 0, h_ = 0;
+    long evaluations_ = 0;
+    bool looked_into_ = false;
+};
+
+}  // namespace alembert

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "alembert/integrate.hpp"
+
+using namespace alembert;
+
+namespace {
+
+constexpr double g = 9.81;
+
+/// y'' = −g.
+Rhs free_fall() {
+    return make_rhs(2, [](double, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = -g;
+    });
+}
+
+/// y'' = −y.
+Rhs oscillator() {
+    return make_rhs(2, [](double, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = -y[0];
+    });
+}
+
+/// y' = 1: one step of an adaptive method is as long as it likes.
+Rhs clock() {
+    return make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
+}
+
+Options options_for(Method method, double duration) {
+    return {.method = method, .duration = duration, .tolerance = 1e-12, .step = has_fixed_step(method) ? 1e-3 : 0};
+}
+
+template <class Function>
+Events one_event(Function function, bool stop = false) {
+    return make_events({{.name = "event", .stop = stop}}, function);
+}
+
+}  // namespace
+
+// y = h − g t²/2: every method but euler, and its dense output, is exact up to rounding.
+TEST_CASE("events: a falling body reaches the ground at √(2h/g), and the run ends there") {
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
+        const Trajectory motion =
+            integrate(free_fall(), {10, 0}, options_for(method, 5),
+                      one_event([](double, const double* y, const double*, double* out) { out[0] = y[0]; }, true));
+        const double landing = std::sqrt(2 * 10 / g);
+        INFO(name(method));
+        CHECK(motion.ending == Ending::stopped_by_event);
+        REQUIRE(motion.events.size() == 1);
+        CHECK(std::abs(motion.events[0].time / landing - 1) < 1e-12);
+        CHECK(std::abs(motion.events[0].state[1] + g * landing) < 1e-10);
+        CHECK(motion.times.back() == motion.events[0].time);
+        CHECK(motion.times[motion.rows() - 2] < motion.times.back());
+        CHECK(std::abs(motion.final_state()[0]) < 1e-11);
+    }
+}
+
+TEST_CASE("events: every zero of a sine is found, in both directions, and the zero at the start is none") {
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
+        const Trajectory motion =
+            integrate(oscillator(), {0, 1}, options_for(method, 100),
+                      one_event([](double, const double* y, const double*, double* out) { out[0] = y[0]; }));
+        INFO(name(method));
+        REQUIRE(motion.events.size() == 31);  // 31 π < 100 < 32 π
+        for (std::size_t k = 0; k < 31; ++k)
+            // 1e-12 a step, some hundred steps; phase errors add up
+            CHECK(std::abs(motion.events[k].time - (static_cast<double>(k) + 1) * std::numbers::pi) < 1e-9);
+        CHECK(motion.ending == Ending::completed);
+    }
+}
+
+TEST_CASE("events: two zeros close together in one long step are both found") {
+    for (const double gap : {0.5, 0.01, 1e-4}) {
+        const Trajectory motion =
+            integrate(clock(), {0}, {.duration = 10, .step = 10},
+                      one_event([gap](double, const double* y, const double*, double* out) {
+                          out[0] = (y[0] - 4.1) * (y[0] - 4.1 - gap);
+                      }));
+        INFO("gap " << gap);
+        CHECK(motion.statistics.steps == 1);
+        REQUIRE(motion.events.size() == 2);
+        CHECK(std::abs(motion.events[0].time - 4.1) < 1e-11);
+        CHECK(std::abs(motion.events[1].time - 4.1 - gap) < 1e-11);
+    }
+}
+
+TEST_CASE("events: two zeros in one step are found where the function is no parabola") {
+    // zeros of cos t + 0.999 around π: t = π ∓ 0.0447…
+    const Trajectory motion =
+        integrate(clock(), {0}, {.duration = 6, .step = 6},
+                  one_event([](double, const double* y, const double*, double* out) { out[0] = std::cos(y[0]) + 0.999; }));
+    REQUIRE(motion.events.size() == 2);
+    CHECK(std::abs(motion.events[0].time - std::acos(-0.999)) < 1e-11);
+    CHECK(std::abs(motion.events[1].time - (2 * std::numbers::pi - std::acos(-0.999))) < 1e-11);
+}
+
+TEST_CASE("events: in one step they come in the order of time, simultaneous ones as declared, and stop stops") {
+    const Events events = make_events({{.name = "late"}, {.name = "first"}, {.name = "second"}, {.name = "end", .stop = true}, {.name = "never"}},
+                                      [](double, const double* y, const double*, double* out) {
+                                          out[0] = y[0] - 3;
+                                          out[1] = std::exp(y[0]) - std::exp(2);
+                                          out[2] = y[0] * y[0] - 4;
+                                          out[3] = y[0] - 5;
+                                          out[4] = y[0] - 5.5;
+                                      });
+    const Trajectory motion = integrate(clock(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
+    REQUIRE(motion.events.size() == 4);
+    CHECK(motion.events[0].name == "first");
+    CHECK(motion.events[1].name == "second");
+    CHECK(motion.events[2].name == "late");
+    CHECK(motion.events[3].name == "end");
+    CHECK(motion.events[3].index == 3);
+    CHECK(motion.rows() == 6);
+    CHECK(motion.times.back() == doctest::Approx(5).epsilon(1e-14));
+}
+
+TEST_CASE("events: accelerations may take part") {
+    // y'' + y = 0 with y = cos t: y'' = −1/2 at t = π/3
+    const Trajectory motion =
+        integrate(oscillator(), {1, 0}, {.duration = 2, .tolerance = 1e-13},
+                  one_event([](double, const double*, const double* rate, double* out) { out[0] = rate[1] + 0.5; }));
+    REQUIRE(motion.events.size() == 1);
+    CHECK(std::abs(motion.events[0].time - std::numbers::pi / 3) < 1e-12);
+}
+
+TEST_CASE("events: a value that is exactly zero where a step ends counts once") {
+    const Trajectory motion =
+        integrate(clock(), {0}, {.method = Method::euler, .duration = 2, .step = 0.25},
+                  one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 1; }));
+    REQUIRE(motion.events.size() == 1);
+    CHECK(motion.events[0].time == 1);
+}
+
+TEST_CASE("events: rounding at the start is no event") {
+    const Trajectory motion =
+        integrate(clock(), {0.3}, {.duration = 1},
+                  one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.3 - 1e-16; }));
+    CHECK(motion.events.empty());
+}

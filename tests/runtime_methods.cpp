@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "alembert/dop853.hpp"
+#include "alembert/integrate.hpp"
+#include "alembert/step.hpp"
+#include "alembert/tableau.hpp"
+
+using namespace alembert;
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Σ_j w_j c_j^q, and Σ |w_j| c_j^q as the measure of its rounding.
+template <class Table>
+void check_moment(const Table& table, const typename Table::Row& weights, int q, double expected) {
+    double sum = 0, size = 0;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        sum += weights[j] * std::pow(table.c[j], q);
+        size += std::abs(weights[j]) * std::pow(table.c[j], q);
+    }
+    // A rounded weight and a rounded power each are off by half a unit in the last place, times q for the power.
+    INFO("power " << q);
+    CHECK(std::abs(sum - expected) <= (2 + q) * epsilon * (size + std::abs(expected)));
+}
+
+/// Rows sum to c, the solution integrates t^(order−1), an error row vanishes for all that its two formulas integrate.
+template <class Table>
+void check_conditions(const Table& table, std::vector<int> exact_for_error_row) {
+    for (std::size_t i = 0; i < table.a.size(); ++i) {
+        CAPTURE(i);
+        check_moment(table, table.a[i], 0, table.c[i]);
+    }
+    for (int q = 0; q < table.order; ++q) check_moment(table, table.a[Table::stages], q, 1. / (q + 1));
+    for (std::size_t row = 0; row < table.e.size(); ++row)
+        for (int q = 0; q < exact_for_error_row[row]; ++q) check_moment(table, table.e[row], q, 0);
+}
+
+Rhs pendulum() {
+    return make_rhs(2, [](double, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = -std::sin(y[0]);
+    });
+}
+
+const std::vector<double> pendulum_start = {2.0, 0.3};
+constexpr double pendulum_duration = 4;
+
+template <const auto& tableau>
+std::vector<double> with_equal_steps(int steps) {
+    const Rhs rhs = pendulum();
+    Step<tableau> step(rhs, 0, pendulum_start);
+    for (int i = 1; i <= steps; ++i) {
+        step.attempt(pendulum_duration * i / steps);
+        step.finish();
+        step.advance();
+    }
+    return {step.state(), step.state() + 2};
+}
+
+/// The largest error of dense output over one step of length h, against tiny steps of dop853.
+template <const auto& tableau>
+double dense_error(double h) {
+    const Rhs rhs = pendulum();
+    Step<tableau> step(rhs, 0, pendulum_start);
+    step.attempt(h);
+    step.finish();
+    double worst = 0;
+    for (int i = 1; i < 16; ++i) {
+        const double theta = i / 16.;
+        const std::vector<double> exact =
+            integrate(rhs, pendulum_start, {.duration = theta * h, .tolerance = 1e-15}).states;
+        double y[2];
+        step.interpolate(theta, y);
+        for (std::size_t c = 0; c < 2; ++c) worst = std::max(worst, std::abs(y[c] - exact[exact.size() - 2 + c]));
+    }
+    return worst;
+}
+
+double distance(std::span<const double> a, std::span<const double> b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+    return worst;
+}
+
+template <const auto& tableau>
+double observed_order(int steps) {
+    static const Trajectory exact =
+        integrate(pendulum(), pendulum_start, {.duration = pendulum_duration, .tolerance = 1e-15});
+    const double coarse = distance(with_equal_steps<tableau>(steps), exact.final_state());
+    const double fine = distance(with_equal_steps<tableau>(2 * steps), exact.final_state());
+    MESSAGE(steps << " steps: errors " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
+    return std::log2(coarse / fine);
+}
+
+template <const auto& tableau>
+double observed_dense_order(double h) {
+    const double coarse = dense_error<tableau>(h), fine = dense_error<tableau>(h / 2);
+    MESSAGE("h " << h << ": errors " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
+    return std::log2(coarse / fine) - 1;
+}
+
+}  // namespace
+
+TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the order") {
+    check_conditions(euler_tableau, {});
+    check_conditions(rk4_tableau, {});
+    check_conditions(dopri5_tableau, {4});
+    check_conditions(dop853_tableau, {5, 3});
+}
+
+// The errors are far above rounding and the steps short enough for the leading term to dominate.
+TEST_CASE("methods: the error of the pendulum falls with the order of the method") {
+    CHECK(observed_order<euler_tableau>(20000) == doctest::Approx(1).epsilon(0.1));
+    CHECK(observed_order<rk4_tableau>(400) == doctest::Approx(4).epsilon(0.1 / 4));
+    CHECK(observed_order<dopri5_tableau>(160) == doctest::Approx(5).epsilon(0.1 / 5));
+    CHECK(observed_order<dop853_tableau>(24) == doctest::Approx(8).epsilon(0.1 / 8));
+}
+
+TEST_CASE("dense output: the error within a step falls with the order of the continuous extension") {
+    CHECK(observed_dense_order<rk4_tableau>(0.05) == doctest::Approx(3).epsilon(0.2 / 3));
+    CHECK(observed_dense_order<dopri5_tableau>(0.1) == doctest::Approx(4).epsilon(0.2 / 4));
+    CHECK(observed_dense_order<dop853_tableau>(0.4) == doctest::Approx(7).epsilon(0.2 / 7));
+}
+
+TEST_CASE("dense output: the ends of a step are met exactly and its stages are evaluated once") {
+    const Rhs rhs = pendulum();
+    Step<dop853_tableau> step(rhs, 0, pendulum_start);
+    step.attempt(0.3);
+    step.finish();
+    const long before = step.evaluations();
+    double y[2];
+    step.interpolate(0, y);
+    CHECK(distance({y, 2}, {step.state(), 2}) == 0);
+    step.interpolate(1, y);
+    CHECK(distance({y, 2}, {step.end_state(), 2}) <= 4 * epsilon);  // y + (y₁ − y), |y| about 2
+    CHECK(step.evaluations() == before + 3);
+}
+
+// The result is ‖y − y(t)‖ with y from Kepler's equation: after whole periods the orbit is where it began. An error δ of
+// the semi-major axis a becomes 3π k δ/a in the position after k periods; about 100 steps of local error ≤ tol, each
+// multiplied by the speed at the pericentre (√3 for e = 0.5) on the way.
+TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
+    const Rhs kepler = make_rhs(4, [](double, const double* y, double* rate) {
+        const double r = std::hypot(y[0], y[1]);
+        rate[0] = y[2];
+        rate[1] = y[3];
+        rate[2] = -y[0] / (r * r * r);
+        rate[3] = -y[1] / (r * r * r);
+    });
+    const std::vector<double> start = {0.5, 0, 0, std::sqrt(3.0)};
+    double last = HUGE_VAL;
+    for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
+        for (const Method method : {Method::dopri5, Method::dop853}) {
+            const Trajectory orbit = integrate(
+                kepler, start, {.method = method, .duration = 20 * std::numbers::pi, .tolerance = tolerance});
+            const double error = distance(orbit.final_state(), start);
+            INFO(name(method) << " at " << tolerance << ": " << error);
+            CHECK(error < 1e4 * tolerance);
+            if (method == Method::dop853) {
+                CHECK(error < last / 10);
+                last = error;
+            }
+        }
+    }
+}
+
+TEST_CASE("step size: a smaller tolerance gives a smaller error, and few steps are rejected") {
+    const Trajectory exact = integrate(pendulum(), pendulum_start, {.duration = 30, .tolerance = 1e-15});
+    for (const Method method : {Method::dopri5, Method::dop853}) {
+        double last = HUGE_VAL;
+        for (double tolerance = 1e-4; tolerance > 1e-13; tolerance /= 100) {
+            const Trajectory motion =
+                integrate(pendulum(), pendulum_start, {.method = method, .duration = 30, .tolerance = tolerance});
+            const double error = distance(motion.final_state(), exact.final_state());
+            INFO(name(method) << " at " << tolerance << ": " << error);
+            CHECK(error < last / 3);  // 100 for an error proportional to the tolerance
+            CHECK(motion.statistics.rejected < motion.statistics.steps / 5);
+            last = error;
+        }
+    }
+}
+
+TEST_CASE("tolerance: 1e-14 is used as given, and what it buys is there") {
+    const double period = 4 * std::comp_ellint_1(std::sin(0.5));  // of θ'' = −sin θ from 1 rad at rest
+    const auto error = [&](double tolerance) {
+        const Trajectory motion = integrate(pendulum(), {1.0, 0.0}, {.duration = period, .tolerance = tolerance});
+        CHECK(motion.ending == Ending::completed);
+        return distance(motion.final_state(), std::vector<double>{1.0, 0.0});
+    };
+    // About 60 steps; rounding alone gives some 1e-15.
+    CHECK(error(1e-14) < 2e-14);
+    CHECK(error(1e-15) < 1e-14);
+}
+
+TEST_CASE("state: what short steps add to a large state is not lost") {
+    // 1e6 + t in steps of 1e-6: each sum would lose up to 5.8e-11, in the same direction every time.
+    const Rhs drift = make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
+    const Trajectory motion = integrate(drift, {1e6}, {.method = Method::rk4, .duration = 1, .step = 1e-6});
+    CHECK(std::abs(motion.final_state()[0] - 1000001) <= 1.2e-10);  // one unit in the last place
+}

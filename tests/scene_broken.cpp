@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Scenes that must be refused: tests/broken/*.toml say in their first lines what must be told and where.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "scene/scene.hpp"
+
+using namespace alembert;
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+struct Expected {
+    Place place;
+    std::string message;
+};
+
+std::vector<Expected> expectations(const std::string& text) {
+    std::vector<Expected> list;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line) && line.rfind("# expect ", 0) == 0;) {
+        Expected expected;
+        int length = 0;
+        REQUIRE(std::sscanf(line.c_str(), "# expect %d:%d: %n", &expected.place.line, &expected.place.column, &length) == 2);
+        expected.message = line.substr(static_cast<std::size_t>(length));
+        list.push_back(expected);
+    }
+    return list;
+}
+
+std::vector<std::filesystem::path> broken_scenes() {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(ALEMBERT_SOURCE_DIR "/tests/broken"))
+        if (entry.path().extension() == ".toml") paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+/// All of what was told, or nothing where the scene was read.
+std::vector<Diagnostic> told(const std::string& text) {
+    try {
+        parse_scene(text, "scene.toml");
+    } catch (const SceneError& error) {
+        return error.diagnostics;
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("broken scenes: each is refused for what it says it is, there, and for nothing else") {
+    const auto paths = broken_scenes();
+    CHECK(paths.size() >= 40);
+    for (const auto& path : paths) {
+        CAPTURE(path.filename().string());
+        const std::vector<Expected> expected = expectations(text_of(path));
+        REQUIRE_FALSE(expected.empty());
+        const auto start = std::chrono::steady_clock::now();
+        std::string what;
+        std::vector<Diagnostic> diagnostics;
+        try {
+            read_scene(path.string());
+        } catch (const SceneError& error) {
+            what = error.what();
+            diagnostics = error.diagnostics;
+        }
+        CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(1));
+        CAPTURE(what);
+        REQUIRE(diagnostics.size() == expected.size());
+        for (const Expected& e : expected) {
+            CAPTURE(e.message);
+            CHECK(std::any_of(diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& d) {
+                return d.place == e.place && d.message.find(e.message) != std::string::npos;
+            }));
+            if (e.place.line > 0)
+                CHECK(what.find(fmt::format("{}:{}:{}: ", path.string(), e.place.line, e.place.column)) != std::string::npos);
+        }
+        const bool is_raw = std::any_of(what.begin(), what.end(), [](unsigned char c) { return c < 0x20 && c != '\n'; });
+        CHECK_FALSE(is_raw);
+        CHECK(what.find("\u202e") == std::string::npos);
+    }
+}
+
+TEST_CASE("broken scenes: a message shows the line with a caret under the word") {
+    const std::string text = "[coordinates]\nθ = 0.1\n[outputs]\n\ty = \"角度 + θθ\" # 角\n";
+    try {
+        parse_scene(text, "scenes/p.toml");
+        FAIL("was read");
+    } catch (const SceneError& error) {
+        CHECK(std::string(error.what()) ==
+              "scenes/p.toml:4:7: unknown name '角度' in this expression\n"
+              "     y = \"角度 + θθ\" # 角\n"
+              "          ^\n"
+              "scenes/p.toml:4:12: unknown name 'θθ' in this expression; did you mean 'θ'?\n"
+              "     y = \"角度 + θθ\" # 角\n"
+              "                 ^\n");
+    }
+}
+
+TEST_CASE("broken scenes: a long line is shown around the caret") {
+    std::string text = "[coordinates]\nx = 0\n[outputs]\ny = \"";
+    for (int i = 0; i < 500; ++i) text += "x + ";
+    text += "zz";
+    for (int i = 0; i < 500; ++i) text += " + x";
+    text += "\"\n";
+    try {
+        parse_scene(text, "p.toml");
+        FAIL("was read");
+    } catch (const SceneError& error) {
+        std::istringstream lines(error.what());
+        std::string message, line, caret;
+        std::getline(lines, message);
+        std::getline(lines, line);
+        std::getline(lines, caret);
+        CHECK(message == "p.toml:4:2006: unknown name 'zz' in this expression");
+        CHECK(line.size() < 120);
+        CHECK(line.find("zz") == caret.find('^') + 2);  // the leading … is one column and three bytes
+    }
+}
+
+TEST_CASE("broken scenes: after twenty mistakes the rest are counted") {
+    std::string text = "[coordinates]\nx = 0\n[outputs]\n";
+    for (int i = 0; i < 33; ++i) text += fmt::format("y{} = \"zz{}\"\n", i, i);
+    try {
+        parse_scene(text, "p.toml");
+        FAIL("was read");
+    } catch (const SceneError& error) {
+        CHECK(error.diagnostics.size() == 33);
+        CHECK(std::string(error.what()).find("p.toml: and 13 more\n") != std::string::npos);
+    }
+}
+
+TEST_CASE("broken scenes: files that cannot be read are told as such") {
+    const auto message = [](const std::string& file) -> std::string {
+        try {
+            read_scene(file);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(message("/nonexistent/scene.toml") == "/nonexistent/scene.toml: no such file\n");
+    CHECK(message("/") == "/: is a directory; expected a scene file\n");
+    CHECK(message("/nonexistent/\x1b[31m.toml") == "/nonexistent/\\u001B[31m.toml: no such file\n");
+    CHECK(message("") == ": no such file\n");
+}
+
+TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anything ends soon") {
+    const std::string head = "[coordinates]\nx = 0\n";
+    const auto fill = [&](std::string text, const std::string& piece) {
+        while (text.size() + piece.size() <= 1024 * 1024) text += piece;
+        return text;
+    };
+    REQUIRE(told(fill(head, "# comment\n") + std::string(100, '\n')).size() == 1);
+    CHECK(told(fill(head, "# comment\n") + std::string(100, '\n'))[0].message.find("the limit is 1048576 (1 MiB)") !=
+          std::string::npos);
+    CHECK(told(fill(head, "# comment\n")).empty());
+    int k = 0;
+    std::string numbered = head + "[definitions]\n";
+    for (; numbered.size() < 1024 * 1000; ++k) numbered += fmt::format("d{} = \"d{}+x\"\n", k, k + 1);
+    numbered += fmt::format("d{} = \"x\"\n", k);
+    const std::vector<std::pair<std::string, std::string>> floods{
+        {"chain of definitions", numbered},
+        {"unknown tables", fill(head, "[[a]]\n")},
+        {"open arrays", fill(head + "[outputs]\ny = ", "[")},
+        {"open inline tables", fill(head + "[outputs]\ny = ", "{a=")},
+        {"dotted key", fill("a", ".a")},
+        {"dotted header", fill("[a", ".a")},
+        {"unknown names", fill(head + "[outputs]\ny = [", "\"zz\",")},
+        {"particles", fill(head, "[[particle]]\n")},
+        {"one line", fill("x = \"", "a")},
+        {"quotes", fill(head, "\"")},
+        {"brackets", fill(head, "]")},
+    };
+    for (const auto& [name, text] : floods) {
+        CAPTURE(name);
+        const auto start = std::chrono::steady_clock::now();
+        CHECK_FALSE(told(text).empty());
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        CHECK(seconds.count() < 5);  // a second in the released program; sanitizers take longer
+        MESSAGE(name, ": ", seconds.count(), " s");
+    }
+}
+
+TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
+    std::string whole = text_of(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
+    REQUIRE(told(whole).empty());
+    const std::vector<std::string> pieces{"\"", "'", "[", "]", "[[", "]]", "{", "}", "=", ".", ",", "\n", "#", "\"\"\"", "'''", "\\",
+                                          "nan", "1e999", "\xC3", "\xE2\x80\xAE", "0x", "true", "(", "^", "-", "\\u", "[a.b]", "\r"};
+    constexpr unsigned seed = 20240301;
+    std::mt19937 random(seed);
+    for (int i = 0; i < 3000; ++i) {
+        std::string text = whole;
+        for (unsigned edits = 1 + random() % 4; edits > 0; --edits) {
+            const std::size_t at = random() % text.size();
+            switch (random() % 4) {
+                case 0: text[at] = static_cast<char>(random() % 256); break;
+                case 1: text.erase(at, 1 + random() % 8); break;
+                case 2: text.insert(at, pieces[random() % pieces.size()]); break;
+                default: text.insert(at, text.substr(random() % text.size(), random() % 40));
+            }
+        }
+        try {
+            parse_scene(text, "p.toml");
+        } catch (const SceneError& error) {
+            CHECK_FALSE(error.diagnostics.empty());
+        } catch (const std::exception& error) {
+            FAIL("seed ", seed, " case ", i, ": ", error.what(), "\n", text);
+        }
+    }
+}
