@@ -102,15 +102,20 @@ struct Cache {
 
 /// A variable of the environment for the length of a block.
 struct Variable {
-    Variable(const char* key, const char* value) : name(key), had(std::getenv(key) != nullptr), before(had ? std::getenv(key) : "") {
-        if (value != nullptr) setenv(key, value, 1);
-        else unsetenv(key);
+    Variable(const char* key, const char* value)
+        : name(key), had(std::getenv(key) != nullptr), before(had ? std::getenv(key) : "") {
+        if (value != nullptr)
+            setenv(key, value, 1);
+        else
+            unsetenv(key);
     }
     Variable(const Variable&) = delete;
     Variable& operator=(const Variable&) = delete;
     ~Variable() {
-        if (had) setenv(name, before.c_str(), 1);
-        else unsetenv(name);
+        if (had)
+            setenv(name, before.c_str(), 1);
+        else
+            unsetenv(name);
     }
     const char* name;
     bool had;
@@ -126,7 +131,9 @@ std::string compile_error(const std::function<void()>& action) {
     return "";
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 /// Runs `child` in that many processes at once; how many of them returned true.
 int in_processes(int count, const std::function<bool()>& child) {
@@ -225,7 +232,8 @@ TEST_CASE("compile: several processes that compile the same thing at once do not
 
 TEST_CASE("compile: what the compiler says is in the error") {
     const Cache cache;
-    const std::string message = compile_error([&] { compile("int f() { return nothing_here; }", "bad", cache.options()); });
+    const std::string message =
+        compile_error([&] { compile("int f() { return nothing_here; }", "bad", cache.options()); });
     CHECK(contains(message, "nothing_here"));
     CHECK(contains(message, "-ffp-contract=fast"));
     CHECK(contains(message, "status 1"));
@@ -281,7 +289,8 @@ TEST_CASE("compile: a source that cannot be written whole is an error of the env
         signal(SIGXFSZ, SIG_IGN);  // a full disk, for this process
         const rlimit limit{.rlim_cur = 100, .rlim_max = 100};
         setrlimit(RLIMIT_FSIZE, &limit);
-        return contains(compile_error([&] { compile(pendulum_source(), "x", cache.options()); }), "is the disk full?");
+        return contains(compile_error([&] { compile(pendulum_source(), "x", cache.options()); }),
+                        "is the disk full?");
     });
     CHECK(good == 1);
     CHECK(cache.files() == 0);
@@ -314,15 +323,17 @@ TEST_CASE("module: it stays loaded as long as a right-hand side needs it") {
                     std::invalid_argument);
 }
 
-// θ'' = −(g/l) sin θ from θ₀ at rest: a quarter of the period is √(l/g) K(sin(θ₀/2)); there θ' = −2 √(g/l) sin(θ₀/2).
+// θ'' = −(g/l) sin θ from θ₀ at rest: a quarter of the period is √(l/g) K(sin(θ₀/2)); there θ' = −2 √(g/l)
+// sin(θ₀/2).
 TEST_CASE("solver: an emitted pendulum swings with the period of the elliptic integral") {
     const Cache cache;
     const Module module = load(compile(pendulum_source(), "pendulum", cache.options()).object);
     const double l = 0.7, g = 9.7, start = 2.5;
     const std::vector<double> values = {l, g, 0};
     const double quarter = std::sqrt(l / g) * std::comp_ellint_1(std::sin(start / 2));
-    const Trajectory motion = integrate(make_rhs(module, values), {start, 0}, {.duration = 4 * quarter, .tolerance = 1e-13},
-                                        make_events(module, values, {}));
+    const Trajectory motion =
+        integrate(make_rhs(module, values), {start, 0}, {.duration = 4 * quarter, .tolerance = 1e-13},
+                  make_events(module, values, {}));
     // Some hundred steps with a local error of 1e-13; the rate is about 7, the acceleration about 14.
     CHECK(std::abs(motion.final_state()[0] - start) < 1e-11);
     CHECK(std::abs(motion.final_state()[1]) < 1e-10);

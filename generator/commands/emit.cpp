@@ -12,7 +12,8 @@ namespace alembert {
 
 int emit_files(const Request& request) {
     const Derived d = derived(request);
-    const Source source = emit(lowered(d, request));
+    const Choice choice = lowered(d, request);
+    const Source source = emit(choice.program);
     std::error_code failed;
     std::filesystem::create_directories(request.output, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
@@ -23,6 +24,7 @@ int emit_files(const Request& request) {
         result["files"] = {path};
         result["operations"] = source.operations.total();
         result["formulation"] = source.formulation;
+        if (choice.runner_up) result["runner_up_operations"] = *choice.runner_up;
         std::cout << result.dump(2) << "\n";
     } else {
         fmt::print("{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} "

@@ -11,7 +11,7 @@ namespace alembert {
 
 int eval(const Request& request) {
     const Derived d = derived(request);
-    const Program program = lowered(d, request);
+    const Program program = lowered(d, request).program;
     const Start start = start_of(d.mechanism, overrides_of(request));
     State<double> state = start.state();
 

@@ -37,9 +37,8 @@ Derived derived(const Request& request) {
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }
 
-Program lowered(const Derived& d, const Request& request) {
-    const Energy energy = energy_of(d.mechanism);
-    return lower(d.mechanism, d.equations, energy, {.fold = request.fold});
+Choice lowered(const Derived& d, const Request& request) {
+    return choose(d.mechanism, d.equations, {.fold = request.fold});
 }
 
 Overrides overrides_of(const Request& request) {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/command.hpp"
-#include "lower/lower.hpp"
+#include "lower/choose.hpp"
 #include "lower/start.hpp"
 
 namespace alembert {
@@ -25,7 +25,7 @@ struct Derived {
 Derived derived(const Request& request);
 
 /// Lowered in the form that takes the fewest operations.
-Program lowered(const Derived& derived, const Request& request);
+Choice lowered(const Derived& derived, const Request& request);
 
 /// The values of --at. Throws ModelError for what is not NAME=VALUE.
 Overrides overrides_of(const Request& request);

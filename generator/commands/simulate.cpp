@@ -124,7 +124,7 @@ int simulate(const Request& request) {
         return clock - before;
     };
     const Energy energy = energy_of(d.mechanism);
-    const Program program = lowered(d, request);
+    const Program program = lowered(d, request).program;
     const Start start = start_of(d.mechanism);
     const Options wishes = options_of(request, d.mechanism, start);
     if (const auto combination = massless_combination(program, start.state()))

@@ -117,6 +117,7 @@ struct Choice {
     int cost;
 
     void offer(Polynomial candidate, const Cost& measure) {
+        if (candidate == value) return;
         const int offered = measure(candidate);
         if (offered >= cost) return;
         value = std::move(candidate);
@@ -124,19 +125,55 @@ struct Choice {
     }
 };
 
-/// Starting from an expanded form, eliminates sin² or cos², angle by angle, where that helps.
-Choice reduce(Choice start, const std::vector<Angle>& angles, const Cost& cost) {
-    for (const Angle& angle : angles) {
-        const Polynomial from = start.value;
-        start.offer(eliminate_square(from, angle.sine, angle.cosine), cost);
-        start.offer(eliminate_square(from, angle.cosine, angle.sine), cost);
-    }
-    return start;
+enum class Forms { level, all };
+
+/// The best form of an expanded polynomial, angle after angle: once the squares of the first are settled, what stands
+/// before each of its products is a polynomial in the others, with a best form of its own.
+/// (A·sin²φ + B·cos²φ)·sin²θ + C·cos²θ
+Polynomial reduce(const Polynomial& expanded, const Angle* angle, const Angle* end, Forms forms, const Cost& cost) {
+    if (angle == end) return expanded;
+    const auto is_own = [&](const AtomNode& atom) {
+        return compare(atom, *angle->sine) == 0 || compare(atom, *angle->cosine) == 0;
+    };
+    const auto settle = [&](const Polynomial& form) {
+        if (angle + 1 == end) return form;
+        Polynomial result;
+        for (const Polynomial& group : partition(form, is_own)) {
+            const Monomial own = part(group.terms()[0].monomial, is_own);
+            const Polynomial rest = reduce(divide(group, own), angle + 1, end, forms, cost);
+            result = result + Polynomial::collect({{own, 1}}) * rest;
+        }
+        return result;
+    };
+    const Polynomial raw = settle(expanded);
+    Choice best{raw, cost(raw)};
+    best.offer(settle(homogeneous(expanded, *angle)), cost);
+    if (forms == Forms::level) return best.value;
+    best.offer(settle(eliminate_square(expanded, angle->sine, angle->cosine)), cost);
+    best.offer(settle(eliminate_square(expanded, angle->cosine, angle->sine)), cost);
+    return best.value;
 }
 
-Choice homogenize(Choice start, const std::vector<Angle>& angles, const Cost& cost) {
-    for (const Angle& angle : angles) start.offer(homogeneous(start.value, angle), cost);
-    return start;
+Polynomial reduce(const Polynomial& expanded, const std::vector<Angle>& angles, Forms forms, const Cost& cost) {
+    const auto along = [&](const std::vector<Angle>& order) {
+        const auto best_of = [&](const Polynomial& polynomial) {
+            return reduce(polynomial, order.data(), order.data() + order.size(), forms, cost);
+        };
+        const Polynomial whole = best_of(expanded);
+        Choice best{whole, cost(whole)};
+        // A·sin²φ + B·cos²φ − C: each parameter may have a form of its own
+        Polynomial each;
+        for (const Polynomial& group : partition(expanded, [](const AtomNode& atom) { return atom.steady; }))
+            each = each + best_of(group);
+        best.offer(each, cost);
+        return best;
+    };
+    Choice best = along(angles);
+    if (angles.size() > 1) {
+        Choice backward = along({angles.rbegin(), angles.rend()});
+        if (backward.cost < best.cost) best = std::move(backward);
+    }
+    return best.value;
 }
 
 struct Basis {
@@ -216,7 +253,7 @@ std::optional<Basis> singles(const std::vector<Polynomial>& args) {
 /// Half sums and half differences: ½·sin(φ+θ1−θ2) + ½·sin(φ−θ1+θ2) = sin φ · cos(θ1−θ2).
 std::vector<Basis> pairs(const std::vector<Polynomial>& args) {
     std::vector<Basis> result;
-    if (args.size() > 6) return result;
+    if (args.size() > 4) return result;
     for (std::size_t i = 0; i < args.size(); ++i) {
         for (std::size_t j = i + 1; j < args.size(); ++j) {
             Polynomial a = (Rational(1) / 2) * (args[i] + args[j]);
@@ -248,23 +285,22 @@ Polynomial unfold(const Polynomial& normal_form, const Cost& cost) {
     });
     if (!own.expands && !compound) return normal_form;
     best.cost = cost(normal_form);
-    if (own.expands) {
+    if (own.expands && own.angles.size() <= 3) {
         const Polynomial expanded = expand(normal_form, own.args, own.angles);
-        const Choice raw{expanded, cost(expanded)};
-        const Choice level = homogenize(raw, own.angles, cost);
-        if (level.cost <= best.cost) best = level;
-        best.offer(reduce(raw, own.angles, cost).value, cost);
+        const Polynomial level = reduce(expanded, own.angles, Forms::level, cost);
+        const int offered = cost(level);
+        if (offered <= best.cost) best = {level, offered};
+        best.offer(reduce(expanded, own.angles, Forms::all, cost), cost);
     }
     if (!compound) return best.value;
     std::vector<Basis> bases = pairs(args);
     if (auto basis = singles(args)) bases.push_back(std::move(*basis));
     for (const Basis& basis : bases) {
-        if (!basis.expands) continue;
+        if (!basis.expands || basis.angles.size() > 3) continue;
         const Polynomial expanded = expand(normal_form, basis.args, basis.angles);
         if (expanded.size() > 64) continue;
-        const Choice raw{expanded, cost(expanded)};
-        best.offer(homogenize(raw, basis.angles, cost).value, cost);
-        best.offer(reduce(raw, basis.angles, cost).value, cost);
+        best.offer(reduce(expanded, basis.angles, Forms::level, cost), cost);
+        best.offer(reduce(expanded, basis.angles, Forms::all, cost), cost);
     }
     return best.value;
 }

@@ -74,13 +74,28 @@ bool stands_before(const Term& a, const Term& b) {
     return order != 0 ? order < 0 : compare(a.monomial, b.monomial) < 0;
 }
 
-const Term& first_term(const Polynomial& polynomial) {
-    return *std::min_element(polynomial.terms().begin(), polynomial.terms().end(), stands_before);
+/// Differences of like things, A−C or x1−x2, whose sign is a matter of taste; not r−l0.
+bool may_turn(const Polynomial& sum) {
+    const bool state = has_state(sum.terms()[0].monomial);
+    bool has_minus = false;
+    for (const Term& term : sum.terms()) {
+        if (has_state(term.monomial) != state) return false;
+        has_minus = has_minus || term.coefficient < 0;
+    }
+    return has_minus;
 }
 
-bool has_decimals(const Polynomial& polynomial) {
-    return std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
-                       [](const Term& term) { return is_decimal(term.coefficient); });
+bool has_coordinate(const Polynomial& polynomial) {
+    for (const Term& term : polynomial.terms())
+        for (const Factor& factor : term.monomial)
+            if (factor.atom->info.kind == Symbol::coordinate ||
+                std::any_of(factor.atom->args.begin(), factor.atom->args.end(), has_coordinate))
+                return true;
+    return false;
+}
+
+const Term& first_term(const Polynomial& polynomial) {
+    return *std::min_element(polynomial.terms().begin(), polynomial.terms().end(), stands_before);
 }
 
 }  // namespace
@@ -89,21 +104,32 @@ bool has_state(const Monomial& monomial) {
     return std::any_of(monomial.begin(), monomial.end(), [](const Factor& factor) { return !factor.atom->steady; });
 }
 
-Phrase Composer::operator()(const Polynomial& polynomial) {
-    const auto found = memo_.find(polynomial);
-    if (found != memo_.end()) return found->second;
-    return memo_.emplace(polynomial, compose(polynomial)).first->second;
+/// 0.5·x + 9.81 is not (50·x + 981)/100.
+bool Composer::keeps_number(const Polynomial& polynomial) const {
+    return decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
+                                    [](const Term& term) { return !is_integer(term.coefficient); });
 }
 
+const Composer::Entry& Composer::entry(const Polynomial& polynomial) {
+    const auto found = memo_.find(polynomial);
+    if (found != memo_.end()) return found->second;
+    Phrase phrase = compose(polynomial);
+    const int measured = alembert::cost(phrase);
+    return memo_.emplace(polynomial, Entry{std::move(phrase), measured}).first->second;
+}
+
+const Phrase& Composer::operator()(const Polynomial& polynomial) { return entry(polynomial).phrase; }
+
+int Composer::cost(const Polynomial& polynomial) { return entry(polynomial).cost; }
+
 Phrase Composer::formula(const Polynomial& normal_form) {
-    return (*this)(unfold(normal_form, [this](const Polynomial& form) { return cost((*this)(form)); }));
+    return (*this)(unfold(normal_form, [this](const Polynomial& form) { return cost(form); }));
 }
 
 Phrase Composer::compose(const Polynomial& polynomial) {
     if (polynomial.is_zero()) return number(0);
     Factorization factors;
-    if (polynomial.size() > 1 && has_decimals(polynomial)) {
-        // 0.5·x + 9.81 is not (50·x + 981)/100
+    if (polynomial.size() > 1 && keeps_number(polynomial)) {
         factors.monomial = common_monomial(polynomial);
         factors.sums.emplace_back(divide(polynomial, factors.monomial), 1);
     } else {
@@ -131,10 +157,12 @@ Phrase Composer::compose(const Polynomial& polynomial) {
                               .base = call(is_sine ? "sin" : "cos", {sum(std::move(terms))}),
                               .exponent = factor.exponent,
                               .last = is_sine ? 0 : 1});
+            // cos(Ω·t)·cos θ
+            pieces.back().order = {has_coordinate(atom.args[0]) ? 1 : 0, 0, 0};
         } else if (atom.kind == Kind::base) {
             const Polynomial inside =
-                unfold(atom.args[0], [this](const Polynomial& form) { return cost((*this)(form)); });
-            const Rational scale = is_integer(factor.exponent) && !has_decimals(inside) ? content(inside) : Rational(1);
+                unfold(atom.args[0], [this](const Polynomial& form) { return cost(form); });
+            const Rational scale = is_integer(factor.exponent) && !keeps_number(inside) ? content(inside) : Rational(1);
             if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
             pieces.push_back({.place = atom.steady ? Standing::sum : Standing::function,
                               .tie = tie,
@@ -159,7 +187,12 @@ Phrase Composer::compose(const Polynomial& polynomial) {
     }
     if (!exponential.is_zero())
         pieces.push_back({.place = Standing::function, .tie = exponential, .base = call("exp", {formula(exponential)})});
-    for (const auto& [sum, exponent] : factors.sums) {
+    for (auto& [sum, exponent] : factors.sums) {
+        // (C−A)·x, not −(A−C)·x
+        if (unit < 0 && exponent % 2 == 1 && may_turn(sum)) {
+            sum = -sum;
+            unit = -unit;
+        }
         const bool steady = std::none_of(sum.terms().begin(), sum.terms().end(),
                                          [](const Term& term) { return has_state(term.monomial); });
         pieces.push_back({.place = steady ? Standing::sum : Standing::state_sum,
@@ -171,8 +204,11 @@ Phrase Composer::compose(const Polynomial& polynomial) {
 
     std::vector<Phrase> above, below;
     const Rational size = cln::abs(unit);
-    const bool decimal = is_decimal(size);
-    if (decimal || cln::numerator(size) != 1) above.push_back(number(decimal ? size : Rational(cln::numerator(size))));
+    const bool decimal = decimals_ && !is_integer(size) && is_finite_decimal(size);
+    if (decimal)
+        above.push_back(number(size, true));
+    else if (cln::numerator(size) != 1)
+        above.push_back(number(Rational(cln::numerator(size))));
     if (!decimal && cln::denominator(size) != 1) below.push_back(number(Rational(cln::denominator(size))));
     for (Piece& piece : pieces) {
         const bool is_above = piece.exponent > 0;
@@ -190,20 +226,19 @@ Phrase Composer::flat(const std::vector<Polynomial>& parts) {
     std::vector<Phrase> terms;
     for (const Polynomial& part : sorted) terms.push_back((*this)(part));
     // r − l, not −l + r
-    const auto positive = std::find_if(terms.begin(), terms.end(),
-                                       [](const Phrase& term) { return term.kind != Phrase::Kind::negative; });
-    if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
+    const auto is_positive = [](const Phrase& term) { return term.kind != Phrase::Kind::negative; };
+    if (!is_positive(terms[0])) std::stable_partition(terms.begin(), terms.end(), is_positive);
     return sum(std::move(terms));
 }
 
 Phrase Composer::compose_sum(const Polynomial& polynomial) {
     Phrase best = flat(partition(polynomial, [](const AtomNode&) { return true; }));
     if (polynomial.size() < 3 || polynomial.size() > 60) return best;
-    int least = cost(best);
+    int least = alembert::cost(best);
     const auto offer = [&](const std::vector<Polynomial>& parts) {
         if (parts.size() == 1 || parts.size() == polynomial.size()) return;
         Phrase candidate = flat(parts);
-        const int offered = cost(candidate);
+        const int offered = alembert::cost(candidate);
         if (offered >= least) return;
         best = std::move(candidate);
         least = offered;

@@ -17,8 +17,13 @@ namespace alembert {
 
 class Composer {
 public:
+    /// With `decimals` all fractions that end as decimals are written so: 0.4·x + 9.81, not 2/5·x + 9.81.
+    explicit Composer(bool decimals = false) : decimals_(decimals) {}
+
     /// Sines and cosines are variables like others here. Sums are grouped where that is shorter.
-    Phrase operator()(const Polynomial& polynomial);
+    const Phrase& operator()(const Polynomial& polynomial);
+    /// cost((*this)(polynomial))
+    int cost(const Polynomial& polynomial);
     /// The same for a normal form, with multiple angles undone where that is shorter.
     Phrase formula(const Polynomial& normal_form);
 
@@ -29,31 +34,19 @@ private:
     Phrase compose_sum(const Polynomial& polynomial);
     Phrase flat(const std::vector<Polynomial>& parts);
 
+    bool keeps_number(const Polynomial& polynomial) const;
+
+    bool decimals_;
     Factorizer factorizer_;
-    std::map<Polynomial, Phrase, PolynomialLess> memo_;
+    struct Entry {
+        Phrase phrase;
+        int cost;
+    };
+    const Entry& entry(const Polynomial& polynomial);
+    std::map<Polynomial, Entry, PolynomialLess> memo_;
 };
 
 /// Not made of parameters and numbers alone.
 bool has_state(const Monomial& monomial);
-
-/// The factors of a monomial that satisfy `is_in`.
-template <typename Predicate>
-Monomial part(const Monomial& monomial, Predicate is_in) {
-    Monomial result;
-    for (const Factor& factor : monomial)
-        if (is_in(*factor.atom)) result.push_back(factor);
-    return result;
-}
-
-/// Sorts the terms of a polynomial into polynomials with equal `part(…, is_in)`, in the order of these parts.
-template <typename Predicate>
-std::vector<Polynomial> partition(const Polynomial& polynomial, Predicate is_in) {
-    const auto less = [](const Monomial& a, const Monomial& b) { return compare(a, b) < 0; };
-    std::map<Monomial, std::vector<Term>, decltype(less)> groups(less);
-    for (const Term& term : polynomial.terms()) groups[part(term.monomial, is_in)].push_back(term);
-    std::vector<Polynomial> result;
-    for (auto& [key, terms] : groups) result.push_back(Polynomial::collect(std::move(terms)));
-    return result;
-}
 
 }  // namespace alembert

@@ -21,7 +21,7 @@ struct AtomLess {
 struct Occurrence {
     int terms = 0;
     Rational highest = 0;
-    Rational unit = 1;  ///< every exponent is a multiple of it
+    Rational unit = 1;  ///< 1/n; every exponent is a multiple of it
 };
 using Occurrences = std::map<Atom, Occurrence, AtomLess>;
 
@@ -30,7 +30,7 @@ Occurrences occurrences(const Polynomial& polynomial) {
     for (const Term& term : polynomial.terms()) {
         for (const Factor& factor : term.monomial) {
             Occurrence& found = result[factor.atom];
-            found.unit = found.terms == 0 ? factor.exponent : common_divisor(found.unit, factor.exponent);
+            found.unit = common_divisor(found.unit, factor.exponent);
             ++found.terms;
             if (factor.exponent > found.highest) found.highest = factor.exponent;
         }

@@ -26,9 +26,10 @@ Phrase node(Kind kind, std::vector<Phrase> args) {
 
 namespace phrases {
 
-Phrase number(const Rational& value) {
+Phrase number(const Rational& value, bool decimal) {
     Phrase result;
     result.value = cln::abs(value);
+    result.decimal = decimal && is_finite_decimal(value);
     return value < 0 ? negative(std::move(result)) : result;
 }
 
@@ -92,7 +93,7 @@ int cost(const Phrase& phrase) {
     int result = 0;
     for (const Phrase& arg : phrase.args) result += cost(arg);
     switch (phrase.kind) {
-        case Kind::number: return is_integer(phrase.value) || is_decimal(phrase.value) ? 1 : 2;
+        case Kind::number: return is_integer(phrase.value) || phrase.decimal ? 1 : 2;
         case Kind::symbol: return 2;
         case Kind::sum: return result + static_cast<int>(phrase.args.size()) - 1;
         case Kind::product:
@@ -108,7 +109,7 @@ int cost(const Phrase& phrase) {
                                   first.args[0].kind == Kind::number;
             return result + (multiple ? 4 : 1);
         }
-        case Kind::negative: return result;
+        case Kind::negative: return result + 1;
     }
     return result;
 }
@@ -131,24 +132,28 @@ GiNaC::ex expression(const Phrase& phrase) {
     return GiNaC::function(GiNaC::function::find_function(phrase.name, count), args);
 }
 
-bool is_decimal(const Rational& value) {
-    if (is_integer(value)) return false;
-    const cln::cl_I denominator = cln::denominator(value);
-    cln::cl_I rest = denominator;
+bool is_finite_decimal(const Rational& value) {
+    cln::cl_I rest = cln::denominator(value);
     for (const int prime : {2, 5})
         while (cln::zerop(cln::mod(rest, prime))) rest = cln::exquo(rest, prime);
-    if (rest != 1) return false;
+    return rest == 1;
+}
+
+bool is_decimal(const Rational& value) {
+    if (is_integer(value) || !is_finite_decimal(value)) return false;
+    const cln::cl_I denominator = cln::denominator(value);
     const bool customary = denominator <= 8 || denominator == 16;
     return !customary || cln::abs(cln::numerator(value)) > 32;
 }
 
-std::string digits(const Rational& value) {
+std::string digits(const Phrase& number) {
+    const Rational& value = number.value;
     std::ostringstream stream;
     if (is_integer(value)) {
         stream << cln::numerator(value);
         return stream.str();
     }
-    if (!is_decimal(value)) return {};
+    if (!number.decimal) return {};
     cln::cl_I scale = 1;
     std::size_t places = 0;
     while (!is_integer(value * scale)) {
@@ -162,19 +167,19 @@ std::string digits(const Rational& value) {
 }
 
 Fronted take_front(const Phrase& phrase) {
-    if (phrase.kind == Kind::number) return {phrase.value, phrases::number(1)};
+    if (phrase.kind == Kind::number) return {phrase, phrases::number(1)};
     if (phrase.kind == Kind::product && phrase.args[0].kind == Kind::number) {
         std::vector<Phrase> rest(phrase.args.begin() + 1, phrase.args.end());
-        return {phrase.args[0].value, phrases::product(std::move(rest))};
+        return {phrase.args[0], phrases::product(std::move(rest))};
     }
     if (phrase.kind == Kind::quotient) {
         Fronted top = take_front(phrase.args[0]);
         const Fronted bottom = take_front(phrase.args[1]);
         // 2x/(3y) stays one fraction
-        if (!bottom.rest.is_number(1)) return {1, phrase};
-        return {top.front / bottom.front, std::move(top.rest)};
+        if (!bottom.rest.is_number(1)) return {phrases::number(1), phrase};
+        return {phrases::number(top.front.value / bottom.front.value), std::move(top.rest)};
     }
-    return {1, phrase};
+    return {phrases::number(1), phrase};
 }
 
 }  // namespace alembert

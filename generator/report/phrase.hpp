@@ -31,6 +31,7 @@ struct Phrase {
     };
     Kind kind = Kind::number;
     Rational value = 0;
+    bool decimal = false;  ///< the number is written 0.4, not 2/5
     SymbolInfo info;
     GiNaC::ex symbol;
     std::string name;
@@ -42,7 +43,8 @@ struct Phrase {
 /// What phrases are made with.
 namespace phrases {
 
-Phrase number(const Rational& value);  ///< a `negative` where value < 0
+/// A `negative` where value < 0. With `decimal` a fraction that ends as a decimal is written as one.
+Phrase number(const Rational& value, bool decimal = false);
 Phrase symbol(const GiNaC::ex& symbol, const SymbolInfo& info);
 Phrase pi();
 Phrase sum(std::vector<Phrase> terms);       ///< 0 for none; sums among the terms are joined to it
@@ -61,17 +63,19 @@ int cost(const Phrase& phrase);
 /// Back to GiNaC. Throws std::runtime_error for a function that GiNaC does not know.
 GiNaC::ex expression(const Phrase& phrase);
 
-/// 9.81 is written as a decimal, 3/4 and 2/5 as fractions: true where a finite decimal is no customary fraction.
+/// 9.81 comes from a decimal, 3/4 and 2/5 are fractions: true where a finite decimal is no customary fraction.
 bool is_decimal(const Rational& value);
+/// No primes but 2 and 5 in the denominator.
+bool is_finite_decimal(const Rational& value);
 
-/// The digits of a number that is not negative: `12`, `9.81`, or empty for a fraction.
-std::string digits(const Rational& value);
+/// The digits of a number phrase: `12`, `9.81`, or empty for a fraction.
+std::string digits(const Phrase& number);
 
 /// `2/3·x` and `x/2` have the fraction in front where it is built over a bar. Gives the number in front (1 if none) and
 /// what is left of a product or quotient.
 struct Fronted {
-    Rational front = 1;
-    Phrase rest;  ///< 1 where nothing is left
+    Phrase front;  ///< a number, 1 if none
+    Phrase rest;   ///< 1 where nothing is left
 };
 Fronted take_front(const Phrase& phrase);
 

@@ -72,8 +72,14 @@ Polynomial times(const Monomial& key, const Polynomial& coefficient) {
 
 using Lines = std::vector<Polynomial>;  ///< each is one term of the outermost sum
 
+bool has_decimals(const Fourier& f) {
+    return std::any_of(f.terms().begin(), f.terms().end(), [](const Term& term) { return is_decimal(term.coefficient); });
+}
+
 class Writer {
 public:
+    explicit Writer(bool decimals) : compose_(decimals) {}
+
     Lines lines(const Fourier& f) {
         std::vector<Term> accelerated, others;
         for (const Term& term : f.terms())
@@ -128,7 +134,7 @@ private:
 
     int cost(const Lines& lines) {
         int result = static_cast<int>(lines.size()) - 1;
-        for (const Polynomial& line : lines) result += alembert::cost(compose_(line));
+        for (const Polynomial& line : lines) result += compose_.cost(line);
         return result;
     }
 
@@ -141,10 +147,14 @@ private:
         const auto is_circular = [](const AtomNode& atom) { return atom.is_circular(); };
         std::vector<Lines> options;
         if (kind == Class::position) {
-            options.push_back(partition(group, [](const AtomNode& atom) { return !atom.steady; }));
-            options.push_back(partition(group, is_circular));
-            options.push_back(partition(group, [](const AtomNode& atom) { return atom.steady; }));
-            if (may_stand_as_one(group)) options.push_back({group});
+            const auto offer = [&](Lines option) {
+                const auto may_stand = [this](const Polynomial& line) { return may_stand_as_one(line); };
+                if (std::all_of(option.begin(), option.end(), may_stand)) options.push_back(std::move(option));
+            };
+            offer({group});
+            options.push_back(by_state(group));
+            offer(partition(group, is_circular));
+            offer(partition(group, [](const AtomNode& atom) { return atom.steady; }));
         } else {
             options.push_back(partition(group, is_circular));
             options.push_back({group});
@@ -161,20 +171,34 @@ private:
         return std::move(*best);
     }
 
-    /// k·(r−l0), m·g·l·(1−cos θ), (x1−x2)²; but not k·(2·x1−x2) nor a·(sin θ+sin ψ).
+    /// A line for each product of state variables; constants that have nothing in common stand alone.
+    Lines by_state(const Polynomial& group) {
+        Lines result;
+        for (const Polynomial& line : partition(group, [](const AtomNode& atom) { return !atom.steady; })) {
+            if (has_state(line.terms()[0].monomial) || may_stand_as_one(line))
+                result.push_back(line);
+            else
+                for (const Term& term : line.terms()) result.push_back(Polynomial::collect({term}));
+        }
+        return result;
+    }
+
+    /// k·(r−l0), m·g·l·(1−cos θ), (x1−x2)²; but not k·(2·x1−x2), a·(sin θ+sin ψ) nor (r·ω²·cos θ−g)·sin θ.
     bool may_stand_as_one(const Polynomial& group) {
+        if (group.size() == 1) return true;
         const Factorization factors = compose_.factorizer()(group);
+        const auto is_circular = [](const AtomNode& atom) { return atom.is_circular(); };
+        const bool is_lone = factors.sums.size() == 1 && factors.sums[0].second == 1;
+        if (is_lone && factors.monomial.empty()) return false;
         for (const auto& [sum, exponent] : factors.sums) {
             bool has_wave = false;
-            bool has_steady = false;
+            bool has_number = false;
             for (const Term& term : sum.terms()) {
-                if (exponent == 1 && cln::abs(term.coefficient) != 1) return false;
-                has_wave = has_wave || std::any_of(term.monomial.begin(), term.monomial.end(), [](const Factor& factor) {
-                               return factor.atom->is_circular();
-                           });
-                has_steady = has_steady || !has_state(term.monomial);
+                if (exponent == 1 && has_state(term.monomial) && cln::abs(term.coefficient) != 1) return false;
+                has_wave = has_wave || !part(term.monomial, is_circular).empty();
+                has_number = has_number || term.monomial.empty();
             }
-            if (has_wave && !has_steady) return false;
+            if (has_wave && (!has_number || !part(factors.monomial, is_circular).empty())) return false;
         }
         return true;
     }
@@ -194,7 +218,7 @@ private:
                 rest.push_back(line);
             }
         }
-        if (count < 2 || all.is_zero() || !may_stand_as_one(all)) return;
+        if (count < 2 || !may_stand_as_one(all)) return;
         Lines separate;
         for (const Polynomial& line : lines)
             if (classify(line.terms()[0].monomial) == Class::linear && !circular(line.terms()[0].monomial))
@@ -218,7 +242,9 @@ private:
                     result = result * power(sum, exponent);
             return result;
         };
-        return x.unit == y.unit && compare(steady(x), steady(y)) == 0 && steady_sums(x) == steady_sums(y);
+        const bool is_trivial = steady(x).empty() && steady_sums(x).is_one();
+        return !is_trivial && x.unit == y.unit && compare(steady(x), steady(y)) == 0 &&
+               steady_sums(x) == steady_sums(y);
     }
 
     static bool before(const Polynomial& a, const Polynomial& b) {
@@ -268,7 +294,6 @@ Rational common_number(const Lines& lhs, const Lines& rhs) {
     for (const Lines* side : {&lhs, &rhs})
         for (const Polynomial& line : *side)
             for (const Term& term : line.terms()) {
-                if (is_decimal(term.coefficient)) return 1;
                 common = common_divisor(common, term.coefficient);
                 all.push_back(term.coefficient);
             }
@@ -281,17 +306,18 @@ Rational common_number(const Lines& lhs, const Lines& rhs) {
 }  // namespace
 
 Phrase readable(const Fourier& f) {
-    Writer writer;
+    Writer writer(has_decimals(f));
     return writer.write(writer.energy_lines(f));
 }
 
 ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
-    Writer writer;
+    const bool decimals = has_decimals(lhs) || has_decimals(rhs);
+    Writer writer(decimals);
     Factorizer& factorizer = writer.composer().factorizer();
     const CommonFactor common = common_factor(lhs, rhs, factorizer);
     Lines left = writer.lines(divide(lhs, common, factorizer));
     Lines right = writer.lines(divide(rhs, common, factorizer));
-    Rational scale = common_number(left, right);
+    Rational scale = decimals ? Rational(1) : common_number(left, right);
     const Lines& first = left.empty() ? right : left;
     if (!first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
     for (Lines* side : {&left, &right})

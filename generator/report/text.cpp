@@ -21,13 +21,13 @@ std::string enclosed(const Phrase& phrase, bool parentheses) {
 bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
 
 std::string number_text(const Phrase& phrase) {
-    if (std::string plain = digits(phrase.value); !plain.empty()) return plain;
+    if (std::string plain = digits(phrase); !plain.empty()) return plain;
     std::ostringstream stream;
     stream << cln::numerator(phrase.value) << '/' << cln::denominator(phrase.value);
     return stream.str();
 }
 
-bool is_fraction(const Phrase& phrase) { return phrase.kind == Kind::number && digits(phrase.value).empty(); }
+bool is_fraction(const Phrase& phrase) { return phrase.kind == Kind::number && digits(phrase).empty(); }
 
 std::string write_sum(const Phrase& phrase, const char* plus, const char* minus) {
     std::string result;
@@ -52,8 +52,13 @@ std::string write_product(const Phrase& phrase) {
     return result;
 }
 
+/// As the scene language calls a function of GiNaC.
+std::string language_name(const std::string& name) {
+    return name == "csgn" ? "sign" : name == "minimum" ? "min" : name == "maximum" ? "max" : name;
+}
+
 std::string write_call(const Phrase& phrase) {
-    std::string result = (phrase.name == "csgn" ? "sign" : phrase.name) + "(";
+    std::string result = language_name(phrase.name) + "(";
     for (std::size_t i = 0; i < phrase.args.size(); ++i) result += (i ? "," : "") + write(phrase.args[i]);
     return result + ")";
 }

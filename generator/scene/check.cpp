@@ -18,7 +18,7 @@ public:
           quantities_(names_, diagnostics) {}
 
     void check() {
-        for (const std::size_t k : follow(scene_, names_, diagnostics_).definitions)
+        for (const std::size_t k : follow(scene_, diagnostics_).definitions)
             quantities_.describe(scene_.definitions[k]);
         check_values();
         check_geometry();

@@ -47,73 +47,72 @@ void Quantities::check(const Expression& expression, const Legal& legal) {
 }
 
 void Quantities::need_scalar(Context& context, const Tree& tree, int raised) {
-    if (is_vector(context, tree, raised))
+    if (rank(context, tree, raised) == Rank::vector)
         complain(context, tree, "a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)");
 }
 
-bool Quantities::is_vector(Context& context, const Tree& tree, int raised) {
+Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised) {
+    const auto refuse_vector = [&](const Tree& arg, int further, const char* message) {
+        if (rank(context, arg, raised + further) == Rank::vector) complain(context, arg, message);
+        return Rank::number;
+    };
     switch (tree.kind) {
-        case Kind::number: return false;
-        case Kind::name: meet_name(context, tree, raised); return false;
-        case Kind::call: return is_vector_call(context, tree, raised);
-        case Kind::sum: return is_vector_sum(context, tree, raised);
-        case Kind::product: return is_vector_product(context, tree, raised);
-        case Kind::negate: return is_vector(context, *tree.args[0], raised);
-        case Kind::reciprocal:
-            if (is_vector(context, *tree.args[0], raised)) complain(context, tree, "a division by a vector");
-            return false;
+        case Kind::number: return Rank::number;
+        case Kind::name: meet_name(context, tree, raised); return Rank::number;
+        case Kind::call: return rank_of_call(context, tree, raised);
+        case Kind::sum: return rank_of_sum(context, tree, raised);
+        case Kind::product: return rank_of_product(context, tree, raised);
+        case Kind::negate: return rank(context, *tree.args[0], raised);
+        case Kind::reciprocal: return refuse_vector(*tree.args[0], 0, "a division by a vector");
         case Kind::power:
-            for (const TreePtr& arg : tree.args)
-                if (is_vector(context, *arg, raised))
-                    complain(context, *arg, "a vector in a power; its square is dot(u, u)");
-            return false;
+            for (const TreePtr& arg : tree.args) refuse_vector(*arg, 0, "a vector in a power; its square is dot(u, u)");
+            return Rank::number;
         case Kind::derivative:
-            if (is_vector(context, *tree.args[0], raised + tree.primes))
-                complain(context, tree, "a vector has no plain derivative; the rate of pos(P) is vel(P)");
-            return false;
+            return refuse_vector(*tree.args[0], tree.primes,
+                                 "a vector has no plain derivative; the rate of pos(P) is vel(P)");
     }
-    return false;
+    return Rank::number;
 }
 
-bool Quantities::is_vector_sum(Context& context, const Tree& tree, int raised) {
-    bool first = false;
-    for (std::size_t i = 0; i < tree.args.size(); ++i) {
-        const bool vector = is_vector(context, *tree.args[i], raised);
-        if (i == 0) first = vector;
-        if (vector != first) {
-            complain(context, *tree.args[i], vector ? "a vector is added to a number" : "a number is added to a vector");
-            return false;
-        }
-    }
-    return first;
-}
-
-bool Quantities::is_vector_product(Context& context, const Tree& tree, int raised) {
-    bool vector = false;
+Quantities::Rank Quantities::rank_of_sum(Context& context, const Tree& tree, int raised) {
+    Rank first = Rank::wrong;
+    bool is_consistent = true;
     for (const TreePtr& arg : tree.args) {
-        if (!is_vector(context, *arg, raised)) continue;
-        if (vector) {
-            complain(context, *arg, "a product of two vectors; write dot(u, v) or cross(u, v)");
-            return false;
-        }
-        vector = true;
+        const Rank next = rank(context, *arg, raised);
+        if (first == Rank::wrong) first = next;
+        if (next == first || next == Rank::wrong || !is_consistent) continue;
+        complain(context, *arg, next == Rank::vector ? "a vector is added to a number" : "a number is added to a vector");
+        is_consistent = false;
     }
-    return vector;
+    return is_consistent ? first : Rank::wrong;
 }
 
-bool Quantities::is_vector_call(Context& context, const Tree& tree, int raised) {
+Quantities::Rank Quantities::rank_of_product(Context& context, const Tree& tree, int raised) {
+    Rank product = Rank::number;
+    for (const TreePtr& arg : tree.args) {
+        const Rank factor = rank(context, *arg, raised);
+        if (factor == Rank::vector && product == Rank::vector) {
+            complain(context, *arg, "a product of two vectors; write dot(u, v) or cross(u, v)");
+            product = Rank::wrong;
+        }
+        if (factor != Rank::number && product != Rank::wrong) product = factor;
+    }
+    return product;
+}
+
+Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, int raised) {
     const Function* const function = find_function(tree.text);
     if (!function) {  // x'(-)
         for (const TreePtr& arg : tree.args) need_scalar(context, *arg, raised);
-        return false;
+        return Rank::number;
     }
     for (const TreePtr& arg : tree.args) switch (function->takes) {
             case Function::Takes::scalars:
-                if (is_vector(context, *arg, raised))
+                if (rank(context, *arg, raised) == Rank::vector)
                     complain(context, *arg, fmt::format("'{}' takes numbers, and this is a vector", function->name));
                 break;
             case Function::Takes::vectors:
-                if (!is_vector(context, *arg, raised))
+                if (rank(context, *arg, raised) == Rank::number)
                     complain(context, *arg,
                              fmt::format("'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
                                          "and this is a number",
@@ -130,7 +129,7 @@ bool Quantities::is_vector_call(Context& context, const Tree& tree, int raised) 
         const bool is_rate = function->name == "vel" || function->name == "omega";
         meet(context, tree, {.order = is_rate ? 1 : 0}, raised);
     }
-    return function->gives_vector;
+    return function->gives_vector ? Rank::vector : Rank::number;
 }
 
 void Quantities::meet_name(Context& context, const Tree& tree, int raised) {

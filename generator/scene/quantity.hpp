@@ -63,12 +63,14 @@ private:
     std::unordered_set<std::string> unknown_;  // each is told once for each expression
     int suggestions_ = 0;
 
+    enum class Rank { number, vector, wrong };  ///< wrong: a mistake was told, and nothing more follows from it
+
     void complain(const Context& context, const Tree& tree, std::string message);
-    bool is_vector(Context& context, const Tree& tree, int raised);
+    Rank rank(Context& context, const Tree& tree, int raised);
     void need_scalar(Context& context, const Tree& tree, int raised);
-    bool is_vector_sum(Context& context, const Tree& tree, int raised);
-    bool is_vector_product(Context& context, const Tree& tree, int raised);
-    bool is_vector_call(Context& context, const Tree& tree, int raised);
+    Rank rank_of_sum(Context& context, const Tree& tree, int raised);
+    Rank rank_of_product(Context& context, const Tree& tree, int raised);
+    Rank rank_of_call(Context& context, const Tree& tree, int raised);
     void meet_name(Context& context, const Tree& tree, int raised);
     void meet_unknown(Context& context, const Tree& tree);
     void meet(Context& context, const Tree& tree, Contents found, int raised);

@@ -13,6 +13,7 @@
 #include "scene/later.hpp"
 #include "scene/layout.hpp"
 #include "scene/scene.hpp"
+#include "scene/syntax.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -66,10 +67,11 @@ void read_section(const Reading& reading, const Section& section, const Entry& e
     }
     const toml::array* const list = entry.node->as_array();
     if (!list) {
-        const std::string found = entry.node->is_table() ? fmt::format("[{}]", section.name)
-                                                         : fmt::format("'{}' is {}", section.name, kind_of(*entry.node));
-        return reading.complain(header_of(entry), fmt::format("{0}; expected a list of tables: write [[{1}]] for each",
-                                                              found, section.name));
+        return reading.complain(header_of(entry),
+                                entry.node->is_table()
+                                    ? fmt::format("there may be many of these in a scene; write [[{}]] for each", section.name)
+                                    : fmt::format("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
+                                                  kind_of(*entry.node)));
     }
     for (const toml::node& node : *list)
         if (const toml::table* const table = node.as_table())
@@ -106,36 +108,14 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene, 
             refuse_unknown(reading, entry);
     }
     const Entry* const coordinates = top.find("coordinates");
-    if (scene.coordinates.empty() && !has_later)
+    const bool is_other = coordinates && !coordinates->node->is_table();  // which has been told
+    if (scene.coordinates.empty() && !has_later && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
                          "the scene has no [coordinates]; at least one is needed");
     scene.title = top.text("title");
     scene.source = top.text("source");
     scene.notes = top.text("notes");
     if (!scene.simulation.start) scene.simulation.start = zero({});
-}
-
-/// toml++'s message without its framing, in the words of a scene's author.
-Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout) {
-    const toml::source_position at = error.source().begin;
-    Place place{static_cast<int>(at.line), static_cast<int>(at.column)};
-    std::string message(error.description());
-    if (message.rfind("Error while parsing ", 0) == 0)
-        if (const std::size_t colon = message.find(": "); colon != std::string::npos) message.erase(0, colon + 2);
-    const auto between_quotes = [&] {
-        const std::size_t first = message.find('\''), last = message.rfind('\'');
-        return first < last ? message.substr(first + 1, last - first - 1) : std::string();
-    };
-    if (message.find("is not representable in 64 bits") != std::string::npos)
-        return {place, fmt::format("the number {} is beyond the range of double precision or of 64-bit integers",
-                                   escaped(between_quotes(), 40))};
-    if (message.rfind("cannot redefine existing", 0) == 0) {
-        const std::string name = message.find(" as ") == std::string::npos ? between_quotes() : "";
-        const auto first = layout.headers.find(name);
-        if (first != layout.headers.end())
-            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name), first->second.line)};
-    }
-    return {place, "not valid TOML: " + escaped(message, 200)};
 }
 
 [[noreturn]] void refuse_file(const std::string& file, std::string message) {
@@ -162,7 +142,7 @@ Scene parse_scene(std::string text, std::string file) {
         const toml::table root = toml::parse(layout.text);
         read_tables(Reading{source, mistakes, root.contains("joint")}, root, scene, others);
     } catch (const toml::parse_error& error) {
-        mistakes.push_back(syntax_mistake(error, layout));
+        mistakes.push_back(syntax_mistake(error, layout, source));
         fail(scene, std::move(mistakes));
     }
     std::vector<Diagnostic> more = check_scene(scene, others);

@@ -36,7 +36,7 @@ int levels_of(const Tree& tree) {
 
 class Graph {
 public:
-    Graph(const Scene& scene, const NameSpaces& names) : scene_(scene), names_(names) {
+    explicit Graph(const Scene& scene) : scene_(scene) {
         add(scene.parameters, Kind::parameter, values_);
         add(scene.inputs, Kind::input, values_);
         add(scene.definitions, Kind::definition, values_);
@@ -56,7 +56,6 @@ public:
 private:
     using Index = std::unordered_map<std::string, std::size_t>;
     const Scene& scene_;
-    const NameSpaces& names_;
     std::vector<Node> nodes_;
     Index values_, frames_, points_;
     References references_;
@@ -64,7 +63,9 @@ private:
     template <typename Item>
     void add(const std::vector<Item>& items, Kind kind, Index& index) {
         for (std::size_t i = 0; i < items.size(); ++i) {
-            index.emplace(items[i].name.text, nodes_.size());
+            const std::string& name = items[i].name.text;
+            const bool is_fixed = (&index == &frames_ && name == "N") || (&index == &points_ && name == "O");
+            if (!is_fixed) index.emplace(name, nodes_.size());
             nodes_.push_back({kind, i, &items[i].name});
         }
     }
@@ -194,8 +195,8 @@ private:
 
 }  // namespace
 
-References follow(const Scene& scene, const NameSpaces& names, std::vector<Diagnostic>& diagnostics) {
-    return Graph(scene, names).follow(diagnostics);
+References follow(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
+    return Graph(scene).follow(diagnostics);
 }
 
 }  // namespace alembert

@@ -14,6 +14,6 @@ struct References {
 };
 
 /// Tells circles (each once), and chains so long that they could not be followed.
-References follow(const Scene& scene, const NameSpaces& names, std::vector<Diagnostic>& diagnostics);
+References follow(const Scene& scene, std::vector<Diagnostic>& diagnostics);
 
 }  // namespace alembert

@@ -66,7 +66,7 @@ std::string escaped(std::string_view text, std::size_t most) {
     return result;
 }
 
-std::string in_quotes(std::string_view text) { return "'" + escaped(text) + "'"; }
+std::string in_quotes(std::string_view text) { return fmt::format("'{}'", escaped(text)); }
 
 int width(char32_t c) {
     const auto in = [c](char32_t first, char32_t last) { return c >= first && c <= last; };

@@ -13,6 +13,7 @@
 #include <ginac/ginac.h>
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -99,6 +100,26 @@ Rational content(const Polynomial& polynomial);
 Rational common_divisor(const Rational& a, const Rational& b);
 /// The quotient by c·monomial.
 Polynomial divide(const Polynomial& polynomial, const Monomial& monomial, const Rational& c = 1);
+
+/// The factors of a monomial that satisfy `is_in`.
+template <typename Predicate>
+Monomial part(const Monomial& monomial, Predicate is_in) {
+    Monomial result;
+    for (const Factor& factor : monomial)
+        if (is_in(*factor.atom)) result.push_back(factor);
+    return result;
+}
+
+/// Sorts the terms of a polynomial into polynomials with equal `part(…, is_in)`, in the order of these parts.
+template <typename Predicate>
+std::vector<Polynomial> partition(const Polynomial& polynomial, Predicate is_in) {
+    const auto less = [](const Monomial& a, const Monomial& b) { return compare(a, b) < 0; };
+    std::map<Monomial, std::vector<Term>, decltype(less)> groups(less);
+    for (const Term& term : polynomial.terms()) groups[part(term.monomial, is_in)].push_back(term);
+    std::vector<Polynomial> result;
+    for (auto& [key, terms] : groups) result.push_back(Polynomial::collect(std::move(terms)));
+    return result;
+}
 
 bool is_integer(const Rational& value);
 /// Throws std::overflow_error where the value is no small integer.

@@ -43,9 +43,12 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 std::vector<std::string> find_compiler(const std::string& wanted) {
     const char* const variable = std::getenv("CXX");
     std::vector<std::string> candidates;
-    if (!wanted.empty()) candidates = {wanted};
-    else if (variable != nullptr && *variable != '\0') candidates = {variable};
-    else candidates = {"g++", "clang++"};
+    if (!wanted.empty())
+        candidates = {wanted};
+    else if (variable != nullptr && *variable != '\0')
+        candidates = {variable};
+    else
+        candidates = {"g++", "clang++"};
 
     for (const std::string& candidate : candidates) {
         std::vector<std::string> words;
@@ -58,9 +61,10 @@ std::vector<std::string> find_compiler(const std::string& wanted) {
         words.front() = fs::absolute(program).string();
         return words;
     }
-    throw CompileError(fmt::format(
-        "no C++ compiler: looked for {}{} in $PATH; install one (on Debian: apt install g++) or name one with $CXX",
-        joined(candidates, " and "), wanted.empty() && candidates.size() == 1 ? " (from $CXX)" : ""));
+    throw CompileError(
+        fmt::format("no C++ compiler: looked for {}{} in $PATH; install one (on Debian: apt install g++) or name "
+                    "one with $CXX",
+                    joined(candidates, " and "), wanted.empty() && candidates.size() == 1 ? " (from $CXX)" : ""));
 }
 
 /// Path, size and date of every program among the words: `ccache g++` is two.
@@ -73,7 +77,8 @@ std::string identity(const std::vector<std::string>& compiler) {
         const fs::path real = program.empty() ? program : fs::canonical(program, none);
         struct stat info {};
         if (!real.empty() && stat(real.c_str(), &info) == 0)
-            text += fmt::format("{} {} {}.{}\n", real.string(), info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+            text += fmt::format("{} {} {}.{}\n", real.string(), info.st_size, info.st_mtim.tv_sec,
+                                info.st_mtim.tv_nsec);
     }
     return text;
 }
@@ -83,17 +88,21 @@ std::string processor() {
     std::ifstream file("/proc/cpuinfo");
     std::string text;
     for (std::string line; std::getline(file, line) && !line.empty();)
-        for (const char* key : {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ", "isa"})
+        for (const char* key :
+             {"vendor_id", "cpu family", "model", "stepping", "flags", "Features", "CPU ", "isa"})
             if (line.starts_with(key)) text += line + '\n';
     return text;
 }
 
 std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOptions& options) {
-    std::vector<std::string> flags = {"-std=c++20", "-shared", "-fPIC", source_size > large_source ? "-O1" : "-O2",
-                                      "-march=native", "-ffp-contract=fast", "-fno-math-errno",
-                                      "-fno-trapping-math", "-nostdlib", "-pipe"};
+    std::vector<std::string> flags = {"-std=c++20",      "-shared",
+                                      "-fPIC",           source_size > large_source ? "-O1" : "-O2",
+                                      "-march=native",   "-ffp-contract=fast",
+                                      "-fno-math-errno", "-fno-trapping-math",
+                                      "-nostdlib",       "-pipe"};
     if (options.fast_math)
-        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math"}) flags.emplace_back(flag);
+        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math"})
+            flags.emplace_back(flag);
     flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
     return flags;
 }
@@ -104,9 +113,10 @@ struct PrivateFolder {
         std::error_code none;
         std::string pattern = (fs::temp_directory_path(none) / "alembert-XXXXXX").string();
         if (none || mkdtemp(pattern.data()) == nullptr)
-            throw CompileError(fmt::format("cannot write to the cache, nor make a temporary folder {}: {}; "
-                                           "name a writable folder with $XDG_CACHE_HOME or $TMPDIR",
-                                           pattern, std::strerror(errno)));
+            throw CompileError(
+                fmt::format("cannot write to the cache, nor make a temporary folder {}: {}; "
+                            "name a writable folder with $XDG_CACHE_HOME or $TMPDIR",
+                            pattern, std::strerror(errno)));
         path = pattern;
     }
     PrivateFolder(const PrivateFolder&) = delete;
@@ -152,7 +162,8 @@ void write_file(const fs::path& path, std::string_view text, std::ios::openmode 
     file.write(text.data(), static_cast<std::streamsize>(text.size()));
     file.close();
     if (!file)
-        throw CompileError(fmt::format("cannot write {}: {}; is the disk full?", path.string(), std::strerror(errno)));
+        throw CompileError(
+            fmt::format("cannot write {}: {}; is the disk full?", path.string(), std::strerror(errno)));
 }
 
 std::string fingerprint(std::string_view bytes) {
@@ -161,7 +172,8 @@ std::string fingerprint(std::string_view bytes) {
     return print.hex();
 }
 
-/// Does the object end in the fingerprint of what comes before? (The loader does not mind bytes after the last section.)
+/// Does the object end in the fingerprint of what comes before? (The loader does not mind bytes after the last
+/// section.)
 bool is_intact(const fs::path& object) {
     const std::optional<std::string> bytes = read_file(object);
     if (!bytes || bytes->size() <= digits) return false;
@@ -178,7 +190,9 @@ void seal(const fs::path& object) {
 void move_into_place(const fs::path& from, const fs::path& to) {
     std::error_code failure;
     fs::rename(from, to, failure);
-    if (failure) throw CompileError(fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), failure.message()));
+    if (failure)
+        throw CompileError(
+            fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), failure.message()));
 }
 
 /// Removes what is left under a temporary name, whichever way the block ends.
@@ -195,7 +209,8 @@ struct Leftover {
 
 void build(std::vector<std::string> command, const std::string& source_text, const fs::path& object) {
     static std::atomic<int> counter = 0;
-    const fs::path stem = object.parent_path() / fmt::format(".{}-{}-{}", object.stem().string(), getpid(), counter++);
+    const fs::path stem =
+        object.parent_path() / fmt::format(".{}-{}-{}", object.stem().string(), getpid(), counter++);
     const Leftover source(fs::path(stem) += ".cpp");
     const Leftover result(fs::path(stem) += ".so");
     write_file(source.path, source_text, std::ios::trunc);

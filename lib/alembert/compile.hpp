@@ -11,16 +11,16 @@
 /// would cost more than a warm start may), the ABI version and the processor, since the code is for this
 /// processor alone. A file is written under a name of its own and renamed when complete, so that processes which
 /// compile the same thing at once do not disturb each other; it ends in its own fingerprint, and one that was cut
-/// short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder takes its
-/// place and is removed when the process ends.
+/// short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder takes
+/// its place and is removed when the process ends.
 ///
 /// Flags: no -ffast-math, ever: at link time it would switch the whole process to flush-to-zero when the object is
-/// loaded. `fast_math` adds single flags to the same command, and these leave the link alone: the result then depends on how the
-/// compiler orders sums. The start files and libstdc++ are left out (-nostdlib): emitted code needs libm only, and
-/// linking takes a third of the time without them.
+/// loaded. `fast_math` adds single flags to the same command, and these leave the link alone: the result then
+/// depends on how the compiler orders sums. The start files and libstdc++ are left out (-nostdlib): emitted code
+/// needs libm only, and linking takes a third of the time without them.
 ///
-/// Throws CompileError: no compiler (with what was looked for and what to install), the compiler's own errors, disk
-/// full. Nothing goes through a shell.
+/// Throws CompileError: no compiler (with what was looked for and what to install), the compiler's own errors,
+/// disk full. Nothing goes through a shell.
 
 #include <filesystem>
 #include <string>
@@ -29,10 +29,11 @@
 namespace alembert {
 
 struct CompileOptions {
-    std::string compiler;                  ///< program, perhaps with arguments; empty: $CXX if set, else g++, else clang++
-    std::vector<std::string> extra_flags;  ///< after ours, so that they win
+    std::string compiler = {};  ///< program, perhaps with arguments; empty: $CXX if set, else g++, else clang++
+    std::vector<std::string> extra_flags = {};  ///< after ours, so that they win
     bool fast_math = false;
-    std::filesystem::path cache;  ///< empty: $XDG_CACHE_HOME/alembert, else $HOME/.cache/alembert, else a private folder
+    std::filesystem::path cache =
+        {};  ///< empty: $XDG_CACHE_HOME/alembert, else $HOME/.cache/alembert, else a private folder
 };
 
 struct Compiled {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The numbers of dop853, in the layout of tableau.hpp: order 8, an error estimate from embedded formulas of orders 5
-/// and 3, dense output of order 7 by three more stages.
+/// The numbers of dop853, in the layout of tableau.hpp: order 8, an error estimate from embedded formulas of
+/// orders 5 and 3, dense output of order 7 by three more stages.
 ///
 /// Sources: Prince & Dormand, J. Comp. Appl. Math. 7 (1981) 67-75, the family; Hairer, Nørsett, Wanner, Solving
-/// Ordinary Differential Equations I, 2nd ed. 1993, §II.5 and §II.10 (Dormand-Prince 8(5,3)) and §II.6 (dense output),
-/// which give the numbers with 30 digits; here they stand rounded to double, as shortest decimals that read back. A
-/// test holds them against the order conditions.
+/// Ordinary Differential Equations I, 2nd ed. 1993, §II.5 and §II.10 (Dormand-Prince 8(5,3)) and §II.6 (dense
+/// output), which give the numbers with 30 digits; here they stand rounded to double, as shortest decimals that
+/// read back. A test holds them against the order conditions.
 
 #include "alembert/tableau.hpp"
 

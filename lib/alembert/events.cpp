@@ -16,14 +16,18 @@ constexpr int points = 5;  ///< where a step is looked at, ends included
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-int sign(double g) { return (g > 0) - (g < 0); }
+int sign(double g) {
+    return (g > 0) - (g < 0);
+}
 
 struct EmittedEvents {
     Module module;
     std::vector<double> par;
 };
 
-double simultaneous(const Stretch& step) { return 1e-12 * std::max(std::abs(step.end), step.end - step.start); }
+double simultaneous(const Stretch& step) {
+    return 1e-12 * std::max(std::abs(step.end), step.end - step.start);
+}
 
 }  // namespace
 
@@ -77,7 +81,8 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
     for (std::size_t i = 1; i < found.size(); ++i)  // neighbours that are simultaneous: as declared
         for (std::size_t j = i; j > 0 && found[j].index < found[j - 1].index &&
-                                found[j].time - found[j - 1].time <= simultaneous(step); --j)
+                                found[j].time - found[j - 1].time <= simultaneous(step);
+             --j)
             std::swap(found[j], found[j - 1]);
     return found;
 }
@@ -109,7 +114,8 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
     for (std::size_t i = 1; i < g.size(); ++i) {
         const int now = sign(g[i]);
         if (last_sign != 0 && now == 0) record(step, index, theta[i], found);
-        if (last_sign * now < 0) record(step, index, locate(step, index, theta[i - 1], g[i - 1], theta[i], g[i]), found);
+        if (last_sign * now < 0)
+            record(step, index, locate(step, index, theta[i - 1], g[i - 1], theta[i], g[i]), found);
         if (!std::isnan(g[i])) last_sign = now;
     }
 }
@@ -145,7 +151,8 @@ double EventWatch::turning_point(const Stretch& step, int index, const double* t
     return g_a <= 0 ? a : none;
 }
 
-double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right, double g_right) {
+double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right,
+                          double g_right) {
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero
     double c = a, g_c = g_a;          // the point before
@@ -169,7 +176,8 @@ double EventWatch::locate(const Stretch& step, int index, double left, double g_
         const double phi = (g_b - g_a) / (g_c - g_a);
         part = 0.5;
         if (phi * phi < xi && (1 - phi) * (1 - phi) < 1 - xi)  // inverse quadratic interpolation is safe
-            part = g_b / (g_a - g_b) * g_c / (g_a - g_c) + (c - b) / (a - b) * g_b / (g_c - g_b) * g_a / (g_c - g_a);
+            part =
+                g_b / (g_a - g_b) * g_c / (g_a - g_c) + (c - b) / (a - b) * g_b / (g_c - g_b) * g_a / (g_c - g_a);
         part = std::clamp(part, least / width, 1 - least / width);
     }
     return b;

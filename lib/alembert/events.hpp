@@ -7,10 +7,11 @@
 ///                                        [](double, const double* y, const double*, double* g) { g[0] = y[0]; });
 ///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
 ///
-/// What counts: g changes its sign, or is exactly zero after it was not. A zero at the very start (closer than 1e-12
-/// of the step, or of the time) is none. Every step is looked at in its interior too, so that two zeros in one step
-/// are found: at three points, and at the turning point of a parabola through three neighbours if that comes near
-/// zero. Two zeros closer together than this can see, and a touch that rounding keeps off zero, go unseen.
+/// What counts: g changes its sign, or is exactly zero after it was not. A zero at the very start (closer than
+/// 1e-12 of the step, or of the time) is none. Every step is looked at in its interior too, so that two zeros in
+/// one step are found: at three points, and at the turning point of a parabola through three neighbours if that
+/// comes near zero. Two zeros closer together than this can see, and a touch that rounding keeps off zero, go
+/// unseen.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
@@ -34,8 +35,8 @@ struct Event {
 
 struct Events {
     using Call = void (*)(const void* context, double t, const double* state, const double* rate, double* out);
-    std::vector<Event> list;
-    std::shared_ptr<const void> context;
+    std::vector<Event> list = {};
+    std::shared_ptr<const void> context = {};
     Call call = nullptr;
 
     void operator()(double t, const double* state, const double* rate, double* out) const {
@@ -49,10 +50,10 @@ Events make_events(const Module& module, const std::vector<double>& values, cons
 /// Any function (t, state, rate, out), `out` having a place for each of the list.
 template <std::invocable<double, const double*, const double*, double*> Function>
 Events make_events(std::vector<Event> list, Function function) {
-    const Events::Call call = [](const void* context, double t, const double* state, const double* rate, double* out) {
-        (*static_cast<const Function*>(context))(t, state, rate, out);
-    };
-    return {.list = std::move(list), .context = std::make_shared<const Function>(std::move(function)), .call = call};
+    const Events::Call call = [](const void* context, double t, const double* state, const double* rate,
+                                 double* out) { (*static_cast<const Function*>(context))(t, state, rate, out); };
+    return {
+        .list = std::move(list), .context = std::make_shared<const Function>(std::move(function)), .call = call};
 }
 
 /// A finished step, as the search sees it.
@@ -61,7 +62,7 @@ struct Stretch {
     double end = 0;
     const double* end_state = nullptr;
     const double* end_rate = nullptr;
-    std::function<void(double theta, double* state)> interpolate;
+    std::function<void(double theta, double* state)> interpolate = {};
 };
 
 /// A zero of event `index`.
@@ -91,9 +92,9 @@ private:
     double run_start_ = 0;
     long evaluations_ = 0;
     std::vector<double> state_, rate_, out_;
-    std::vector<double> last_;   ///< values at the start of the step
-    std::vector<int> sign_;      ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
-    std::vector<double> grid_;   ///< values at the points of the step, by point
+    std::vector<double> last_;  ///< values at the start of the step
+    std::vector<int> sign_;     ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
+    std::vector<double> grid_;  ///< values at the points of the step, by point
 };
 
 }  // namespace alembert

@@ -37,7 +37,8 @@ public:
     std::string hex() const {
         std::string text(32, '0');
         for (int i = 0; i < 32; ++i)
-            text[static_cast<std::size_t>(i)] = "0123456789abcdef"[static_cast<unsigned>(state_ >> (4 * (31 - i))) & 15U];
+            text[static_cast<std::size_t>(i)] =
+                "0123456789abcdef"[static_cast<unsigned>(state_ >> (4 * (31 - i))) & 15U];
         return text;
     }
 

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double most_rows = 1e8;
+constexpr double most_steps = 1e15;  // what is told apart in t
 
 double thread_seconds() {
     timespec now{};
@@ -48,12 +49,15 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("end", options.start + options.duration, true, "start + duration must be finite");
     number("tolerance", options.tolerance, options.tolerance > 0, "a finite positive number is needed");
     number("step", options.step, options.step >= 0, "a finite number, zero or more, is needed");
-    number("longest_step", options.longest_step, options.longest_step >= 0, "a finite number, zero or more, is needed");
+    number("longest_step", options.longest_step, options.longest_step >= 0,
+           "a finite number, zero or more, is needed");
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
           fmt::format("{} has a fixed step: give it, for example step = {:g}", name(options.method),
                       options.duration / 1000));
+    check(!has_fixed_step(options.method) || options.duration == 0 || options.duration / options.step < most_steps,
+          fmt::format("step = {}: more than {:g} steps", options.step, most_steps));
     check(options.duration == 0 || options.duration / sample_interval(options) < most_rows,
           fmt::format("sample = {}: more than {:g} rows", options.sample, most_rows));
 }
@@ -83,14 +87,17 @@ public:
         if (!step_.starts_finite()) {
             const int bad = step_.worst_component();
             fail(FailureKind::not_a_number, bad,
-                 fmt::format("the rate of {} is not finite at the start, t = {:.17g}; look at its equation, and at the "
-                             "initial values and parameters",
-                             step_.rhs().describe(bad), options_.start));
+                 fmt::format(
+                     "the rate of {} is not finite at the start, t = {:.17g}; look at its equation, and at the "
+                     "initial values and parameters",
+                     step_.rhs().describe(bad), options_.start));
         } else if (options_.duration > 0) {
             watch_.begin(step_.time(), step_.state(), step_.rate());
             tell(step_.time(), step_.state(), step_.rate());
-            if constexpr (tableau.error_rows == 0) fixed_steps();
-            else adaptive_steps();
+            if constexpr (tableau.error_rows == 0)
+                fixed_steps();
+            else
+                adaptive_steps();
         }
         result_.statistics.evaluations = evaluations();
         return std::move(result_);
@@ -157,11 +164,12 @@ private:
     }
 
     std::vector<Crossing> look_for_events() {
-        return watch_.look({.start = step_.time(),
-                            .end = step_.end_time(),
-                            .end_state = step_.end_state(),
-                            .end_rate = step_.end_rate(),
-                            .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }});
+        return watch_.look(
+            {.start = step_.time(),
+             .end = step_.end_time(),
+             .end_state = step_.end_state(),
+             .end_rate = step_.end_rate(),
+             .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }});
     }
 
     /// The state there is in row_.
@@ -169,6 +177,7 @@ private:
         step_.rhs()(time, row_.data(), event_rate_.data());
         ++further_evaluations_;
         tell(time, row_.data(), event_rate_.data());
+        if (rows_on_grid_ > 1 && result_.times.back() > time - 1e-9 * sample_interval(options_)) drop_row();
         if (result_.times.back() < time) add_row(time, row_.data());
         result_.ending = Ending::stopped_by_event;
     }
@@ -179,8 +188,10 @@ private:
         for (;;) {
             const double next = options_.start + static_cast<double>(rows_on_grid_) * interval;
             if (next > time || next >= end_ - 1e-9 * interval) return;
-            if (next == step_.end_time()) std::copy_n(step_.end_state(), row_.size(), row_.begin());
-            else step_.interpolate((next - step_.time()) / step_.length(), row_.data());
+            if (next == step_.end_time())
+                std::copy_n(step_.end_state(), row_.size(), row_.begin());
+            else
+                step_.interpolate((next - step_.time()) / step_.length(), row_.data());
             add_row(next, row_.data());
             ++rows_on_grid_;
         }
@@ -191,13 +202,18 @@ private:
         result_.states.insert(result_.states.end(), state, state + result_.dimension);
     }
 
+    void drop_row() {
+        result_.times.pop_back();
+        result_.states.resize(result_.states.size() - row_.size());
+    }
+
     void tell(double time, const double* state, const double* rate) const {
         const auto size = static_cast<std::size_t>(result_.dimension);
         if (options_.on_step) options_.on_step(time, {state, size}, {rate, size});
     }
 
     bool is_over_budget() {
-        if (evaluations() + tableau.stages <= options_.budget) return false;
+        if (evaluations() + tableau.all_stages <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
              fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget "
                          "(--budget), loosen the tolerance or shorten the duration",
@@ -208,22 +224,26 @@ private:
     void fail_fixed() {
         const int bad = step_.worst_component();
         fail(FailureKind::not_a_number, bad,
-             fmt::format("{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
-                         "dop853",
-                         step_.rhs().describe(bad), step_.time()));
+             fmt::format(
+                 "{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
+                 "dop853",
+                 step_.rhs().describe(bad), step_.time()));
     }
 
     void fail_underflow(double misfit, double h) {
         const int worst = step_.worst_component();
         const std::string where = fmt::format("step size underflow at t = {:.17g} (step {:.3g})", step_.time(), h);
         const std::string component = step_.rhs().describe(worst);
-        fail(FailureKind::step_underflow, worst,
-             std::isfinite(misfit)
-                 ? fmt::format("{}: {} is the stiffest component, its error was {:.3g} times the tolerance; there may be a "
-                               "singularity here, or the tolerance is beyond double precision",
-                               where, component, misfit / options_.tolerance)
-                 : fmt::format("{}: {} or its rate is not finite, however short the step; there is a singularity here",
-                               where, component));
+        fail(
+            FailureKind::step_underflow, worst,
+            std::isfinite(misfit)
+                ? fmt::format(
+                      "{}: {} is the stiffest component, its error was {:.3g} times the tolerance; there may be a "
+                      "singularity here, or the tolerance is beyond double precision",
+                      where, component, misfit / options_.tolerance)
+                : fmt::format(
+                      "{}: {} or its rate is not finite, however short the step; there is a singularity here",
+                      where, component));
     }
 
     /// Ends the run at the start of the step that failed, which becomes the last row.
@@ -267,18 +287,25 @@ constexpr std::array<MethodEntry, 4> methods = {{{Method::euler, "euler", true, 
                                                  {Method::dopri5, "dopri5", false, run<dopri5_tableau>},
                                                  {Method::dop853, "dop853", false, run<dop853_tableau>}}};
 
-const MethodEntry& entry(Method method) { return methods[static_cast<std::size_t>(method)]; }
+const MethodEntry& entry(Method method) {
+    return methods[static_cast<std::size_t>(method)];
+}
 
 }  // namespace
 
-std::string_view name(Method method) { return entry(method).name; }
+std::string_view name(Method method) {
+    return entry(method).name;
+}
 
 std::optional<Method> method_named(std::string_view name) {
-    const auto found = std::find_if(methods.begin(), methods.end(), [&](const auto& one) { return one.name == name; });
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const auto& one) { return one.name == name; });
     return found != methods.end() ? std::optional(found->method) : std::nullopt;
 }
 
-bool has_fixed_step(Method method) { return entry(method).fixed_step; }
+bool has_fixed_step(Method method) {
+    return entry(method).fixed_step;
+}
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events) {
@@ -289,6 +316,8 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
     return result;
 }
 
-void throw_failure(const Failure& failure) { throw IntegrationError(failure.message, failure.time, failure.state); }
+void throw_failure(const Failure& failure) {
+    throw IntegrationError(failure.message, failure.time, failure.state);
+}
 
 }  // namespace alembert

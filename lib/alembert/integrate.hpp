@@ -13,13 +13,13 @@
 /// | dopri5 | 5, estimate of order 4 | adaptive | order 4 |
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 |
 ///
-/// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance as
-/// given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step that a
-/// row or an event falls in, dense output adds its own error, for dop853 somewhat more than the tolerance; the
-/// last row of a run that completes is the end of a step.
+/// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
+/// as given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step
+/// that a row or an event falls in, dense output adds its own error, for dop853 somewhat more than the tolerance;
+/// the last row of a run that completes is the end of a step.
 ///
-/// What fails while it runs is in Trajectory::failure, with the rows until then. std::invalid_argument is thrown for
-/// options that make no sense: each message says which. Nothing is allocated per step.
+/// What fails while it runs is in Trajectory::failure, with the rows until then. std::invalid_argument is thrown
+/// for options that make no sense: each message says which. Nothing is allocated per step.
 
 #include <functional>
 #include <optional>
@@ -46,13 +46,13 @@ using OnStep = std::function<void(double t, std::span<const double> state, std::
 struct Options {
     Method method = Method::dop853;
     double start = 0;
-    double duration = 0;      ///< from the start; 0 gives one row
-    double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;          ///< the step of euler and rk4; first step of the others, 0: found automatically
-    double longest_step = 0;  ///< adaptive methods; 0: no bound
-    double sample = 0;        ///< time between rows; 0: duration/200
-    long budget = 10'000'000; ///< evaluations of the right-hand side
-    OnStep on_step = {};      ///< may be empty
+    double duration = 0;       ///< from the start; 0 gives one row
+    double tolerance = 1e-9;   ///< adaptive methods
+    double step = 0;           ///< the step of euler and rk4; first step of the others, 0: found automatically
+    double longest_step = 0;   ///< adaptive methods; 0: no bound
+    double sample = 0;         ///< time between rows; 0: duration/200
+    long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
+    OnStep on_step = {};       ///< may be empty
 };
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,

@@ -17,9 +17,10 @@ Module load(const std::filesystem::path& object) {
     const std::string path = std::filesystem::absolute(object).string();
     void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr)
-        throw CompileError(fmt::format("cannot load the solver: {}; delete it from the cache, and see that the folder "
-                                       "allows programs to run",
-                                       dlerror()));
+        throw CompileError(
+            fmt::format("cannot load the solver: {}; delete it from the cache, and see that the folder "
+                        "allows programs to run",
+                        dlerror()));
     const std::shared_ptr<void> file(handle, [](void* open) { dlclose(open); });
 
     using Entry = const alembert_solver_table* (*)();
@@ -27,9 +28,10 @@ Module load(const std::filesystem::path& object) {
     const alembert_solver_table* const table = entry != nullptr ? entry() : nullptr;
     if (table == nullptr) throw CompileError(path + " is not a solver: it has no alembert_solver()");
     if (table->abi != abi_version)
-        throw CompileError(fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
-                                       "emit it again",
-                                       path, table->abi, abi_version));
+        throw CompileError(
+            fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
+                        "emit it again",
+                        path, table->abi, abi_version));
     return Module(std::shared_ptr<const alembert_solver_table>(file, table));
 }
 
@@ -37,10 +39,13 @@ std::vector<double> prepared(const Module& module, const std::vector<double>& va
     const alembert_solver_table& solver = module.table();
     const auto count = static_cast<std::size_t>(solver.parameters);
     if (!values.empty() && values.size() != count)
-        throw std::invalid_argument(fmt::format("{} takes {} parameters, {} were given", solver.scene, count, values.size()));
+        throw std::invalid_argument(
+            fmt::format("{} takes {} parameters, {} were given", solver.scene, count, values.size()));
     std::vector<double> par(count + static_cast<std::size_t>(solver.constants));
-    if (values.empty()) std::copy_n(solver.parameter_values, count, par.begin());
-    else std::copy(values.begin(), values.end(), par.begin());
+    if (values.empty())
+        std::copy_n(solver.parameter_values, count, par.begin());
+    else
+        std::copy(values.begin(), values.end(), par.begin());
     if (solver.prepare != nullptr) solver.prepare(par.data());
     return par;
 }

@@ -5,12 +5,14 @@
 ///
 ///     const Rhs decay = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = -y[0]; });
 ///     const Rhs pendulum = make_rhs(module, {1.0, 9.81});               // parameters in the scene's order
-///     const Rhs driven = make_rhs(module, {}, Work::integrated);        // the scene's own values, one more component
+///     const Rhs driven = make_rhs(module, {}, Work::integrated);        // the scene's own values, one more
+///     component
 ///
-/// The last `extra` components are quadratures: integrated with the same stages, but left out of error control, and
-/// nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the work balance.
-/// A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if the function is.
-/// `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no sense.
+/// The last `extra` components are quadratures: integrated with the same stages, but left out of error control,
+/// and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the work
+/// balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if the
+/// function is. `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no
+/// sense.
 
 #include <concepts>
 #include <memory>
@@ -26,10 +28,10 @@ namespace alembert {
 struct Rhs {
     using Call = void (*)(const void* context, double t, const double* state, double* rate);
 
-    int dimension = 0;  ///< of the state, quadratures included
-    int extra = 0;      ///< how many of the last components are quadratures
-    std::vector<std::string> names;  ///< of the components; may be empty
-    std::shared_ptr<const void> context;
+    int dimension = 0;                    ///< of the state, quadratures included
+    int extra = 0;                        ///< how many of the last components are quadratures
+    std::vector<std::string> names = {};  ///< of the components; may be empty
+    std::shared_ptr<const void> context = {};
     Call call = nullptr;
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
@@ -47,7 +49,8 @@ Rhs make_rhs(const Module& module, const std::vector<double>& values = {}, Work 
 template <std::invocable<double, const double*, double*> Function>
 Rhs make_rhs(int dimension, Function function, int extra = 0) {
     if (dimension < 1 || extra < 0 || extra > dimension)
-        throw std::invalid_argument("a right-hand side needs at least one component, and no more quadratures than those");
+        throw std::invalid_argument(
+            "a right-hand side needs at least one component, and no more quadratures than those");
     const Rhs::Call call = [](const void* context, double t, const double* state, double* rate) {
         (*static_cast<const Function*>(context))(t, state, rate);
     };

@@ -12,15 +12,15 @@
 ///
 /// After a misfit or a `finish` that is not to one's taste, `worst_component` says who is to blame.
 ///
-/// Arrays are padded to whole lanes of four; the weights are compile-time constants, zeros cost nothing. Nothing is
-/// allocated after construction. The state is kept as a sum of two doubles, y + rest (Kahan 1965; Hairer, Lubich,
-/// Wanner, Geometric Numerical Integration, §VIII.5): a small step then loses nothing of what it adds to a large
-/// state, and it is the two that the stages start from.
+/// Arrays are padded to whole lanes of four; the weights are compile-time constants, zeros cost nothing. Nothing
+/// is allocated after construction. The state is kept as a sum of two doubles, y + rest (Kahan 1965; Hairer,
+/// Lubich, Wanner, Geometric Numerical Integration, §VIII.5): a small step then loses nothing of what it adds to a
+/// large state, and it is the two that the stages start from.
 ///
-/// Error, component by component: |error_i| / max(1, |y_i|), the largest of which is the misfit; it is held against
-/// the tolerance as it is. With two rows of error weights (dop853) the error is that of Hairer, Nørsett, Wanner I,
-/// §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole vector, here each
-/// component has its own, as the convention wants (on the problems of step_size.hpp that needs 5-15 % fewer
+/// Error, component by component: |error_i| / max(1, |y_i|), the largest of which is the misfit; it is held
+/// against the tolerance as it is. With two rows of error weights (dop853) the error is that of Hairer, Nørsett,
+/// Wanner I, §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole vector, here
+/// each component has its own, as the convention wants (on the problems of step_size.hpp that needs 5-15 % fewer
 /// evaluations for the same error). Quadratures (Rhs::extra) do not take part.
 
 #include <algorithm>
@@ -68,7 +68,8 @@ public:
         looked_into_ = false;
         [this]<int... i>(std::integer_sequence<int, i...>) {
             (this->template evaluate<i + 1>(), ...);
-        }(std::make_integer_sequence<int, stages - 1>());
+        }
+        (std::make_integer_sequence<int, stages - 1>());
         add_up();
         if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
     }
@@ -97,8 +98,8 @@ public:
 
     bool starts_finite() const { return is_finite(rate()); }
 
-    /// To blame: the first component that is not finite at the start or the attempted end, else the one of the largest
-    /// error.
+    /// To blame: the first component that is not finite at the start or the attempted end, else the one of the
+    /// largest error.
     int worst_component() const {
         int worst = 0;
         for (int i = 0; i < controlled_; ++i) {
@@ -164,7 +165,8 @@ private:
                 if constexpr (weight != 0) sum += weight * stage(column)[b];
             };
             (add.template operator()<j>(), ...);
-        }(std::make_integer_sequence<int, tableau.all_stages>());
+        }
+        (std::make_integer_sequence<int, tableau.all_stages>());
     }
 
     template <int i>
@@ -225,13 +227,14 @@ private:
     void look_into() {
         [this]<int... i>(std::integer_sequence<int, i...>) {
             (this->template evaluate<stages + 1 + i>(), ...);
-        }(std::make_integer_sequence<int, tableau.all_stages - stages - 1>());
+        }
+        (std::make_integer_sequence<int, tableau.all_stages - stages - 1>());
         for (int b = 0; b < blocks_; ++b) {
-            lanes(difference_)[b] =
-                (lanes(next_)[b] - lanes(y_)[b]) + (lanes(next_rest_)[b] - lanes(rest_)[b]);
+            lanes(difference_)[b] = (lanes(next_)[b] - lanes(y_)[b]) + (lanes(next_rest_)[b] - lanes(rest_)[b]);
             [&]<int... i>(std::integer_sequence<int, i...>) {
                 (this->template dense_row<i>(b), ...);
-            }(std::make_integer_sequence<int, tableau.dense_rows>());
+            }
+            (std::make_integer_sequence<int, tableau.dense_rows>());
         }
         looked_into_ = true;
     }

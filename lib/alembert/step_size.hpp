@@ -7,15 +7,15 @@
 ///     h = control.after_accepted(h, misfit / tolerance);
 ///     h = control.after_rejected(h, misfit / tolerance);
 ///
-/// PI control (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554; Hairer & Wanner, Solving ODEs II, §IV.2; Hairer,
-/// Nørsett, Wanner, Solving ODEs I, §II.4):
+/// PI control (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554; Hairer & Wanner, Solving ODEs II, §IV.2;
+/// Hairer, Nørsett, Wanner, Solving ODEs I, §II.4):
 ///
 ///     h_{n+1} = h_n · 0.8 · ε_n^(−α) · ε_{n−1}^β,   ε = misfit / tolerance,   β = 0.2/k,   α = 1/k − 0.75 β
 ///
 /// between 0.2 and 6 times h; at most h after a rejection. k is the order of the estimate: β = 0.04 for dopri5, as
 /// there. The factors 0.8 (there 0.9) and 0.2 (there 0 for dop853) were chosen by the product of evaluations and
-/// error^(1/k) on the double pendulum, Kepler's orbits of eccentricity 0.6 and 0.95 and van der Pol's oscillator, over
-/// tolerances from 1e-6 to 1e-12: they reject 7 % of dop853's steps instead of 29 %. Throws nothing.
+/// error^(1/k) on the double pendulum, Kepler's orbits of eccentricity 0.6 and 0.95 and van der Pol's oscillator,
+/// over tolerances from 1e-6 to 1e-12: they reject 7 % of dop853's steps instead of 29 %. Throws nothing.
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +59,8 @@ private:
 /// A first step such that an Euler step of that length is short against the change of the rate: the algorithm of
 /// Hairer, Nørsett, Wanner I, §II.4, "Starting step size", with the maximum norm of step.hpp. One evaluation.
 /// `order` as above.
-inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance, int order,
-                            double longest) {
+inline double starting_step(const Rhs& rhs, double t, const double* state, const double* rate, double tolerance,
+                            int order, double longest) {
     const int controlled = rhs.dimension - rhs.extra;
     const auto norm = [&](auto&& component) {
         double largest = 0;
@@ -79,7 +79,8 @@ inline double starting_step(const Rhs& rhs, double t, const double* state, const
     const double bend = norm([&](int i) { return rate_ahead[static_cast<std::size_t>(i)] - rate[i]; }) / first;
 
     const double steepest = std::max(slope, bend);
-    const double second = steepest <= 1e-15 ? std::max(1e-6, first * 1e-3) : std::pow(0.01 / steepest, 1.0 / order);
+    const double second =
+        steepest <= 1e-15 ? std::max(1e-6, first * 1e-3) : std::pow(0.01 / steepest, 1.0 / order);
     const double step = std::min({100 * first, second, longest});
     return std::isfinite(step) && step > 0 ? step : first;
 }

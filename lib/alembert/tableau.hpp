@@ -11,7 +11,8 @@
 /// Error: one row e gives the vector h Σ_{j≤s} e_j k_j. Two rows give a fifth- and a third-order estimate, which
 /// step.hpp combines.
 ///
-/// Dense output (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §II.6), θ = 0…1:
+/// Dense output (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §II.6), θ =
+/// 0…1:
 ///
 ///     y(t + θh) = r₀ + θ(r₁ + (1−θ)(r₂ + θ(r₃ + (1−θ)(r₄ + θ(r₅ + …)))))
 ///     r₀ = y,  r₁ = y₁ − y,  r₂ = h k₀ − r₁,  r₃ = r₁ − h k_s − r₂,  r_{4+i} = h Σ_j d_ij k_j
@@ -28,15 +29,15 @@ namespace alembert {
 /// s stages, `beyond` more for dense output, `estimates` rows of error weights, `dense` rows d.
 template <int s, int beyond, int estimates, int dense>
 struct Tableau {
-    static constexpr int stages = s;            ///< evaluations to get y₁, the first one included
+    static constexpr int stages = s;  ///< evaluations to get y₁, the first one included
     static constexpr int all_stages = s + 1 + beyond;
     static constexpr int error_rows = estimates;
     static constexpr int dense_rows = dense;
     using Row = std::array<double, all_stages>;
 
-    int order;             ///< of y₁
-    int dense_order;       ///< of the continuous extension: its error is O(h^(dense_order+1)) within a step
-    int estimate_order;    ///< the error estimate is O(h^estimate_order); 0 for a fixed step
+    int order;           ///< of y₁
+    int dense_order;     ///< of the continuous extension: its error is O(h^(dense_order+1)) within a step
+    int estimate_order;  ///< the error estimate is O(h^estimate_order); 0 for a fixed step
     std::array<double, all_stages> c;
     std::array<Row, all_stages> a;
     std::array<Row, estimates> e;
@@ -46,17 +47,14 @@ struct Tableau {
 inline constexpr Tableau<1, 0, 0, 0> euler_tableau{
     .order = 1, .dense_order = 1, .estimate_order = 0, .c = {0, 1}, .a = {{{}, {1}}}, .e = {}, .d = {}};
 
-inline constexpr Tableau<4, 0, 0, 0> rk4_tableau{.order = 4,
-                                                 .dense_order = 3,
-                                                 .estimate_order = 0,
-                                                 .c = {0, 1. / 2, 1. / 2, 1, 1},
-                                                 .a = {{{},
-                                                        {1. / 2},
-                                                        {0, 1. / 2},
-                                                        {0, 0, 1},
-                                                        {1. / 6, 1. / 3, 1. / 3, 1. / 6}}},
-                                                 .e = {},
-                                                 .d = {}};
+inline constexpr Tableau<4, 0, 0, 0> rk4_tableau{
+    .order = 4,
+    .dense_order = 3,
+    .estimate_order = 0,
+    .c = {0, 1. / 2, 1. / 2, 1, 1},
+    .a = {{{}, {1. / 2}, {0, 1. / 2}, {0, 0, 1}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}}},
+    .e = {},
+    .d = {}};
 
 inline constexpr Tableau<6, 0, 1, 1> dopri5_tableau{
     .order = 5,

@@ -8,9 +8,9 @@
 ///         … motion.times[row], motion.state(row)[0] …
 ///     if (motion.failure) throw_failure(*motion.failure);       // or keep what there is
 ///
-/// Rows: start, start + sample, start + 2 sample … and the last time always, once: exactly start + duration, or the
-/// time of the event that stopped the run, or of the last good state if the numbers failed. States are row-major,
-/// in the units of the scene, quadratures last. A state on a row between steps comes from dense output.
+/// Rows: start, start + sample, start + 2 sample … and the last time always, once: exactly start + duration, or
+/// the time of the event that stopped the run, or of the last good state if the numbers failed. States are
+/// row-major, in the units of the scene, quadratures last. A state on a row between steps comes from dense output.
 
 #include <cstddef>
 #include <optional>
@@ -44,7 +44,7 @@ struct EventRecord {
 };
 
 struct Statistics {
-    long steps = 0;        ///< accepted
+    long steps = 0;  ///< accepted
     long rejected = 0;
     long evaluations = 0;  ///< of the right-hand side, those for dense output and events included
     double seconds = 0;    ///< processor time of this thread, without set-up of the system

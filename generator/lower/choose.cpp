@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lower/choose.hpp"
+
+#include "report/readable.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double largest_tree = 50000;  // nodes; beyond, expanding costs more than it can win
+
+/// All of `values` in readable form, or none.
+bool make_readable(std::vector<ex*> values, const Mechanism& m) {
+    for (ex* value : values) {
+        const std::optional<ex> readable = readable_form(*value, m);
+        if (!readable) return false;
+        *value = *readable;
+    }
+    return true;
+}
+
+std::optional<Equations> textbook_equations(const Mechanism& m, Equations equations) {
+    double size = 0;
+    for (int i = 0; i < equations.size(); ++i) {
+        for (int j = 0; j <= i; ++j) size += m.z->tree_size(equations.M(i, j));
+        size += m.z->tree_size(equations.forcing(i));
+    }
+    if (size > largest_tree) return std::nullopt;
+    for (int i = 0; i < equations.size(); ++i) {
+        for (int j = 0; j <= i; ++j) {
+            if (!make_readable({&equations.M(i, j)}, m)) return std::nullopt;
+            equations.M(j, i) = equations.M(i, j);
+        }
+        // One sum: what cancels between the parts is gone.
+        equations.own[i] = equations.forcing(i);
+        equations.applied[i] = equations.dissipative[i] = 0;
+        if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
+    }
+    equations.formalism += ", textbook form";
+    return equations;
+}
+
+Energy readable_energy(const Mechanism& m, const Energy& energy) {
+    Energy result = energy;
+    const bool same = !m.given_lagrangian && is_identically_zero(energy.energy - energy.jacobi, m);
+    if (!make_readable({&result.kinetic, &result.potential, &result.jacobi, &result.power}, m)) return energy;
+    if (!m.given_lagrangian) result.energy = result.kinetic + result.potential;
+    if (same) result.jacobi = result.energy;
+    if (m.given_lagrangian) result.energy = result.jacobi;
+    return result;
+}
+
+int operations(const Program& program) { return program.count(program.nodes_of("acceleration")).total(); }
+
+}  // namespace
+
+std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t budget) {
+    if (m.z->tree_size(e) > largest_tree) return std::nullopt;
+    const std::optional<Fourier> normal = fourier(m.z->expand(e), *m.symbols, budget);
+    if (!normal) return std::nullopt;
+    return expression(readable(*normal));
+}
+
+Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions& options) {
+    const Energy energy = energy_of(m);
+    Equations intermediate = equations;
+    intermediate.formalism += ", intermediate symbols";
+    Choice choice{.program = lower(m, intermediate, energy, options), .runner_up = {}};
+    if (const std::optional<Equations> textbook = textbook_equations(m, equations)) {
+        Program program = lower(m, *textbook, readable_energy(m, energy), options);
+        const int ours = operations(program), other = operations(choice.program);
+        if (program.singular || ours <= other) std::swap(program, choice.program);
+        choice.runner_up = std::max(ours, other);
+    }
+    return choice;
+}
+
+}  // namespace alembert

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/syntax.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+/// What toml++ says of a value that begins with no quote or bracket and is no number, date or boolean.
+constexpr std::string_view of_values[] = {
+    "could not determine value type", "expected digit",  "expected decimal digit", "expected expected digit",
+    "expected value-terminator",      "expected 'true'", "expected 'false'",       "expected 'nan'",
+    "expected 'inf'",                 "expected month",  "expected day",           "expected a comment or whitespace",
+    "leading zeroes",                 "expected '-'",    "expected ':'",           "could not be interpreted",
+    "is not representable in 64 bits"};
+
+/// toml++'s words, and ours for the same.
+constexpr std::pair<std::string_view, std::string_view> rewordings[] = {
+    {"unescaped control characters", "this string is not closed on its line"},
+    {"encountered end-of-file", "the file ends here, but a string, an array or a table is still open"},
+    {"blank bare keys", "a table needs a name between its brackets"},
+    {"exceeded maximum nested value depth", "arrays or tables nested too deep"},
+};
+
+struct Value {
+    std::size_t begin;
+    std::string_view text;
+};
+
+/// The bare word around `offset` that stands where a value should: after `=`, or between the commas of an array.
+std::optional<Value> value_around(std::string_view text, std::size_t offset) {
+    const std::size_t line = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+    const std::size_t before = text.substr(line, offset - line).find_last_of("=[,{");
+    if (before == std::string_view::npos) return {};
+    const std::size_t begin = text.find_first_not_of(" \t", line + before + 1);
+    if (begin == std::string_view::npos || begin > offset) return {};
+    const bool in_array = text[line + before] != '=';
+    std::size_t end = std::min(text.find_first_of(in_array ? "\r\n#,]}" : "\r\n#", begin), text.size());
+    while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
+    const std::string_view value = text.substr(begin, end - begin);
+    if (value.empty() || value.find_first_of("\"'[]{}=") != std::string_view::npos) return {};
+    return Value{begin, value};
+}
+
+bool is_number_like(std::string_view text) {
+    return text.find_first_of("0123456789") != std::string_view::npos &&
+           text.find_first_not_of("+-.0123456789eE_") == std::string_view::npos;
+}
+
+std::string about_value(std::string_view value, std::string_view message) {
+    const std::string shown = escaped(value, 40);
+    if (message.find("64 bits") != std::string_view::npos || message.find("interpreted") != std::string_view::npos)
+        return fmt::format("the number {} is beyond the range of {}", shown,
+                           value.find_first_of(".eE") == std::string_view::npos ? "64-bit integers; write it with a point"
+                                                                                : "double precision");
+    if (is_number_like(value)) return fmt::format("{} is not a number in TOML, where .5 is 0.5, 5. is 5.0 and 05 is 5", shown);
+    return fmt::format("not a plain number; an expression or a name stands in quotes: \"{}\"", shown);
+}
+
+std::string without_framing(std::string message) {
+    if (message.rfind("Error while parsing ", 0) == 0)
+        if (const std::size_t colon = message.find(": "); colon != std::string::npos) message.erase(0, colon + 2);
+    return message;
+}
+
+}  // namespace
+
+Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, const SourceText& source) {
+    const toml::source_position at = error.source().begin;
+    const Place place{static_cast<int>(at.line), static_cast<int>(at.column)};
+    const std::string message = without_framing(std::string(error.description()));
+    if (message.rfind("cannot redefine existing table", 0) == 0) {
+        const std::size_t first = message.find('\''), last = message.rfind('\'');
+        const std::string name = first < last ? message.substr(first + 1, last - first - 1) : "";
+        if (const auto header = layout.headers.find(name); header != layout.headers.end())
+            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name), header->second.line)};
+    }
+    const auto says = [&](std::string_view words) { return message.find(words) != std::string::npos; };
+    if (std::any_of(std::begin(of_values), std::end(of_values), says))
+        if (const auto value = value_around(source.text(), source.offset(place)))
+            return {source.place(value->begin), about_value(value->text, message)};
+    for (const auto& [theirs, ours] : rewordings)
+        if (says(theirs)) return {place, "not valid TOML: " + std::string(ours)};
+    return {place, "not valid TOML: " + escaped(message, 200)};
+}
+
+}  // namespace alembert

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What is wrong with a file that is not valid TOML, in the words of a scene's author.
+
+#include "scene/layout.hpp"
+#include "scene/toml.hpp"
+
+namespace alembert {
+
+Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, const SourceText& source);
+
+}  // namespace alembert

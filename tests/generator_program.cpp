@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "lower/interpret.hpp"
+#include "lower/solve.hpp"
+
+using namespace alembert;
+
+namespace {
+
+int coordinate(Program& p, int index) { return p.variable({Variable::Kind::coordinate, index}); }
+int parameter(Program& p, int index) { return p.variable({Variable::Kind::parameter, index}); }
+
+}  // namespace
+
+TEST_CASE("program: equal values are one node, whatever order they came in") {
+    Program p;
+    const int x = coordinate(p, 0), y = coordinate(p, 1), a = parameter(p, 0);
+    CHECK(p.sum(0, {{1, x}, {1, y}}) == p.sum(0, {{1, y}, {1, x}}));
+    CHECK(p.product(2, {{x, 1}, {a, 2}, {y, 1}}) == p.product(2, {{y, 1}, {x, 1}, {a, 1}, {a, 1}}));
+    CHECK(p.sum(0, {{1, x}, {-1, x}}) == p.number(0));
+    CHECK(p.product(1, {{x, 2}, {x, -2}}) == p.number(1));
+    // y − x is −1·(x − y); both share one node.
+    const int difference = p.sum(0, {{1, x}, {-1, y}}), turned = p.sum(0, {{-1, x}, {1, y}});
+    CHECK(p[turned].args[0] == difference);
+    CHECK(p.product(1, {{difference, 2}}) == p.product(1, {{turned, 2}}));
+}
+
+TEST_CASE("program: cos is even, sin is odd, and √x·√x is x") {
+    Program p;
+    const int x = coordinate(p, 0), y = coordinate(p, 1);
+    const int d = p.sum(0, {{1, x}, {-1, y}}), minus_d = p.sum(0, {{1, y}, {-1, x}});
+    CHECK(p.call(Op::cos, {d}) == p.call(Op::cos, {minus_d}));
+    CHECK(p.sum(0, {{1, p.call(Op::sin, {d})}, {1, p.call(Op::sin, {minus_d})}}) == p.number(0));
+    const int root = p.power(x, Rational(1) / 2);
+    CHECK(p.product(1, {{root, 1}, {root, 1}}) == x);
+    CHECK(p.power(x, Rational(-3) / 2) == p.product(1, {{x, -1}, {root, -1}}));
+    CHECK(p.call(Op::sqrt, {p.number(Rational(4) / 9)}) == p.number(Rational(2) / 3));
+}
+
+TEST_CASE("program: what depends on parameters alone is gathered and not counted") {
+    Program p;
+    const int x = coordinate(p, 0), a = parameter(p, 0), b = parameter(p, 1);
+    const int value = p.product(3, {{a, 1}, {b, 2}, {x, 1}});
+    const std::vector<int> roots{value};
+    CHECK(p.count(roots).total() == 1);
+    const int shifted = p.sum(2, {{1, a}, {3, b}, {1, x}});
+    const std::vector<int> others{shifted};
+    CHECK(p.count(others).total() == 1);
+}
+
+TEST_CASE("program: high powers are repeated squares, and the interpreter's value is that of pow") {
+    Program p;
+    const int x = coordinate(p, 0);
+    const std::vector<int> roots{p.product(1, {{x, 13}})};
+    CHECK(p.count(roots).total() <= 6);
+    const std::vector<double> value = interpret<double>(p, {.parameters = {}, .q = {1.7}, .qdot = {}, .qddot = {}});
+    CHECK(value[roots[0]] == doctest::Approx(std::pow(1.7, 13)).epsilon(1e-14));
+}
+
+TEST_CASE("solve: sparse, dense, indefinite and singular matrices against Eigen") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    struct Case {
+        const char* name;
+        int n;
+        double density;
+        bool zero_diagonal;
+    };
+    for (const Case& c : {Case{"dense", 5, 1, false}, Case{"sparse", 8, 0.3, false}, Case{"indefinite", 4, 1, true},
+                          Case{"one", 1, 1, false}, Case{"indefinite sparse", 6, 0.9, true}}) {
+        CAPTURE(c.name);
+        Eigen::MatrixXd M = Eigen::MatrixXd::Zero(c.n, c.n);
+        Eigen::VectorXd f(c.n);
+        Program p;
+        std::vector<int> lower, forcing;
+        std::vector<double> values;
+        const auto variable = [&](double value) {
+            values.push_back(value);
+            return coordinate(p, static_cast<int>(values.size()) - 1);
+        };
+        for (int i = 0; i < c.n; ++i)
+            for (int j = 0; j <= i; ++j) {
+                const bool there = i == j ? !c.zero_diagonal : uniform(random) < 2 * c.density - 1;
+                M(i, j) = M(j, i) = there ? uniform(random) + (i == j ? 4 : 0) : 0;
+                lower.push_back(there ? variable(M(i, j)) : p.number(0));
+            }
+        for (int i = 0; i < c.n; ++i) forcing.push_back(variable(f[i] = uniform(random)));
+        const auto x = solve_symmetric(p, lower, forcing);
+        REQUIRE(x);
+        const std::vector<double> value = interpret<double>(p, {.parameters = {}, .q = values, .qdot = {}, .qddot = {}});
+        const Eigen::VectorXd expected = M.fullPivLu().solve(f);
+        for (int i = 0; i < c.n; ++i) CHECK(value[(*x)[i]] == doctest::Approx(expected[i]).epsilon(1e-11));
+    }
+    Program p;
+    const int a = parameter(p, 0), zero = p.number(0);
+    CHECK_FALSE(solve_symmetric(p, {a, zero, zero}, {a, a}));
+}

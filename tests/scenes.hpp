@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The repository's scenes and random states for them, for tests that hold for every scene.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "lower/start.hpp"
+
+namespace alembert::test {
+
+inline std::string source_path(const std::string& relative) { return std::string(ALEMBERT_SOURCE_DIR "/") + relative; }
+
+/// All .toml files of a folder of the repository, sorted.
+inline std::vector<std::string> scenes_in(const std::string& folder) {
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(source_path(folder)))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// A state with coordinates in ±π and rates in ±3, at a time in 0 … 10, with the scene's parameters.
+inline State<double> random_state(const Start& start, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> turn(-M_PI, M_PI), rate(-3, 3), time(0, 10);
+    State<double> state = start.state();
+    state.t = time(random);
+    for (double& q : state.q) q = turn(random);
+    for (double& u : state.qdot) u = rate(random);
+    return state;
+}
+
+}  // namespace alembert::test
