@@ -148,3 +148,15 @@ TEST_CASE("events: rounding at the start is no event") {
         one_event([](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.3 - 1e-16; }));
     CHECK(motion.events.empty());
 }
+
+TEST_CASE("events: a pole is none, and neither is the edge of what is defined") {
+    const Trajectory motion = integrate(
+        stopwatch(), {0}, {.duration = 10, .step = 10},
+        make_events({{.name = "pole"}, {.name = "edge"}}, [](double, const double* y, const double*, double* out) {
+            out[0] = 1 / (y[0] - 4.1);
+            out[1] = std::sqrt(y[0] - 1) - 2;  // from 1 on; zero at 5
+        }));
+    REQUIRE(motion.events.size() == 1);
+    CHECK(motion.events[0].name == "edge");
+    CHECK(std::abs(motion.events[0].time - 5) < 1e-11);
+}

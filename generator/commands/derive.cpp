@@ -1,10 +1,214 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <iostream>
+
 #include "commands/pipeline.hpp"
+#include "report/derivation.hpp"
+#include "report/latex.hpp"
+#include "report/mathml.hpp"
+#include "report/text.hpp"
 
 namespace alembert {
 
+namespace {
+
+/// Words, then what they announce.
+struct Block {
+    std::string words;
+    std::vector<std::pair<std::string, std::string>> equalities;
+};
+
+/// How one format writes formulas, left sides of statements, and blocks.
+struct Notation {
+    std::string (*phrase)(const Phrase&);
+    std::string (*left)(const Statement&);
+    std::string (*page)(const std::vector<Block>&);
+};
+
+/// What `mathml` puts into its <math> element.
+std::string mathml_row(const Phrase& phrase) {
+    const std::string whole = mathml(phrase);
+    const std::size_t begin = whole.find('>') + 1, end = whole.rfind("</math>");
+    return whole.substr(begin, end - begin);
+}
+
+std::string escaped(const std::string& words, bool xml) {
+    std::string result;
+    for (const char c : words) {
+        if (xml && c == '&') result += "&amp;";
+        else if (xml && c == '<') result += "&lt;";
+        else if (xml && c == '>') result += "&gt;";
+        else if (!xml && std::string("_&%#$").find(c) != std::string::npos) result += std::string("\\") + c;
+        else result += c;
+    }
+    return result;
+}
+
+std::string text_left(const Statement& s) {
+    switch (s.kind) {
+        case Statement::Kind::partial: return fmt::format("d{}/d({})", s.letter, text(*s.by));
+        case Statement::Kind::force: return fmt::format("Q({})", text(*s.by));
+        case Statement::Kind::work: return fmt::format("Q({}) of {}", text(*s.by), s.of);
+        default: return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
+    }
+}
+
+std::string latex_left(const Statement& s) {
+    const std::string of = s.of.empty() ? "" : fmt::format("^{{\\text{{{}}}}}", escaped(s.of, false));
+    switch (s.kind) {
+        case Statement::Kind::partial:
+            return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", s.letter, latex(*s.by));
+        case Statement::Kind::force:
+        case Statement::Kind::work: return fmt::format("Q_{{{}}}{}", latex(*s.by), of);
+        default: return s.letter + of;
+    }
+}
+
+std::string mathml_left(const Statement& s) {
+    const std::string letter = "<mi>" + s.letter + "</mi>";
+    const std::string of = "<mtext>" + escaped(s.of, true) + "</mtext>";
+    switch (s.kind) {
+        case Statement::Kind::partial:
+            return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) + "</mrow></mfrac>";
+        case Statement::Kind::force: return "<msub>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow></msub>";
+        case Statement::Kind::work:
+            return "<msubsup>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow>" + of + "</msubsup>";
+        default: return s.of.empty() ? letter : "<msup>" + letter + of + "</msup>";
+    }
+}
+
+std::string text_page(const std::vector<Block>& blocks) {
+    std::string page;
+    for (const Block& block : blocks) {
+        page += (page.empty() ? "" : "\n") + block.words + "\n";
+        for (const auto& [left, right] : block.equalities) page += "  " + left + " = " + right + "\n";
+    }
+    return page;
+}
+
+std::string latex_page(const std::vector<Block>& blocks) {
+    std::string page;
+    for (const Block& block : blocks) {
+        page += escaped(block.words, false) + "\n";
+        if (block.equalities.empty()) continue;
+        page += "\\begin{align*}\n";
+        for (std::size_t i = 0; i < block.equalities.size(); ++i)
+            page += "  " + block.equalities[i].first + " &= " + block.equalities[i].second +
+                    (i + 1 < block.equalities.size() ? " \\\\\n" : "\n");
+        page += "\\end{align*}\n";
+    }
+    return page;
+}
+
+std::string mathml_page(const std::vector<Block>& blocks) {
+    std::string page =
+        "<math display=\"block\" xmlns=\"http://www.w3.org/1998/Math/MathML\">\n<mtable displaystyle=\"true\">\n";
+    for (const Block& block : blocks) {
+        page += "<mtr><mtd columnspan=\"3\"><mtext>" + escaped(block.words, true) + "</mtext></mtd></mtr>\n";
+        for (const auto& [left, right] : block.equalities)
+            page += "<mtr><mtd><mrow>" + left + "</mrow></mtd><mtd><mo>=</mo></mtd><mtd><mrow>" + right +
+                    "</mrow></mtd></mtr>\n";
+    }
+    return page + "</mtable>\n</math>\n";
+}
+
+Notation notation_of(const std::string& format) {
+    if (format == "latex") return {[](const Phrase& p) { return latex(p); }, latex_left, latex_page};
+    if (format == "mathml") return {mathml_row, mathml_left, mathml_page};
+    return {[](const Phrase& p) { return text(p); }, text_left, text_page};
+}
+
+/// The four steps of the book but for the equations themselves.
+std::vector<Block> steps(const Derivation& shown, const Notation& n) {
+    const auto statements = [&](const std::vector<Statement>& list) {
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Statement& s : list) result.emplace_back(n.left(s), n.phrase(s.value));
+        return result;
+    };
+    std::string names;
+    for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + text(q);
+    const int freedom = shown.degrees_of_freedom;
+    std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
+                                           freedom == 1 ? "" : "s", freedom == 1 ? "" : "s", names),
+                               {}}};
+
+    std::vector<Statement> energies = shown.energies;
+    const auto total = [&](const char* letter, const Phrase& value) {
+        energies.push_back({Statement::Kind::energy, letter, "", {}, value});
+    };
+    if (shown.lagrangian) {
+        total("L", *shown.lagrangian);
+    } else {
+        total("T", shown.kinetic);
+        total("V", shown.potential);
+    }
+    blocks.push_back({shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
+                      statements(energies)});
+    blocks.push_back({shown.forces.empty() ? "3. All forces have a potential: no virtual work beside that of V."
+                                           : "3. Generalized forces, from the virtual work of the forces that are not in V:",
+                      statements(shown.forces)});
+    blocks.push_back({"4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q, with L = T - V:", statements(shown.derivatives)});
+    return blocks;
+}
+
+Json as_json(const Derivation& shown, const Mechanism& m) {
+    Json result;
+    result["formalism"] = shown.formalism;
+    result["degrees_of_freedom"] = shown.degrees_of_freedom;
+    result["coordinates"] = Json::array();
+    result["speeds"] = Json::array();
+    for (const GiNaC::symbol& q : m.q) {
+        result["coordinates"].push_back(q.get_name());
+        result["speeds"].push_back(q.get_name() + "'");
+    }
+    result["multipliers"] = Json::array();
+    result["kinetic"] = text(shown.kinetic);
+    result["potential"] = text(shown.potential);
+    if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
+    result["equations"] = Json::array();
+    for (const ReadableEquation& e : shown.equations) {
+        Json one = {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}};
+        if (e.divided_by) one["divided_by"] = text(*e.divided_by);
+        result["equations"].push_back(std::move(one));
+    }
+    if (!shown.definitions.empty()) {
+        result["definitions"] = Json::array();
+        for (const auto& [name, value] : shown.definitions)
+            result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
+    }
+    return result;
+}
+
+}  // namespace
+
 int derive(const Request& request) {
-    derived(request);
+    const Derived d = derived(request);
+    const Derivation shown = derivation_of(d.mechanism, d.equations);
+    if (request.json) {
+        std::cout << as_json(shown, d.mechanism).dump(2) << "\n";
+        return 0;
+    }
+    const Notation n = notation_of(request.format);
+    std::vector<Block> blocks;
+    if (request.format == "text" && !d.scene.title.empty()) blocks.push_back({d.scene.title, {}});
+    if (!shown.definitions.empty()) {
+        blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
+        for (const auto& [name, value] : shown.definitions)
+            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+    } else if (request.steps) {
+        for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
+    }
+    blocks.push_back({fmt::format("Equations of motion (Lagrange's equations of the second kind{}):",
+                                  request.by.empty() ? "; the coordinates are independent" : ""),
+                      {}});
+    for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    for (std::size_t i = 0; i < shown.equations.size(); ++i)
+        if (shown.equations[i].divided_by)
+            blocks.push_back({fmt::format("The equation of {} has been divided by {}.", text(shown.coordinates[i]),
+                                          text(*shown.equations[i].divided_by)),
+                              {}});
+    std::cout << n.page(blocks);
     return 0;
 }
 

@@ -187,11 +187,13 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     } else {
         program.singular = true;
     }
-    program.roots.push_back({"kinetic", "T", lowering(energy.kinetic)});
-    program.roots.push_back({"potential", "V", lowering(energy.potential)});
-    program.roots.push_back({"energy", "E", lowering(energy.energy)});
+    const int T = lowering(energy.kinetic), V = lowering(energy.potential);
+    const int E = m.given_lagrangian ? lowering(energy.energy) : program.sum(0, {{1, T}, {1, V}});
+    program.roots.push_back({"kinetic", "T", T});
+    program.roots.push_back({"potential", "V", V});
+    program.roots.push_back({"energy", "E", E});
     program.roots.push_back({"power", "P", lowering(energy.power)});
-    program.roots.push_back({"jacobi", "h", lowering(energy.jacobi)});
+    program.roots.push_back({"jacobi", "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
     for (const Part& part : m.outputs) program.roots.push_back({"output", part.label, lowering(part.value)});
     for (const Part& part : m.events) program.roots.push_back({"event", part.label, lowering(part.value)});
     return program;

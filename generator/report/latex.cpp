@@ -9,6 +9,7 @@
 #include <cln/integer_io.h>
 
 #include "report/lettering.hpp"
+#include "report/text.hpp"
 
 namespace alembert {
 
@@ -18,9 +19,11 @@ using Kind = Phrase::Kind;
 
 std::string write(const Phrase& phrase);
 
+bool is_fraction(const Phrase& phrase) { return phrase.kind == Kind::number && digits(phrase).empty(); }
+
 /// Needs parentheses that grow.
 bool is_tall(const Phrase& phrase) {
-    if (phrase.kind == Kind::quotient || (phrase.kind == Kind::number && digits(phrase).empty())) return true;
+    if (phrase.kind == Kind::quotient || is_fraction(phrase)) return true;
     if (phrase.kind == Kind::call && phrase.name == "sqrt") return true;
     if (phrase.kind == Kind::power) return is_tall(phrase.args[0]);
     return std::any_of(phrase.args.begin(), phrase.args.end(), is_tall);
@@ -123,7 +126,7 @@ std::string write_call(const Phrase& phrase, const std::string& exponent) {
 }
 
 std::string write_power(const Phrase& base, const Phrase& exponent) {
-    const std::string raised = "^{" + write(exponent) + "}";
+    const std::string raised = "^{" + (is_fraction(exponent) ? text(exponent) : write(exponent)) + "}";
     const bool is_whole = exponent.kind == Kind::number && is_integer(exponent.value);
     if (base.kind == Kind::call && takes_exponent(base.name) && is_whole) return write_call(base, raised);
     const bool simple = base.kind == Kind::symbol || (base.kind == Kind::number && !digits(base).empty()) ||

@@ -9,6 +9,7 @@
 #include <cln/integer_io.h>
 
 #include "report/lettering.hpp"
+#include "report/text.hpp"
 
 namespace alembert {
 
@@ -26,6 +27,7 @@ std::string element(const std::string& name, const std::string& content) {
 }
 std::string row(const std::string& content) { return element("mrow", content); }
 std::string operation(const std::string& sign) { return element("mo", sign); }
+const std::string minus = operation("&#x2212;");
 
 std::string identifier(const std::string& letters) { return element("mi", xml_escaped(letters)); }
 
@@ -111,8 +113,16 @@ std::string write_call(const Phrase& phrase, const std::string& name) {
     return row(name + applied + (bare ? args : parenthesized(args)));
 }
 
+/// 3/2 on the line, not as a fraction in small print.
+std::string write_exponent(const Phrase& exponent) {
+    if (exponent.kind != Kind::number || !digits(exponent).empty()) return write(exponent);
+    const std::string line = text(exponent);
+    const std::size_t slash = line.find('/');
+    return row(element("mn", line.substr(0, slash)) + operation("/") + element("mn", line.substr(slash + 1)));
+}
+
 std::string write_power(const Phrase& base, const Phrase& exponent) {
-    const std::string raised = write(exponent);
+    const std::string raised = write_exponent(exponent);
     const bool is_whole = exponent.kind == Kind::number && is_integer(exponent.value);
     if (base.kind == Kind::call && takes_exponent(base.name) && is_whole)
         return write_call(base, element("msup", function_name_mathml(base.name) + raised));
@@ -134,14 +144,14 @@ std::string write(const Phrase& phrase) {
         case Kind::power: return write_power(phrase.args[0], phrase.args[1]);
         case Kind::call: return write_call(phrase, function_name_mathml(phrase.name));
         case Kind::negative:
-            return row(operation("-") + enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
+            return row(minus + enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
         case Kind::sum: break;
     }
     std::string result;
     for (const Phrase& term : phrase.args) {
         const bool is_negative = term.kind == Kind::negative;
         const Phrase& value = is_negative ? term.args[0] : term;
-        if (is_negative || !result.empty()) result += operation(is_negative ? "-" : "+");
+        if (is_negative || !result.empty()) result += is_negative ? minus : operation("+");
         result += enclosed(value, is_signed_or_sum(value));
     }
     return row(result);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -25,8 +27,8 @@ public:
                 skip_line();
             else if (text_[at_] == '[')
                 header();
-            else if (!statement())
-                break;  // the parser will say what is wrong
+            else
+                statement();
         }
         return std::move(layout_);
     }
@@ -79,20 +81,25 @@ private:
         }
     }
 
-    /// `key = value`. False where that is not what stands here.
-    bool statement() {
+    /// `key = value`, or a line that the parser will refuse.
+    void statement() {
         const std::size_t begin = at_;
         const std::string name = key();
-        if (layout_.is_too_deep || !at('=')) return false;
+        if (layout_.is_too_deep) return;
+        if (!at('=')) {
+            skip_line();
+            layout_.statements.push_back({begin, at_});
+            return;
+        }
         ++at_;
         value();
+        layout_.statements.push_back({begin, at_});
         const auto [first, is_new] = keys_.emplace(name, source_.place(begin));
-        if (is_new) return true;
+        if (is_new) return;
         layout_.mistakes.push_back({source_.place(begin), fmt::format("{} is given twice in {}; first on line {}", in_quotes(name),
                                                                       table_.empty() ? "the scene" : escaped(table_),
                                                                       first->second.line)});
-        blank(begin, at_);
-        return true;
+        drop_statement(layout_, begin);
     }
 
     void value() {
@@ -134,21 +141,24 @@ private:
         layout_.is_too_deep = true;
         layout_.mistakes.push_back({source_.place(offset), fmt::format("a key of more than {} parts", most_parts)});
     }
-
-    /// Spaces for every character but line ends, so that what follows keeps its line and column.
-    void blank(std::size_t begin, std::size_t end) {
-        const std::size_t shift = text_.size() - layout_.text.size();  // earlier blanks may have been shorter
-        std::string spaces;
-        for (std::size_t i = begin; i < end;) {
-            const char c = text_[i];
-            decode(text_, i);
-            spaces += c == '\n' || c == '\r' ? c : ' ';
-        }
-        layout_.text.replace(begin - shift, end - begin, spaces);
-    }
 };
 
 }  // namespace
+
+bool drop_statement(Layout& layout, std::size_t offset) {
+    const auto after = std::upper_bound(layout.statements.begin(), layout.statements.end(), offset,
+                                        [](std::size_t at, const Layout::Statement& s) { return at < s.begin; });
+    if (after == layout.statements.begin()) return false;
+    const auto [begin, end] = *std::prev(after);
+    if (offset > end) return false;
+    bool is_blank = true;
+    for (std::size_t i = begin; i < end; ++i) {
+        char& c = layout.text[i];
+        is_blank = is_blank && (c == ' ' || c == '\n' || c == '\r');
+        if (c != '\n' && c != '\r') c = ' ';
+    }
+    return !is_blank;
+}
 
 Layout survey(const SourceText& source) { return Surveyor(source).survey(); }
 

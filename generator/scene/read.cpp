@@ -20,6 +20,7 @@
 namespace alembert {
 namespace {
 
+constexpr int most_syntax_mistakes = 10;
 constexpr std::size_t most_bytes = 1024 * 1024;
 
 template <void (*read)(const Table&, Scene&)>
@@ -118,6 +119,22 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene, 
     if (!scene.simulation.start) scene.simulation.start = zero({});
 }
 
+/// Nothing where the file is not valid TOML; then its first mistakes are told, each statement with one left out.
+std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, std::vector<Diagnostic>& mistakes) {
+    bool is_valid = true;
+    for (int k = 0; k < most_syntax_mistakes; ++k) try {
+            toml::table root = toml::parse(layout.text);
+            return is_valid ? std::optional(std::move(root)) : std::nullopt;
+        } catch (const toml::parse_error& error) {
+            is_valid = false;
+            const toml::source_position at = error.source().begin;
+            const Place place{static_cast<int>(at.line), static_cast<int>(at.column)};
+            mistakes.push_back(syntax_mistake(error, layout, source));
+            if (!drop_statement(layout, source.offset(place))) break;
+        }
+    return {};
+}
+
 [[noreturn]] void refuse_file(const std::string& file, std::string message) {
     Scene scene;
     scene.file = file;
@@ -137,14 +154,10 @@ Scene parse_scene(std::string text, std::string file) {
     Layout layout = survey(source);
     std::vector<Diagnostic> mistakes = std::move(layout.mistakes);
     if (layout.is_too_deep) fail(scene, std::move(mistakes));
+    const std::optional<toml::table> root = parse_toml(std::move(layout), source, mistakes);
+    if (!root) fail(scene, std::move(mistakes));
     std::vector<std::string> others;
-    try {
-        const toml::table root = toml::parse(layout.text);
-        read_tables(Reading{source, mistakes, root.contains("joint")}, root, scene, others);
-    } catch (const toml::parse_error& error) {
-        mistakes.push_back(syntax_mistake(error, layout, source));
-        fail(scene, std::move(mistakes));
-    }
+    read_tables(Reading{source, mistakes, root->contains("joint")}, *root, scene, others);
     std::vector<Diagnostic> more = check_scene(scene, others);
     mistakes.insert(mistakes.end(), more.begin(), more.end());
     if (!mistakes.empty()) fail(scene, std::move(mistakes));

@@ -42,7 +42,7 @@ std::optional<Value> value_around(std::string_view text, std::size_t offset) {
     const std::size_t begin = text.find_first_not_of(" \t", line + before + 1);
     if (begin == std::string_view::npos || begin > offset) return {};
     const bool in_array = text[line + before] != '=';
-    std::size_t end = std::min(text.find_first_of(in_array ? "\r\n#,]}" : "\r\n#", begin), text.size());
+    std::size_t end = std::min(text.find_first_of(in_array ? "\r\n#,]}" : "\r\n#}", begin), text.size());
     while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
     const std::string_view value = text.substr(begin, end - begin);
     if (value.empty() || value.find_first_of("\"'[]{}=") != std::string_view::npos) return {};

@@ -284,20 +284,55 @@ Fourier power(const Fourier& base, const Rational& exponent, Budget& budget) {
     return multiply(result, Rational(1), budget);  // takes whole powers out of the bases
 }
 
+namespace {
+
+/// tan x = sin x/cos x
+Fourier without_tangents(const Fourier& f, Budget& budget) {
+    const auto is_tangent = [](const Factor& factor) {
+        return factor.atom->kind == Kind::function && factor.atom->name == "tan" && is_integer(factor.exponent);
+    };
+    Fourier result;
+    for (const Term& term : f.terms()) {
+        Monomial rest;
+        Fourier tangents = Rational(1);
+        for (const Factor& factor : term.monomial) {
+            if (!is_tangent(factor)) {
+                rest.push_back(factor);
+                continue;
+            }
+            const Fourier arg = Fourier::collect(factor.atom->args[0].terms());
+            tangents = multiply(tangents, power(sine(arg), factor.exponent, budget), budget);
+            tangents = multiply(tangents, power(cosine(arg), -factor.exponent, budget), budget);
+        }
+        result = result + multiply(Fourier::collect({{rest, term.coefficient}}), tangents, budget);
+    }
+    return result;
+}
+
+/// The lowest negative power of a base, of the first base in order; none where there is no denominator.
+std::optional<Factor> denominator(const Fourier& f) {
+    std::optional<Factor> result;
+    for (const Term& term : f.terms()) {
+        for (const Factor& factor : term.monomial) {
+            if (factor.atom->kind != Kind::base || factor.exponent >= 0) continue;
+            const int order = result ? compare(factor.atom, result->atom) : -1;
+            if (order < 0 || (order == 0 && factor.exponent < result->exponent)) result = factor;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
 bool is_zero(const Fourier& f) {
-    Fourier rest = f;
-    // Each round multiplies by one base; cleared bases do not come back, others inside them may appear.
+    Budget budget{.terms = 200000, .work = 2000000};
+    Fourier rest = without_tangents(f, budget);
+    // Each round clears one base; bases inside it may appear instead, but not without end.
     for (int round = 0; round < 64 && rest.size() != 0; ++round) {
-        const Factor* worst = nullptr;
-        for (const Term& term : rest.terms())
-            for (const Factor& factor : term.monomial)
-                if (factor.atom->kind == Kind::base && factor.exponent < 0 &&
-                    (!worst || compare(factor.atom, worst->atom) < 0 ||
-                     (compare(factor.atom, worst->atom) == 0 && factor.exponent < worst->exponent)))
-                    worst = &factor;
-        if (!worst) return false;
-        const Factor clear{worst->atom, -worst->exponent};
-        rest = Fourier::collect({{{clear}, 1}}) * rest;
+        const std::optional<Factor> below = denominator(rest);
+        if (!below) return false;
+        rest = multiply(Fourier::collect({{{{below->atom, -below->exponent}}, 1}}), rest, budget);
+        if (budget.spent) return false;
     }
     return rest.size() == 0;
 }

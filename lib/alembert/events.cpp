@@ -16,6 +16,8 @@ constexpr int points = 5;  ///< where a step is looked at, ends included
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+
 int sign(double g) {
     return (g > 0) - (g < 0);
 }
@@ -97,26 +99,30 @@ double EventWatch::value(const Stretch& step, int index, double theta) {
 }
 
 /// Walks over the points of the step and the turning points between them, and records where the sign changes.
+/// Points where the event is not a number are passed over.
 void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossing>& found) {
     const auto k = static_cast<std::size_t>(index);
-    std::vector<double> theta(places.begin(), places.end());
-    std::vector<double> g;
-    for (std::size_t i = 0; i < points; ++i) g.push_back(grid_[i * last_.size() + k]);
-    for (std::size_t i = 0; i + 2 < theta.size(); ++i) {
-        const double turn = turning_point(step, index, &theta[i], &g[i]);
+    theta_.assign(places.begin(), places.end());
+    g_.clear();
+    for (std::size_t i = 0; i < points; ++i) g_.push_back(grid_[i * last_.size() + k]);
+    for (std::size_t i = 0; i + 2 < theta_.size(); ++i) {
+        const double turn = turning_point(step, index, &theta_[i], &g_[i]);
         if (std::isnan(turn)) continue;
-        const auto after = std::upper_bound(theta.begin(), theta.end(), turn);
-        g.insert(g.begin() + (after - theta.begin()), value(step, index, turn));
-        theta.insert(after, turn);
+        const auto after = std::upper_bound(theta_.begin(), theta_.end(), turn);
+        g_.insert(g_.begin() + (after - theta_.begin()), value(step, index, turn));
+        theta_.insert(after, turn);
         i += 2;
     }
     int& last_sign = sign_[k];
-    for (std::size_t i = 1; i < g.size(); ++i) {
-        const int now = sign(g[i]);
-        if (last_sign != 0 && now == 0) record(step, index, theta[i], found);
+    std::size_t left = 0;
+    for (std::size_t i = 1; i < g_.size(); ++i) {
+        if (std::isnan(g_[i])) continue;
+        const int now = sign(g_[i]);
+        if (last_sign != 0 && now == 0) record(step, index, theta_[i], found);
         if (last_sign * now < 0)
-            record(step, index, locate(step, index, theta[i - 1], g[i - 1], theta[i], g[i]), found);
-        if (!std::isnan(g[i])) last_sign = now;
+            record(step, index, locate(step, index, theta_[left], g_[left], theta_[i], g_[i]), found);
+        last_sign = now;
+        left = i;
     }
 }
 
@@ -128,16 +134,16 @@ void EventWatch::record(const Stretch& step, int index, double theta, std::vecto
 /// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at
 /// all and the search then finds the other sign. Not a number otherwise.
 double EventWatch::turning_point(const Stretch& step, int index, const double* theta, const double* g) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const int side = sign(g[1]);
-    if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return none;
+    if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return no_place;
     const double slope = (g[2] - g[0]) / (theta[2] - theta[0]);
     const double half = (theta[2] - theta[0]) / 2;
     const double curvature = (g[2] - 2 * g[1] + g[0]) / (half * half);
     const double vertex = theta[1] - slope / curvature;
     const double lowest = side * (g[1] - slope * slope / (2 * curvature));
     const double nearest = std::min({side * g[0], side * g[1], side * g[2]});
-    if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2] || lowest > nearest / 2) return none;
+    if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2] || lowest > nearest / 2)
+        return no_place;
 
     constexpr double golden = 0.6180339887498949;
     double left = theta[0], right = theta[2];
@@ -148,15 +154,17 @@ double EventWatch::turning_point(const Stretch& step, int index, const double* t
         (g_b < g_a ? (b < a ? right : left) : (b < a ? left : right)) = g_b < g_a ? a : b;
         if (g_b < g_a) a = b, g_a = g_b;
     }
-    return g_a <= 0 ? a : none;
+    return g_a <= 0 ? a : no_place;
 }
 
+/// The zero between two points of different signs, as θ; not a number for a pole.
 double EventWatch::locate(const Stretch& step, int index, double left, double g_left, double right,
                           double g_right) {
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero
     double c = a, g_c = g_a;          // the point before
     const double least = 4 * epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
+    const double highest = std::max(std::abs(g_left), std::abs(g_right));  // a pole rises above both
     double part = 0.5;
     for (int i = 0; i < 100; ++i) {
         const double next = b + part * (a - b);
@@ -170,7 +178,8 @@ double EventWatch::locate(const Stretch& step, int index, double left, double g_
         b = next, g_b = g_next;
         const double width = std::abs(a - b);
         const double best = std::abs(g_b) < std::abs(g_a) ? b : a;
-        if (g_b == 0 || width <= 2 * least) return g_b == 0 ? b : best;
+        if (g_b == 0) return b;
+        if (width <= 2 * least) return std::min(std::abs(g_a), std::abs(g_b)) > highest ? no_place : best;
 
         const double xi = (b - a) / (c - a);
         const double phi = (g_b - g_a) / (g_c - g_a);

@@ -7,11 +7,11 @@
 ///                                        [](double, const double* y, const double*, double* g) { g[0] = y[0]; });
 ///     const Events from_scene = make_events(module, {}, {true, false});     // stop flags in the scene's order
 ///
-/// What counts: g changes its sign, or is exactly zero after it was not. A zero at the very start (closer than
-/// 1e-12 of the step, or of the time) is none. Every step is looked at in its interior too, so that two zeros in
-/// one step are found: at three points, and at the turning point of a parabola through three neighbours if that
-/// comes near zero. Two zeros closer together than this can see, and a touch that rounding keeps off zero, go
-/// unseen.
+/// What counts: g changes its sign, other than through a pole, or is exactly zero after it was not. A zero at the
+/// very start (closer than 1e-12 of the step, or of the time) is none. Every step is looked at in its interior
+/// too, so that two zeros in one step are found: at three points, and at the turning point of a parabola through
+/// three neighbours if that comes near zero. Two zeros closer together than this can see, and a touch that
+/// rounding keeps off zero, go unseen.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
@@ -95,6 +95,7 @@ private:
     std::vector<double> last_;  ///< values at the start of the step
     std::vector<int> sign_;     ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
     std::vector<double> grid_;  ///< values at the points of the step, by point
+    std::vector<double> theta_, g_;  ///< points and values of the event looked at
 };
 
 }  // namespace alembert

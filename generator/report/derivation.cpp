@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/derivation.hpp"
+
+#include "lower/lower.hpp"
+#include "report/intermediate_form.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double largest_tree = 30000;        // nodes of all equations, written out
+constexpr std::size_t most_terms = 150;       // of one equation in normal form; beyond, nobody reads it
+
+class Making {
+public:
+    Making(const Mechanism& m, const Equations& e) : m_(m), e_(e) {}
+
+    Derivation make() {
+        result_.formalism = e_.formalism;
+        result_.degrees_of_freedom = m_.size();
+        for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
+        if (!readable_equations() || !energies()) return with_definitions();
+        forces();
+        derivatives();
+        return std::move(result_);
+    }
+
+private:
+    Phrase symbol_of(const GiNaC::symbol& s) const { return phrases::symbol(s, m_.symbols->info(s)); }
+
+    std::optional<Fourier> normal(const ex& e) const {
+        if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
+        std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
+        if (f && f->size() > most_terms) return std::nullopt;
+        return f;
+    }
+
+    bool readable_equations() {
+        double size = 0;
+        for (int i = 0; i < e_.size(); ++i) {
+            for (int j = 0; j < e_.size(); ++j) size += m_.z->tree_size(e_.M(i, j));
+            size += m_.z->tree_size(e_.forcing(i));
+        }
+        if (size > largest_tree) return false;
+        for (int i = 0; i < e_.size(); ++i) {
+            GiNaC::exvector terms{-e_.own[i], -e_.dissipative[i]};
+            for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
+            const auto left = normal(GiNaC::add(std::move(terms))), right = normal(e_.applied[i]);
+            if (!left || !right) return false;
+            result_.equations.push_back(readable_equation(*left, *right));
+        }
+        return true;
+    }
+
+    bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
+        const auto f = normal(value);
+        if (!f) return false;
+        statement.value = readable(*f);
+        to.push_back(std::move(statement));
+        return true;
+    }
+
+    bool energies() {
+        using Kind = Statement::Kind;
+        for (const Part& part : m_.kinetic)
+            if (!add(result_.energies, {Kind::energy, "T", part.label, {}, {}}, part.value)) return false;
+        for (const Part& part : m_.potential)
+            if (!add(result_.energies, {Kind::energy, "V", part.label, {}, {}}, part.value)) return false;
+        const Energy energy = energy_of(m_);
+        const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
+        if (!T || !V || !L) return false;
+        result_.kinetic = readable(*T);
+        result_.potential = readable(*V);
+        if (m_.given_lagrangian) result_.lagrangian = readable(*L);
+        return true;
+    }
+
+    void forces() {
+        using Kind = Statement::Kind;
+        for (const Load& load : m_.loads) {
+            std::vector<std::pair<ex, ex>> targets;
+            for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
+            const std::vector<ex> Q = m_.z->pull_back(targets, m_.qdot);
+            for (int i = 0; i < m_.size(); ++i)
+                if (!Q[i].is_zero())
+                    add(result_.forces, {Kind::work, "Q", load.label, symbol_of(m_.q[i]), {}}, Q[i]);
+        }
+        for (int i = 0; i < m_.size(); ++i)
+            add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, e_.applied[i] + e_.dissipative[i]);
+    }
+
+    void derivatives() {
+        using Kind = Statement::Kind;
+        std::vector<GiNaC::symbol> state = m_.q;
+        state.insert(state.end(), m_.qdot.begin(), m_.qdot.end());
+        const std::vector<ex> gradient = m_.z->pull_back({{m_.lagrangian(), 1}}, state);
+        for (int i = 0; i < m_.size(); ++i) {
+            add(result_.derivatives, {Kind::partial, "L", "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
+            add(result_.derivatives, {Kind::partial, "L", "", symbol_of(m_.q[i]), {}}, gradient[i]);
+        }
+    }
+
+    Derivation with_definitions() {
+        const Program program = lower(m_, e_, energy_of(m_));
+        IntermediateForm form = intermediate_form(program, m_);
+        result_.definitions = std::move(form.definitions);
+        result_.equations = std::move(form.equations);
+        result_.kinetic = std::move(form.kinetic);
+        result_.potential = std::move(form.potential);
+        result_.energies.clear();
+        return std::move(result_);
+    }
+
+    const Mechanism& m_;
+    const Equations& e_;
+    Derivation result_;
+};
+
+}  // namespace
+
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
+    return Making(mechanism, equations).make();
+}
+
+}  // namespace alembert

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A derivation as a textbook shows it, ready to be printed: the four steps of Zhang & Qin, §1.5.
+///
+///     const Derivation shown = derivation_of(mechanism, equations);
+///     text(shown.equations[0].lhs);
+///
+/// 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations.
+/// Beyond the readable size the steps are left out and `definitions` carries intermediate symbols.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formalism/equations.hpp"
+#include "report/readable.hpp"
+
+namespace alembert {
+
+/// `label` (of `of`) = value: "T of particle M1", "dL/dtheta1'", "Q of theta1".
+struct Statement {
+    enum class Kind { energy, partial, force, work, definition };
+    Kind kind = Kind::energy;
+    std::string letter;             ///< T, V, L, Q, δW
+    std::string of;                 ///< a body, a load; may be empty
+    std::optional<Phrase> by;       ///< the variable of a partial derivative, the coordinate of a force
+    Phrase value;
+};
+
+struct Derivation {
+    std::string formalism;
+    int degrees_of_freedom = 0;
+    std::vector<Phrase> coordinates;
+    std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size
+    std::vector<Statement> energies;       ///< T and V of each body and spring
+    Phrase kinetic, potential;
+    std::optional<Phrase> lagrangian;      ///< where the scene gives it
+    std::vector<Statement> forces;         ///< generalized forces of each load, then in all
+    std::vector<Statement> derivatives;    ///< ∂L/∂q', ∂L/∂q
+    std::vector<ReadableEquation> equations;
+};
+
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
+
+}  // namespace alembert

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/intermediate_form.hpp"
+
+#include <map>
+#include <set>
+
+namespace alembert {
+
+namespace {
+
+using namespace phrases;
+
+constexpr int widest = 8;  // operations that may stay in one definition
+
+class Unfolding {
+public:
+    Unfolding(const Program& program, const Mechanism& mechanism) : p_(program), m_(mechanism) {
+        for (const GiNaC::symbol& s : m_.symbols->all())
+            if (m_.z->find(s) == nullptr) taken_.insert(m_.symbols->info(s).name);
+    }
+
+    void define(const std::vector<int>& roots) {
+        const std::vector<int> order = p_.needed(roots);
+        std::map<int, int> uses, length;
+        for (const int root : roots) ++uses[root];
+        for (const int id : order)
+            for (const int arg : p_[id].args) ++uses[arg];
+        for (const int id : order) {
+            const Node& node = p_[id];
+            if (node.args.empty()) continue;
+            const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
+            for (const int arg : node.args) length[id] += 1 + (known_.contains(arg) ? 0 : length[arg]);
+            if (!negation && (uses[id] > 1 || length[id] > widest)) {
+                Phrase value = unfolded(node);
+                known_.emplace(id, fresh());
+                definitions.emplace_back(known_.at(id), std::move(value));
+            }
+        }
+    }
+
+    Phrase of(int id) const {
+        const auto found = known_.find(id);
+        return found != known_.end() ? found->second : unfolded(p_[id]);
+    }
+
+    std::vector<std::pair<Phrase, Phrase>> definitions;
+
+private:
+    Phrase fresh() {
+        SymbolInfo info;
+        do info.name = "z" + std::to_string(++count_);
+        while (taken_.contains(info.name));
+        return symbol(GiNaC::symbol(info.name), info);
+    }
+
+    Phrase symbol_of(const GiNaC::symbol& s) const { return symbol(s, m_.symbols->info(s)); }
+
+    Phrase variable(const Variable& v) const {
+        switch (v.kind) {
+            case Variable::Kind::time: return symbol_of(m_.t);
+            case Variable::Kind::coordinate: return symbol_of(m_.q[v.index]);
+            case Variable::Kind::rate: return symbol_of(m_.qdot[v.index]);
+            case Variable::Kind::acceleration: return symbol_of(m_.qddot[v.index]);
+            case Variable::Kind::parameter: break;
+        }
+        int position = v.index;
+        for (const Mechanism::Parameter& p : m_.parameters)
+            if (p.independent && position-- == 0) return symbol_of(p.symbol);
+        throw std::out_of_range("parameter");
+    }
+
+    Phrase unfolded(const Node& node) const {
+        switch (node.op) {
+            case Op::number: return number(node.number);
+            case Op::pi: return pi();
+            case Op::variable: return variable(node.variable);
+            case Op::sum: {
+                std::vector<Phrase> terms;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    const Rational size = cln::abs(node.coefficients[k]);
+                    Phrase term = of(node.args[k]);
+                    if (!cln::equal(size, 1)) term = product({number(size), std::move(term)});
+                    terms.push_back(cln::minusp(node.coefficients[k]) ? negative(std::move(term)) : std::move(term));
+                }
+                if (!cln::zerop(node.number)) terms.push_back(number(node.number));
+                return sum(std::move(terms));
+            }
+            case Op::product: {
+                std::vector<Phrase> factors;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    Phrase factor = of(node.args[k]);
+                    if (node.exponents[k] == -1)
+                        factors.push_back(quotient(number(1), std::move(factor)));
+                    else
+                        factors.push_back(node.exponents[k] == 1 ? std::move(factor)
+                                                                 : power(std::move(factor), Rational(node.exponents[k])));
+                }
+                return product(std::move(factors));
+            }
+            case Op::pow: return power(of(node.args[0]), of(node.args[1]));
+            default: {
+                std::vector<Phrase> args;
+                for (const int arg : node.args) args.push_back(of(arg));
+                if (node.op == Op::sqrt) return power(std::move(args[0]), Rational(1) / 2);
+                return call(name_of(node.op), std::move(args));
+            }
+        }
+    }
+
+    const Program& p_;
+    const Mechanism& m_;
+    std::set<std::string> taken_;
+    std::map<int, Phrase> known_;
+    int count_ = 0;
+};
+
+}  // namespace
+
+IntermediateForm intermediate_form(const Program& program, const Mechanism& m) {
+    const std::vector<int> mass = program.nodes_of("mass"), forcing = program.nodes_of("forcing");
+    const int kinetic = program.nodes_of("kinetic")[0], potential = program.nodes_of("potential")[0];
+    std::vector<int> roots = mass;
+    roots.insert(roots.end(), forcing.begin(), forcing.end());
+    roots.push_back(kinetic);
+    roots.push_back(potential);
+    Unfolding unfolding(program, m);
+    unfolding.define(roots);
+
+    IntermediateForm form;
+    const int n = m.size();
+    for (int i = 0; i < n; ++i) {
+        std::vector<Phrase> terms;
+        for (int j = 0; j < n; ++j) {
+            const int row = std::max(i, j), column = std::min(i, j);
+            const int entry = mass[row * (row + 1) / 2 + column];
+            if (program.is_zero(entry)) continue;
+            const Phrase acceleration = phrases::symbol(m.qddot[j], m.symbols->info(m.qddot[j]));
+            const Node& node = program[entry];
+            const bool is_one = node.is_number() && cln::equal(node.number, 1);
+            terms.push_back(is_one ? acceleration : phrases::product({unfolding.of(entry), acceleration}));
+        }
+        if (!program.is_zero(forcing[i])) terms.push_back(phrases::negative(unfolding.of(forcing[i])));
+        form.equations.push_back({.lhs = phrases::sum(std::move(terms)), .rhs = phrases::number(0), .divided_by = {}});
+    }
+    form.kinetic = unfolding.of(kinetic);
+    form.potential = unfolding.of(potential);
+    form.definitions = std::move(unfolding.definitions);
+    return form;
+}
+
+}  // namespace alembert

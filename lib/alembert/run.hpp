@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// One integration with the method of a tableau, from options that have been checked to a trajectory. This is
+/// the inside of `integrate`: call that.
+///
+///     Trajectory motion = Run<dop853_tableau>(rhs, initial, options, events).go();
+///
+/// The order of things in an accepted step: events in it are found and told with the rows before them, an event
+/// that stops ends the run; then the other rows; then the end of the step becomes the start of the next. Throws
+/// nothing of its own; what fails goes into the trajectory.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "alembert/integrate.hpp"
+#include "alembert/step.hpp"
+#include "alembert/step_size.hpp"
+
+namespace alembert {
+
+/// Seconds between rows.
+inline double sample_interval(const Options& options) {
+    return options.sample > 0 ? options.sample : options.duration / 200;
+}
+
+/// A run with one method: its step, and what is collected on the way.
+template <const auto& tableau>
+class Run {
+public:
+    Run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
+        : options_(options),
+          end_(options.start + options.duration),
+          events_(events),
+          step_(rhs, options.start, initial),
+          watch_(events, rhs),
+          row_(initial.size()),
+          event_rate_(initial.size()) {
+        result_.dimension = rhs.dimension;
+        result_.names = rhs.names;
+        result_.statistics.method = name(options.method);
+        if (options.duration > 0)
+            result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
+        result_.states.reserve(result_.times.capacity() * initial.size());
+    }
+
+    Trajectory go() && {
+        add_row(options_.start, step_.state());
+        if (!step_.starts_finite()) {
+            const int bad = step_.worst_component();
+            fail(FailureKind::not_a_number, bad,
+                 fmt::format(
+                     "the rate of {} is not finite at the start, t = {:.17g}; look at its equation, and at the "
+                     "initial values and parameters",
+                     step_.rhs().describe(bad), options_.start));
+        } else {
+            watch_.begin(step_.time(), step_.state(), step_.rate());
+            tell(step_.time(), step_.state(), step_.rate());
+            if (options_.duration > 0) steps();
+        }
+        result_.statistics.evaluations = evaluations();
+        return std::move(result_);
+    }
+
+private:
+    long evaluations() const { return step_.evaluations() + watch_.evaluations() + further_evaluations_; }
+    bool ended() const { return result_.ending != Ending::completed; }
+
+    void steps() {
+        if constexpr (tableau.error_rows == 0)
+            fixed_steps();
+        else
+            adaptive_steps();
+    }
+
+    void fixed_steps() {
+        const long count = std::max(1L, std::lround(std::ceil(options_.duration / options_.step * (1 - 1e-12))));
+        for (long i = 1; i <= count && !ended(); ++i) {
+            if (is_over_budget()) return;
+            step_.attempt(i == count ? end_ : options_.start + static_cast<double>(i) * options_.step);
+            if (!step_.finish()) return fail_fixed();
+            accept();
+        }
+    }
+
+    void adaptive_steps() {
+        const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
+        StepSize control(tableau.estimate_order);
+        double h = options_.step;
+        if (h == 0) {
+            h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), options_.tolerance,
+                              tableau.estimate_order, longest);
+            ++further_evaluations_;
+        }
+        double misfit = 0;
+        while (step_.time() < end_ && !ended()) {
+            h = std::min(h, longest);
+            if (is_over_budget()) return;
+            if (h < 16 * std::numeric_limits<double>::epsilon() * std::abs(step_.time()) ||
+                step_.time() + h == step_.time())
+                return fail_underflow(misfit, h);
+            step_.attempt(step_.time() + 1.01 * h < end_ ? step_.time() + h : end_);
+            misfit = step_.misfit();
+            if (misfit <= options_.tolerance && !step_.finish()) misfit = HUGE_VAL;
+            if (misfit <= options_.tolerance) {
+                h = control.after_accepted(step_.length(), misfit / options_.tolerance);
+                accept();
+            } else {
+                h = control.after_rejected(step_.length(), misfit / options_.tolerance);
+                ++result_.statistics.rejected;
+            }
+        }
+    }
+
+    /// Rows and events of the step that has just been finished; then its end is the new start.
+    void accept() {
+        ++result_.statistics.steps;
+        const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
+        for (const Crossing& crossing : crossings) {
+            add_rows_before(crossing.time);
+            step_.interpolate(crossing.theta, row_.data());
+            const Event& event = events_.list[static_cast<std::size_t>(crossing.index)];
+            result_.events.push_back(
+                {.index = crossing.index, .name = event.name, .time = crossing.time, .state = row_});
+            if (event.stop) return stop_at(crossing.time);
+        }
+        add_rows_before(step_.end_time());
+        step_.advance();
+        tell(step_.time(), step_.state(), step_.rate());
+        if (step_.time() == end_) add_row(end_, step_.state());
+    }
+
+    std::vector<Crossing> look_for_events() {
+        return watch_.look(
+            {.start = step_.time(),
+             .end = step_.end_time(),
+             .end_state = step_.end_state(),
+             .end_rate = step_.end_rate(),
+             .interpolate = [this](double theta, double* state) { step_.interpolate(theta, state); }});
+    }
+
+    /// The state there is in row_.
+    void stop_at(double time) {
+        step_.rhs()(time, row_.data(), event_rate_.data());
+        ++further_evaluations_;
+        tell(time, row_.data(), event_rate_.data());
+        if (rows_on_grid_ > 1 && result_.times.back() > time - 1e-9 * sample_interval(options_)) drop_row();
+        if (result_.times.back() < time) add_row(time, row_.data());
+        result_.ending = Ending::stopped_by_event;
+    }
+
+    /// Rows of the grid up to `time`, the end of a step included; the very last row is not one of them.
+    void add_rows_before(double time) {
+        const double interval = sample_interval(options_);
+        for (;;) {
+            const double next = options_.start + static_cast<double>(rows_on_grid_) * interval;
+            if (next > time || next >= end_ - 1e-9 * interval) return;
+            if (next == step_.end_time())
+                std::copy_n(step_.end_state(), row_.size(), row_.begin());
+            else
+                step_.interpolate((next - step_.time()) / step_.length(), row_.data());
+            add_row(next, row_.data());
+            ++rows_on_grid_;
+        }
+    }
+
+    void add_row(double time, const double* state) {
+        result_.times.push_back(time);
+        result_.states.insert(result_.states.end(), state, state + result_.dimension);
+    }
+
+    void drop_row() {
+        result_.times.pop_back();
+        result_.states.resize(result_.states.size() - row_.size());
+    }
+
+    void tell(double time, const double* state, const double* rate) const {
+        const auto size = static_cast<std::size_t>(result_.dimension);
+        if (options_.on_step) options_.on_step(time, {state, size}, {rate, size});
+    }
+
+    bool is_over_budget() {
+        if (evaluations() + tableau.all_stages <= options_.budget) return false;
+        fail(FailureKind::budget_used_up, -1,
+             fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget "
+                         "(--budget), loosen the tolerance or shorten the duration",
+                         options_.budget, step_.time()));
+        return true;
+    }
+
+    void fail_fixed() {
+        const int bad = step_.worst_component();
+        fail(FailureKind::not_a_number, bad,
+             fmt::format(
+                 "{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
+                 "dop853",
+                 step_.rhs().describe(bad), step_.time()));
+    }
+
+    void fail_underflow(double misfit, double h) {
+        const int worst = step_.worst_component();
+        const std::string where = fmt::format("step size underflow at t = {:.17g} (step {:.3g})", step_.time(), h);
+        const std::string component = step_.rhs().describe(worst);
+        fail(
+            FailureKind::step_underflow, worst,
+            std::isfinite(misfit)
+                ? fmt::format(
+                      "{}: {} is the stiffest component, its error was {:.3g} times the tolerance; there may be a "
+                      "singularity here, or the tolerance is beyond double precision",
+                      where, component, misfit / options_.tolerance)
+                : fmt::format(
+                      "{}: {} or its rate is not finite, however short the step; there is a singularity here",
+                      where, component));
+    }
+
+    /// Ends the run at the start of the step that failed, which becomes the last row.
+    void fail(FailureKind kind, int component, std::string message) {
+        const double* const state = step_.state();
+        if (result_.times.back() < step_.time()) add_row(step_.time(), state);
+        result_.ending = Ending::failed;
+        result_.failure = Failure{.kind = kind,
+                                  .message = std::move(message),
+                                  .time = step_.time(),
+                                  .state = {state, state + result_.dimension},
+                                  .component = component};
+    }
+
+    const Options& options_;
+    const double end_;
+    const Events& events_;
+    Step<tableau> step_;
+    EventWatch watch_;
+    Trajectory result_;
+    std::vector<double> row_;
+    std::vector<double> event_rate_;
+    long rows_on_grid_ = 1;  ///< the start is there
+    long further_evaluations_ = 0;
+};
+
+}  // namespace alembert
