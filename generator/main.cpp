@@ -17,6 +17,7 @@ constexpr int input_is_wrong = 3, numbers_failed = 4, environment_failed = 5;
 int guarded(int (*command)(const Request&), const Request& request) {
     const auto complain = [](const std::string& text, int code) {
         std::cout.flush();
+        std::fflush(stdout);
         std::cerr << text << (text.ends_with('\n') ? "" : "\n");
         return code;
     };

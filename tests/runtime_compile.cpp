@@ -265,6 +265,24 @@ TEST_CASE("compile: $CXX may carry arguments") {
     CHECK(compile_error([&] { compile("static_assert(VALUE == 7);", "x", cache.options()); }).empty());
 }
 
+TEST_CASE("compile: every compiler that is there takes the flags") {
+    const Cache cache;
+    for (const char* compiler : {"g++", "clang++"}) {
+        if (find_program(compiler).empty()) continue;
+        for (const bool fast : {false, true}) {
+            CAPTURE(compiler);
+            CompileOptions options = cache.options();
+            options.compiler = compiler;
+            options.fast_math = fast;
+            const Compiled compiled = compile(pendulum_source(), "pendulum", options);
+            CHECK(!compiled.from_cache);
+            CHECK(load(compiled.object).table().parameters == 3);
+        }
+    }
+    volatile double tiny = 1e-310;  // no object may switch the process to flush-to-zero
+    CHECK(tiny / 2 > 0);
+}
+
 TEST_CASE("compile: without a cache that can be written a private folder serves") {
     const Cache cache;
     const fs::path file = cache.path / "file";

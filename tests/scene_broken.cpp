@@ -35,7 +35,8 @@ std::vector<Expected> expectations(const std::string& text) {
     for (std::string line; std::getline(lines, line) && line.rfind("# expect ", 0) == 0;) {
         Expected expected;
         int length = 0;
-        REQUIRE(std::sscanf(line.c_str(), "# expect %d:%d: %n", &expected.place.line, &expected.place.column, &length) == 2);
+        REQUIRE(std::sscanf(line.c_str(), "# expect %d:%d: %n", &expected.place.line, &expected.place.column,
+                            &length) == 2);
         expected.message = line.substr(static_cast<std::size_t>(length));
         list.push_back(expected);
     }
@@ -87,9 +88,11 @@ TEST_CASE("broken scenes: each is refused for what it says it is, there, and for
                 return d.place == e.place && d.message.find(e.message) != std::string::npos;
             }));
             if (e.place.line > 0)
-                CHECK(what.find(fmt::format("{}:{}:{}: ", path.string(), e.place.line, e.place.column)) != std::string::npos);
+                CHECK(what.find(fmt::format("{}:{}:{}: ", path.string(), e.place.line, e.place.column)) !=
+                      std::string::npos);
         }
-        const bool is_raw = std::any_of(what.begin(), what.end(), [](unsigned char c) { return c < 0x20 && c != '\n'; });
+        const bool is_raw =
+            std::any_of(what.begin(), what.end(), [](unsigned char c) { return c < 0x20 && c != '\n'; });
         CHECK_FALSE(is_raw);
         CHECK(what.find("\u202e") == std::string::npos);
     }
@@ -166,8 +169,8 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anythi
         return text;
     };
     REQUIRE(told(fill(head, "# comment\n") + std::string(100, '\n')).size() == 1);
-    CHECK(told(fill(head, "# comment\n") + std::string(100, '\n'))[0].message.find("the limit is 1048576 (1 MiB)") !=
-          std::string::npos);
+    CHECK(told(fill(head, "# comment\n") + std::string(100, '\n'))[0].message.find(
+              "the limit is 1048576 (1 MiB)") != std::string::npos);
     CHECK(told(fill(head, "# comment\n")).empty());
     int k = 0;
     std::string numbered = head + "[definitions]\n";
@@ -198,8 +201,9 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anythi
 TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
     std::string whole = text_of(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
     REQUIRE(told(whole).empty());
-    const std::vector<std::string> pieces{"\"", "'", "[", "]", "[[", "]]", "{", "}", "=", ".", ",", "\n", "#", "\"\"\"", "'''", "\\",
-                                          "nan", "1e999", "\xC3", "\xE2\x80\xAE", "0x", "true", "(", "^", "-", "\\u", "[a.b]", "\r"};
+    const std::vector<std::string> pieces{
+        "\"",  "'",  "[",   "]",     "[[",   "]]",           "{",  "}",    "=", ".", ",", "\n",  "#",     "\"\"\"",
+        "'''", "\\", "nan", "1e999", "\xC3", "\xE2\x80\xAE", "0x", "true", "(", "^", "-", "\\u", "[a.b]", "\r"};
     constexpr unsigned seed = 20240301;
     std::mt19937 random(seed);
     for (int i = 0; i < 3000; ++i) {
@@ -207,10 +211,17 @@ TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
         for (unsigned edits = 1 + random() % 4; edits > 0; --edits) {
             const std::size_t at = random() % text.size();
             switch (random() % 4) {
-                case 0: text[at] = static_cast<char>(random() % 256); break;
-                case 1: text.erase(at, 1 + random() % 8); break;
-                case 2: text.insert(at, pieces[random() % pieces.size()]); break;
-                default: text.insert(at, text.substr(random() % text.size(), random() % 40));
+                case 0:
+                    text[at] = static_cast<char>(random() % 256);
+                    break;
+                case 1:
+                    text.erase(at, 1 + random() % 8);
+                    break;
+                case 2:
+                    text.insert(at, pieces[random() % pieces.size()]);
+                    break;
+                default:
+                    text.insert(at, text.substr(random() % text.size(), random() % 40));
             }
         }
         try {

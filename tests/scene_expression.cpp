@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <random>
 
@@ -12,21 +13,30 @@ namespace {
 /// The tree as an s-expression: what was read, without a doubt about precedence.
 std::string shape(const Tree& tree) {
     const auto list = [&](const std::string& head) {
-        std::string text = "(" + head;
-        for (const TreePtr& arg : tree.args) text += " " + shape(*arg);
-        return text + ")";
+        std::string text = head;
+        for (const TreePtr& arg : tree.args) text.append(" ").append(shape(*arg));
+        return fmt::format("({})", text);
     };
     const std::string primes(static_cast<std::size_t>(tree.primes), '\'');
     switch (tree.kind) {
-        case Tree::Kind::number: return tree.text;
-        case Tree::Kind::name: return tree.text + primes;
-        case Tree::Kind::call: return list(tree.text);
-        case Tree::Kind::sum: return list("+");
-        case Tree::Kind::product: return list("*");
-        case Tree::Kind::negate: return list("-");
-        case Tree::Kind::reciprocal: return list("/");
-        case Tree::Kind::power: return list("^");
-        case Tree::Kind::derivative: return list("d" + primes);
+        case Tree::Kind::number:
+            return tree.text;
+        case Tree::Kind::name:
+            return tree.text + primes;
+        case Tree::Kind::call:
+            return list(tree.text);
+        case Tree::Kind::sum:
+            return list("+");
+        case Tree::Kind::product:
+            return list("*");
+        case Tree::Kind::negate:
+            return list("-");
+        case Tree::Kind::reciprocal:
+            return list("/");
+        case Tree::Kind::power:
+            return list("^");
+        case Tree::Kind::derivative:
+            return list("d" + primes);
     }
     return "?";
 }
@@ -73,13 +83,15 @@ TEST_CASE("expression: precedence is that of the page") {
 }
 
 TEST_CASE("expression: numbers keep what was typed") {
-    for (const char* number : {"2", ".5", "2e3", "2.", "1.50", "2E-3", "2.e+03", "0.1", "1e308", "123456789012345678901234567890"})
+    for (const char* number :
+         {"2", ".5", "2e3", "2.", "1.50", "2E-3", "2.e+03", "0.1", "1e308", "123456789012345678901234567890"})
         CHECK(read(number) == number);
     CHECK(read("2*e") == "(* 2 e)");
 }
 
 TEST_CASE("expression: names are letters of any script") {
-    for (const char* name : {"x", "_", "theta1", "θ", "θ1_β", "ускорение", "角度", "I", "E", "lambda", "new", "double", "int"})
+    for (const char* name :
+         {"x", "_", "theta1", "θ", "θ1_β", "ускорение", "角度", "I", "E", "lambda", "new", "double", "int"})
         CHECK(read(name) == name);
     CHECK(read("θ''*μ'") == "(* θ'' μ')");
 }
@@ -95,7 +107,8 @@ TEST_CASE("expression: functions take what they take") {
     CHECK(read("atan2(y, x)") == "(atan2 y x)");
     CHECK(read("min(a,b,c)") == "(min a b c)");
     CHECK(read("dot(vel(P), ex(A))") == "(dot (vel P) (ex A))");
-    CHECK(read("norm(pos(P,Q) + 2*cross(omega(B), pos(P)))") == "(norm (+ (pos P Q) (* 2 (cross (omega B) (pos P)))))");
+    CHECK(read("norm(pos(P,Q) + 2*cross(omega(B), pos(P)))") ==
+          "(norm (+ (pos P Q) (* 2 (cross (omega B) (pos P)))))");
     CHECK(mistake("sin()") == "1: 'sin' takes 1 argument, not 0: sin(x)");
     CHECK(mistake("sin(x, y)") == "1: 'sin' takes 1 argument, not 2: sin(x)");
     CHECK(mistake("atan2(x)") == "1: 'atan2' takes 2 arguments, not 1: atan2(y, x)");
@@ -114,7 +127,8 @@ TEST_CASE("expression: what is nearly right gets a hint") {
     CHECK(mistake("(a+b)(c)") == "6: an operator is missing here; if a product was meant write (a+b)*(c)");
     CHECK(mistake("x'(y)") == "3: an operator is missing here; if a product was meant write x'*(y)");
     CHECK(mistake("l(x)") == "1: unknown function 'l'; if a product was meant write l*(x)");
-    CHECK(mistake("sinn(x)") == "1: unknown function 'sinn'; did you mean 'sin'?; if a product was meant write sinn*(x)");
+    CHECK(mistake("sinn(x)") ==
+          "1: unknown function 'sinn'; did you mean 'sin'?; if a product was meant write sinn*(x)");
     CHECK(mistake("sin x") == "1: 'sin' needs its argument in parentheses: sin(x)");
     CHECK(mistake("2*sin") == "3: 'sin' needs its argument in parentheses: sin(x)");
     CHECK(mistake("sin'(x)") == "4: a function has no prime; differentiate what it gives: (sin(x))'");
@@ -129,7 +143,8 @@ TEST_CASE("expression: what is nearly right gets a hint") {
           std::string::npos);
     CHECK(mistake("[x]") == "1: '[' is not part of the expression language; use parentheses");
     CHECK(mistake("x; y") == "2: ';' is not part of the expression language");
-    CHECK(mistake("0,5") == "2: a comma stands only between the arguments of a function; the decimal sign is a point");
+    CHECK(mistake("0,5") ==
+          "2: a comma stands only between the arguments of a function; the decimal sign is a point");
     CHECK(mistake("2'") == "2: a number has no derivative");
     CHECK(mistake("x'''") == "2: at most two primes: mechanics knows rates and accelerations only");
     CHECK(mistake("'x") == "1: a prime stands right after a name or a parenthesis: x' or (…)'");
@@ -203,12 +218,14 @@ TEST_CASE("expression: an equation has one sign, and rates before an impact wher
     CHECK(shape(*impact.rhs.tree) == "(* (- e) ((-) x'))");
     parse_equality("x' = -e*x'(-)", {}, diagnostics);
     REQUIRE(diagnostics.size() == 1);
-    CHECK(diagnostics[0].message == "x'(-), a rate before the impact, stands only in a claim with at = \"impact\"");
+    CHECK(diagnostics[0].message ==
+          "x'(-), a rate before the impact, stands only in a claim with at = \"impact\"");
 }
 
 TEST_CASE("expression: no soup of words does worse than be refused") {
-    const std::vector<std::string> words{"x", "sin", "atan2", "pos", "2", ".5", "1e9", "+", "-", "*", "/", "^", "(", ")", ",",
-                                         "'", "''", "=", " ", "θ", "·", "((", "))", "x'(-)", "**", "\x01", "\xC3", "_", "e"};
+    const std::vector<std::string> words{"x", "sin", "atan2", "pos",   "2",  ".5",   "1e9",  "+", "-", "*",
+                                         "/", "^",   "(",     ")",     ",",  "'",    "''",   "=", " ", "θ",
+                                         "·", "((",  "))",    "x'(-)", "**", "\x01", "\xC3", "_", "e"};
     constexpr unsigned seed = 20240229;
     std::mt19937 random(seed);
     for (int i = 0; i < 4000; ++i) {

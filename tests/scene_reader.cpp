@@ -204,9 +204,10 @@ TEST_CASE("reader: a byte order mark and line ends with carriage returns change 
 }
 
 TEST_CASE("reader: order is that of the file, however tables are written") {
-    const Scene scene = parse_scene("coordinates.z = 1\ncoordinates.a.initial = 2\ncoordinates.m = 3\ncoordinates.a.rate = \"k\"\n"
-                                    "parameters = { k = 1, b = 2 }\nparticle = [ { name = \"M\", mass = 1, position = [0, \"z\"] } ]\n",
-                                    "p.toml");
+    const Scene scene = parse_scene(
+        "coordinates.z = 1\ncoordinates.a.initial = 2\ncoordinates.m = 3\ncoordinates.a.rate = \"k\"\n"
+        "parameters = { k = 1, b = 2 }\nparticle = [ { name = \"M\", mass = 1, position = [0, \"z\"] } ]\n",
+        "p.toml");
     CHECK(names(scene.coordinates) == "z a m");
     CHECK(scene.coordinates[1].rate.text == "k");
     CHECK(names(scene.parameters) == "k b");
@@ -216,7 +217,8 @@ TEST_CASE("reader: order is that of the file, however tables are written") {
 }
 
 TEST_CASE("reader: escapes and line ends in strings keep their places") {
-    const Scene scene = parse_scene("[coordinates]\nx = 0\n[definitions]\na = \"\\u0078 + x\"\nb = \"\"\"\nx +\\\n    x\"\"\"\n", "p.toml");
+    const Scene scene = parse_scene(
+        "[coordinates]\nx = 0\n[definitions]\na = \"\\u0078 + x\"\nb = \"\"\"\nx +\\\n    x\"\"\"\n", "p.toml");
     const Expression& a = scene.definitions[0].value;
     CHECK(a.text == "x + x");
     CHECK(a.place(0) == Place{4, 6});

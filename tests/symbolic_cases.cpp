@@ -108,9 +108,9 @@ void stretched_pendulum(Mechanics& m) {
 }
 
 void bead_on_hoop(Mechanics& m) {
-    const auto mass = m.parameter("m"), r = m.parameter("r"), omega = m.parameter("omega"), g = m.parameter("g");
+    const auto mass = m.parameter("m"), r = m.parameter("r"), Omega = m.parameter("Omega"), g = m.parameter("g");
     m.coordinates({"theta"});
-    const ex x = r * sin(m.q[0]) * cos(omega * m.time), y = r * sin(m.q[0]) * sin(omega * m.time), z = -r * cos(m.q[0]);
+    const ex x = r * sin(m.q[0]) * cos(Omega * m.time), y = r * sin(m.q[0]) * sin(Omega * m.time), z = -r * cos(m.q[0]);
     m.T = mass * (square(m.dot(x)) + square(m.dot(y)) + square(m.dot(z))) / 2;
     m.V = mass * g * z;
 }
@@ -163,13 +163,13 @@ void coupled_oscillators(Mechanics& m) {
     m.Q = {0, F};
 }
 
-/// Example 1-1 of Zhang & Qin: four rods of length l, balls m1, sleeve m2, turning with omega.
+/// Example 1-1 of Zhang & Qin: four rods of length l, balls m1, sleeve m2, turning with Omega.
 void governor(Mechanics& m) {
-    const auto m1 = m.parameter("m1"), m2 = m.parameter("m2"), l = m.parameter("l"), omega = m.parameter("omega"),
+    const auto m1 = m.parameter("m1"), m2 = m.parameter("m2"), l = m.parameter("l"), Omega = m.parameter("Omega"),
                g = m.parameter("g");
     m.coordinates({"theta"});
     for (const int side : {-1, 1}) {
-        const ex r = side * l * sin(m.q[0]), x = r * cos(omega * m.time), y = r * sin(omega * m.time),
+        const ex r = side * l * sin(m.q[0]), x = r * cos(Omega * m.time), y = r * sin(Omega * m.time),
                  z = -l * cos(m.q[0]);
         m.T += m1 * (square(m.dot(x)) + square(m.dot(y)) + square(m.dot(z))) / 2;
         m.V += m1 * g * z;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -15,14 +16,16 @@ int eval(const Request& request) {
     const Start start = start_of(d.mechanism, overrides_of(request));
     State<double> state = start.state();
 
-    if (const auto combination = massless_combination(program, state))
-        throw IntegrationError(fmt::format("the system is singular at t = {:.6g}: no inertia resists {}; give it a mass, "
-                                           "or remove a coordinate",
-                                           state.t, *combination),
+    const auto fails = [&](const Program& p) {
+        const std::vector<double> value = interpret(p, state);
+        const std::vector<int> wanted = p.nodes_of("acceleration");
+        return massless_combination(p, state) ||
+               std::any_of(wanted.begin(), wanted.end(), [&](int id) { return !std::isfinite(value[id]); });
+    };
+    if (fails(program))
+        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", state.t,
+                                           failure_at(d, state).value_or("the numbers overflow")),
                                state.t, start.q);
-    if (const auto what = not_finite(program, state, "acceleration"))
-        throw IntegrationError(fmt::format("the accelerations are not finite at t = {:.6g}: {}", state.t, *what), state.t,
-                               start.q);
     std::vector<double> value = interpret(program, state);
     for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
     value = interpret(program, state);  // outputs may hold accelerations

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "analysis/diagnose.hpp"
 #include "formalism/lagrange.hpp"
 
 namespace alembert {
@@ -39,6 +40,14 @@ Derived derived(const Request& request) {
 
 Choice lowered(const Derived& d, const Request& request) {
     return choose(d.mechanism, d.equations, {.fold = request.fold});
+}
+
+std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism));
+    if (const auto combination = massless_combination(program, state))
+        return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
+                           *combination);
+    return not_finite(program, state, program.singular ? "forcing" : "acceleration");
 }
 
 Overrides overrides_of(const Request& request) {

@@ -99,18 +99,14 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
             .budget = request.budget};
 }
 
-/// What the interpreter knows about the state where the numbers failed.
-std::string diagnosis(const Program& program, const Start& start, const Failure& failure) {
+/// The state where the numbers failed.
+State<double> state_of(const Start& start, const Failure& failure) {
     State<double> state = start.state();
-    const auto n = program.coordinates.size();
     state.t = failure.time;
-    state.q.assign(failure.state.begin(), failure.state.begin() + static_cast<std::ptrdiff_t>(n));
-    state.qdot.assign(failure.state.begin() + static_cast<std::ptrdiff_t>(n),
-                      failure.state.begin() + static_cast<std::ptrdiff_t>(2 * n));
-    if (const auto combination = massless_combination(program, state))
-        return "; the mass matrix is singular there: no inertia resists " + *combination;
-    if (const auto what = not_finite(program, state, "acceleration")) return "; " + *what;
-    return "";
+    const auto middle = failure.state.begin() + static_cast<std::ptrdiff_t>(state.q.size());
+    state.q.assign(failure.state.begin(), middle);
+    state.qdot.assign(middle, middle + static_cast<std::ptrdiff_t>(state.qdot.size()));
+    return state;
 }
 
 }  // namespace
@@ -127,10 +123,9 @@ int simulate(const Request& request) {
     const Program program = lowered(d, request).program;
     const Start start = start_of(d.mechanism);
     const Options wishes = options_of(request, d.mechanism, start);
-    if (const auto combination = massless_combination(program, start.state()))
-        throw IntegrationError(fmt::format("the system is singular at t = {:.6g}: no inertia resists {}; give it a mass, "
-                                           "or remove a coordinate",
-                                           start.t, *combination),
+    if (program.singular || massless_combination(program, start.state()))
+        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
+                                           failure_at(d, start.state()).value_or("the mass matrix is singular")),
                                start.t, start.q);
     const Source source = emit(program);
     const double emit_seconds = lap();
@@ -189,9 +184,11 @@ int simulate(const Request& request) {
                    compile_seconds, compiled.from_cache ? " (cached)" : "", integrate_seconds);
         if (!request.output.empty()) fmt::print("wrote {}\n", request.output);
     }
-    if (motion.failure)
-        throw IntegrationError(motion.failure->message + diagnosis(program, start, *motion.failure),
-                               motion.failure->time, motion.failure->state);
+    if (motion.failure) {
+        const auto reason = failure_at(d, state_of(start, *motion.failure));
+        throw IntegrationError(motion.failure->message + (reason ? "\n  there: " + *reason : ""), motion.failure->time,
+                               motion.failure->state);
+    }
     return 0;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "lower/choose.hpp"
 
+#include "lower/share.hpp"
 #include "report/readable.hpp"
 
 namespace alembert {
@@ -67,9 +68,9 @@ Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions
     const Energy energy = energy_of(m);
     Equations intermediate = equations;
     intermediate.formalism += ", intermediate symbols";
-    Choice choice{.program = lower(m, intermediate, energy, options), .runner_up = {}};
+    Choice choice{.program = shared(lower(m, intermediate, energy, options)), .runner_up = {}};
     if (const std::optional<Equations> textbook = textbook_equations(m, equations)) {
-        Program program = lower(m, *textbook, readable_energy(m, energy), options);
+        Program program = shared(lower(m, *textbook, readable_energy(m, energy), options));
         const int ours = operations(program), other = operations(choice.program);
         if (program.singular || ours <= other) std::swap(program, choice.program);
         choice.runner_up = std::max(ours, other);

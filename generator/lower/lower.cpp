@@ -196,7 +196,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     program.roots.push_back({"jacobi", "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
     for (const Part& part : m.outputs) program.roots.push_back({"output", part.label, lowering(part.value)});
     for (const Part& part : m.events) program.roots.push_back({"event", part.label, lowering(part.value)});
-    return program;
+    return program.canonical();
 }
 
 int lower_expression(Program& program, const Mechanism& mechanism, const ex& e) {

@@ -259,6 +259,42 @@ std::vector<int> Program::needed(std::span<const int> roots) const {
     return result;
 }
 
+Program Program::canonical() const {
+    Program result;
+    result.source_labels = source_labels;
+    result.name = name;
+    result.parameters = parameters;
+    result.coordinates = coordinates;
+    result.formulation = formulation;
+    result.singular = singular;
+    std::vector<int> image(nodes_.size(), -1);
+    std::vector<std::pair<int, std::size_t>> stack;  // a node, and how many of its arguments are done
+    for (const Root& root : roots) {
+        stack.emplace_back(root.node, 0);
+        while (!stack.empty()) {
+            auto& [id, done] = stack.back();
+            const Node& node = nodes_[id];
+            if (image[id] < 0 && done < node.args.size()) {
+                const int next = node.args[done++];
+                if (image[next] < 0) stack.emplace_back(next, 0);
+                continue;
+            }
+            if (image[id] < 0) {
+                Node copy = node;
+                copy.size = 1;
+                copy.depends = 0;
+                for (int& arg : copy.args) arg = image[arg];
+                result.set_sources(node.sources);
+                image[id] = result.intern(std::move(copy));
+            }
+            stack.pop_back();
+        }
+        result.roots.push_back({root.group, root.name, image[root.node]});
+    }
+    result.set_sources({});
+    return result;
+}
+
 std::vector<int> Program::nodes_of(const std::string& group) const {
     std::vector<int> result;
     for (const Root& root : roots)

@@ -366,13 +366,16 @@ private:
 
     void add_energy() {
         attempt([&] {
+            SourceScope source(*m_.z, "[energy] kinetic");
             if (scene_.kinetic) m_.kinetic.push_back({"[energy] kinetic", m_.z->name(translator_.scalar(scene_.kinetic))});
         });
         attempt([&] {
+            SourceScope source(*m_.z, "[energy] potential");
             if (scene_.potential)
                 m_.potential.push_back({"[energy] potential", m_.z->name(translator_.scalar(scene_.potential))});
         });
         attempt([&] {
+            SourceScope source(*m_.z, "[energy] lagrangian");
             if (scene_.lagrangian) m_.given_lagrangian = m_.z->name(translator_.scalar(scene_.lagrangian));
         });
         attempt([&] {

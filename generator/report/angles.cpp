@@ -273,6 +273,19 @@ std::vector<Basis> pairs(const std::vector<Polynomial>& args) {
     return result;
 }
 
+/// A product of functions of different angles leaves arguments whose half sum and half difference are whole.
+bool may_be_product(const std::vector<Polynomial>& args) {
+    for (std::size_t i = 0; i < args.size(); ++i) {
+        for (std::size_t j = i + 1; j < args.size(); ++j) {
+            if (args[i].size() == 1 && args[j].size() == 1) continue;
+            const Rational half = Rational(1) / 2;
+            if (is_integer(half * content(args[i] + args[j])) && is_integer(half * content(args[i] - args[j])))
+                return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 Polynomial unfold(const Polynomial& normal_form, const Cost& cost) {
@@ -280,9 +293,7 @@ Polynomial unfold(const Polynomial& normal_form, const Cost& cost) {
     if (args.empty() || args.size() > 24 || normal_form.size() > 200) return normal_form;
     Choice best{normal_form, 0};
     const Basis own = multiples(args);
-    const bool compound = args.size() > 1 && std::any_of(args.begin(), args.end(), [](const Polynomial& arg) {
-        return arg.size() > 1;
-    });
+    const bool compound = may_be_product(args);
     if (!own.expands && !compound) return normal_form;
     best.cost = cost(normal_form);
     if (own.expands && own.angles.size() <= 3) {

@@ -55,7 +55,15 @@ CommonFactor common_factor(const Fourier& lhs, const Fourier& rhs, Factorizer& f
             is_first = false;
         }
     }
-    result.monomial = common_monomial(Polynomial::collect(std::move(all)));
+    const Polynomial terms = Polynomial::collect(std::move(all));
+    result.monomial = common_monomial(terms);
+    // k/m·x is worth a multiplication by m; a sum below a fraction line only if it stands there everywhere.
+    std::erase_if(result.monomial, [&](const Factor& factor) {
+        return factor.atom->kind != AtomNode::Kind::symbol &&
+               !std::all_of(terms.terms().begin(), terms.terms().end(), [&](const Term& term) {
+                   return !part(term.monomial, [&](const AtomNode& atom) { return compare(atom, *factor.atom) == 0; }).empty();
+               });
+    });
     return result;
 }
 

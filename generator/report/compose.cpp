@@ -74,12 +74,12 @@ bool stands_before(const Term& a, const Term& b) {
     return order != 0 ? order < 0 : compare(a.monomial, b.monomial) < 0;
 }
 
-/// Differences of like things, A−C or x1−x2, whose sign is a matter of taste; not r−l0.
+/// Differences of like things, A−C or x1−x2, whose sign is a matter of taste; cos θ−1 too, but not r−l0.
 bool may_turn(const Polynomial& sum) {
     const bool state = has_state(sum.terms()[0].monomial);
     bool has_minus = false;
     for (const Term& term : sum.terms()) {
-        if (has_state(term.monomial) != state) return false;
+        if (has_state(term.monomial) != state && !term.monomial.empty()) return false;
         has_minus = has_minus || term.coefficient < 0;
     }
     return has_minus;
@@ -100,14 +100,18 @@ const Term& first_term(const Polynomial& polynomial) {
 
 }  // namespace
 
+bool has_own_denominators(const Polynomial& polynomial) {
+    return compare(common_monomial(polynomial), shared_monomial(polynomial)) != 0;
+}
+
 bool has_state(const Monomial& monomial) {
     return std::any_of(monomial.begin(), monomial.end(), [](const Factor& factor) { return !factor.atom->steady; });
 }
 
-/// 0.5·x + 9.81 is not (50·x + 981)/100.
-bool Composer::keeps_number(const Polynomial& polynomial) const {
-    return decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
-                                    [](const Term& term) { return !is_integer(term.coefficient); });
+bool Composer::stays_apart(const Polynomial& polynomial) const {
+    const bool has_decimal = decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
+                                                      [](const Term& term) { return !is_integer(term.coefficient); });
+    return polynomial.size() > 1 && (has_decimal || has_own_denominators(polynomial));
 }
 
 const Composer::Entry& Composer::entry(const Polynomial& polynomial) {
@@ -129,8 +133,8 @@ Phrase Composer::formula(const Polynomial& normal_form) {
 Phrase Composer::compose(const Polynomial& polynomial) {
     if (polynomial.is_zero()) return number(0);
     Factorization factors;
-    if (polynomial.size() > 1 && keeps_number(polynomial)) {
-        factors.monomial = common_monomial(polynomial);
+    if (stays_apart(polynomial)) {
+        factors.monomial = shared_monomial(polynomial);
         factors.sums.emplace_back(divide(polynomial, factors.monomial), 1);
     } else {
         factors = factorizer_(polynomial);
@@ -162,7 +166,7 @@ Phrase Composer::compose(const Polynomial& polynomial) {
         } else if (atom.kind == Kind::base) {
             const Polynomial inside =
                 unfold(atom.args[0], [this](const Polynomial& form) { return cost(form); });
-            const Rational scale = is_integer(factor.exponent) && !keeps_number(inside) ? content(inside) : Rational(1);
+            const Rational scale = is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
             if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
             pieces.push_back({.place = atom.steady ? Standing::sum : Standing::function,
                               .tie = tie,
@@ -249,14 +253,12 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
     offer(partition(polynomial, [&](const AtomNode& atom) { return !is_mass(atom); }));
     offer(partition(polynomial, is_mass));
     if (polynomial.size() > 12) return best;
-    std::vector<Atom> atoms;
+    const auto less = [](const Atom& a, const Atom& b) { return compare(a, b) < 0; };
+    std::map<Atom, int, decltype(less)> occurrences(less);
     for (const Term& term : polynomial.terms())
-        for (const Factor& factor : term.monomial) atoms.push_back(factor.atom);
-    std::sort(atoms.begin(), atoms.end(), [](const Atom& a, const Atom& b) { return compare(a, b) < 0; });
-    atoms.erase(std::unique(atoms.begin(), atoms.end(), [](const Atom& a, const Atom& b) { return compare(a, b) == 0; }),
-                atoms.end());
-    for (const Atom& chosen : atoms)
-        offer(partition(polynomial, [&](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
+        for (const Factor& factor : term.monomial) ++occurrences[factor.atom];
+    for (const auto& [chosen, count] : occurrences)
+        if (count > 1) offer(partition(polynomial, [&](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
     return best;
 }
 

@@ -34,7 +34,8 @@ private:
     Phrase compose_sum(const Polynomial& polynomial);
     Phrase flat(const std::vector<Polynomial>& parts);
 
-    bool keeps_number(const Polynomial& polynomial) const;
+    /// 0.5·x + 9.81 is not (50·x + 981)/100, nor m + J/r² = (J + m·r²)/r².
+    bool stays_apart(const Polynomial& polynomial) const;
 
     bool decimals_;
     Factorizer factorizer_;
@@ -45,6 +46,9 @@ private:
     const Entry& entry(const Polynomial& polynomial);
     std::map<Polynomial, Entry, PolynomialLess> memo_;
 };
+
+/// Some terms, but not all alike, are divided by something: m + J/r².
+bool has_own_denominators(const Polynomial& polynomial);
 
 /// Not made of parameters and numbers alone.
 bool has_state(const Monomial& monomial);

@@ -13,6 +13,9 @@ namespace alembert {
 
 namespace {
 
+/// Terms times variables: below a millisecond or so. (a+b·sin θ)² has 9; hundreds can take a second.
+constexpr std::size_t most_for_ginac = 100;
+
 struct AtomLess {
     bool operator()(const Atom& a, const Atom& b) const { return compare(a, b) < 0; }
 };
@@ -165,11 +168,12 @@ Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
         linear = atom.get();
         fewest = occurrence.terms;
     }
-    if (!linear) {
-        result = factors_by_ginac(polynomial, atoms);
-    } else {
+    if (linear)
         split_linear(polynomial, *linear, result);
-    }
+    else if (polynomial.size() * atoms.size() <= most_for_ginac)
+        result = factors_by_ginac(polynomial, atoms);
+    else
+        result.sums.emplace_back(polynomial, 1);
     std::sort(result.sums.begin(), result.sums.end(),
               [](const auto& a, const auto& b) { return compare(a.first, b.first) < 0; });
     // The factors are known up to signs; the product of the leads settles the unit.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/latex.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -29,8 +31,12 @@ bool is_tall(const Phrase& phrase) {
     return std::any_of(phrase.args.begin(), phrase.args.end(), is_tall);
 }
 
+std::string in_parentheses(const std::string& content, bool tall) {
+    return tall ? fmt::format("\\left({}\\right)", content) : fmt::format("({})", content);
+}
+
 std::string parenthesized(const Phrase& phrase) {
-    return is_tall(phrase) ? "\\left(" + write(phrase) + "\\right)" : "(" + write(phrase) + ")";
+    return in_parentheses(write(phrase), is_tall(phrase));
 }
 
 bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
@@ -40,7 +46,7 @@ std::string enclosed(const Phrase& phrase, bool parentheses) {
 }
 
 std::string fraction(const std::string& above, const std::string& below) {
-    return "\\frac{" + above + "}{" + below + "}";
+    return fmt::format("\\frac{{{}}}{{{}}}", above, below);
 }
 
 std::string number_latex(const Phrase& phrase) {
@@ -54,11 +60,9 @@ std::string number_latex(const Phrase& phrase) {
 std::string symbol_latex(const SymbolInfo& info) {
     const Lettering letters = lettering(info.name);
     std::string result = latex_letters(letters.stem);
-    if (info.order > 0 && info.order <= 4) {
-        result = "\\" + std::string(static_cast<std::size_t>(info.order), 'd') + "ot{" + result + "}";
-    }
-    if (!letters.index.empty()) result += "_{" + latex_letters(letters.index) + "}";
-    if (info.order > 4) result += "^{(" + std::to_string(info.order) + ")}";
+    if (info.order > 0 && info.order <= 4) result = fmt::format("\\{:d>{}}ot{{{}}}", "", info.order, result);
+    if (!letters.index.empty()) result += fmt::format("_{{{}}}", latex_letters(letters.index));
+    if (info.order > 4) result += fmt::format("^{{({})}}", info.order);
     if (info.kind == SymbolInfo::Kind::input) result += "(t)";
     return result;
 }
@@ -85,8 +89,7 @@ std::string write_product(const std::vector<Phrase>& factors) {
 std::string write_quotient(const Phrase& phrase) {
     const Fronted fronted = take_front(phrase);
     if (!fronted.front.is_number(1) && !fronted.rest.is_number(1) && fronted.rest.kind != Kind::sum) {
-        std::string rest = write(fronted.rest);
-        return number_latex(fronted.front) + " " + rest;
+        return fmt::format("{} {}", number_latex(fronted.front), write(fronted.rest));
     }
     return fraction(write(phrase.args[0]), write(phrase.args[1]));
 }
@@ -96,37 +99,36 @@ std::string function_latex(const std::string& name) {
         {"asin", "\\arcsin"}, {"acos", "\\arccos"}, {"atan", "\\arctan"}, {"log", "\\ln"},
         {"csgn", "\\operatorname{sgn}"}, {"minimum", "\\min"}, {"maximum", "\\max"}};
     for (const char* own : {"sin", "cos", "tan", "sinh", "cosh", "tanh"})
-        if (name == own) return "\\" + name;
+        if (name == own) return fmt::format("\\{}", name);
     const auto found = names.find(name);
     if (found != names.end()) return found->second;
     std::string plain;
     for (const char c : name) plain += c == '_' ? std::string("\\_") : std::string(1, c);
-    return "\\operatorname{" + plain + "}";
+    return fmt::format("\\operatorname{{{}}}", plain);
 }
 
 bool takes_exponent(const std::string& name) {
-    const std::string latex = function_latex(name);
-    return latex == "\\" + name;
+    return function_latex(name) == fmt::format("\\{}", name);
 }
 
 /// f^{e}(x); sin θ without parentheses.
 std::string write_call(const Phrase& phrase, const std::string& exponent) {
-    if (phrase.name == "sqrt") return "\\sqrt{" + write(phrase.args[0]) + "}";
-    if (phrase.name == "exp") return "\\mathrm{e}^{" + write(phrase.args[0]) + "}";
-    if (phrase.name == "abs") return "\\left|" + write(phrase.args[0]) + "\\right|";
+    if (phrase.name == "sqrt") return fmt::format("\\sqrt{{{}}}", write(phrase.args[0]));
+    if (phrase.name == "exp") return fmt::format("\\mathrm{{e}}^{{{}}}", write(phrase.args[0]));
+    if (phrase.name == "abs") return fmt::format("\\left|{}\\right|", write(phrase.args[0]));
     const std::string name = function_latex(phrase.name) + exponent;
     const Phrase& arg = phrase.args[0];
     const bool bare = takes_exponent(phrase.name) && arg.kind == Kind::symbol &&
                       arg.info.kind != SymbolInfo::Kind::input;
     if (bare) return name + (exponent.empty() && write(arg)[0] != '\\' ? " " : "") + write(arg);
     std::string args;
-    for (const Phrase& each : phrase.args) args += (args.empty() ? "" : ", ") + write(each);
+    for (const Phrase& each : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : ", ", write(each));
     const bool tall = std::any_of(phrase.args.begin(), phrase.args.end(), is_tall);
-    return name + (tall ? "\\left(" + args + "\\right)" : "(" + args + ")");
+    return name + in_parentheses(args, tall);
 }
 
 std::string write_power(const Phrase& base, const Phrase& exponent) {
-    const std::string raised = "^{" + (is_fraction(exponent) ? text(exponent) : write(exponent)) + "}";
+    const std::string raised = fmt::format("^{{{}}}", is_fraction(exponent) ? text(exponent) : write(exponent));
     const bool is_whole = exponent.kind == Kind::number && is_integer(exponent.value);
     if (base.kind == Kind::call && takes_exponent(base.name) && is_whole) return write_call(base, raised);
     const bool simple = base.kind == Kind::symbol || (base.kind == Kind::number && !digits(base).empty()) ||
@@ -142,15 +144,16 @@ std::string write(const Phrase& phrase) {
         case Kind::quotient: return write_quotient(phrase);
         case Kind::power: return write_power(phrase.args[0], phrase.args[1]);
         case Kind::call: return write_call(phrase, "");
-        case Kind::negative: return "-" + enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0]));
+        case Kind::negative: return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
         case Kind::sum: break;
     }
     std::string result;
     for (const Phrase& term : phrase.args) {
         const bool is_negative = term.kind == Kind::negative;
         const Phrase& value = is_negative ? term.args[0] : term;
-        if (!result.empty()) result += is_negative ? " - " : " + ";
-        else if (is_negative) result += "-";
+        const char* first = is_negative ? "-" : "";
+        const char* next = is_negative ? " - " : " + ";
+        result += result.empty() ? first : next;
         result += enclosed(value, is_signed_or_sum(value));
     }
     return result;

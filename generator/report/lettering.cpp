@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/lettering.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string_view>
 #include <vector>
@@ -80,11 +82,8 @@ std::string latex_plain(std::string_view letter) {
     if (letter == "_") return "\\_";
     if (letter.size() == 1) return std::string(letter);
     const unsigned code = code_point(letter);
-    constexpr std::string_view hex = "0123456789ABCDEF";
-    if (code >= 0xC0 && code <= 0x17F && code != 0xD7 && code != 0xF7) return "\\text{" + std::string(letter) + "}";
-    std::string number;
-    for (unsigned rest = code; rest != 0; rest /= 16) number.insert(number.begin(), hex[rest % 16]);
-    return "U" + number;
+    if (code >= 0xC0 && code <= 0x17F && code != 0xD7 && code != 0xF7) return fmt::format("\\text{{{}}}", letter);
+    return fmt::format("U{:X}", code);
 }
 
 }  // namespace
@@ -98,7 +97,7 @@ Lettering lettering(const std::string& name) {
     if (digits < stem.size() && stem[0] != '_') {
         const std::string number = stem.substr(digits);
         stem.resize(digits);
-        index = index.empty() ? number : number + "," + index;
+        index = index.empty() ? number : fmt::format("{},{}", number, index);
     }
     if (stem == "_") return {name, ""};
     return {to_greek(stem), to_greek(index)};
@@ -107,13 +106,15 @@ Lettering lettering(const std::string& name) {
 bool is_word(const std::string& letters) { return letters_of(letters).size() > 1; }
 
 std::string latex_letters(const std::string& letters) {
-    if (letters.find_first_not_of("0123456789,") == std::string::npos) return letters;
+    if (const std::size_t comma = letters.find(','); comma != std::string::npos)
+        return fmt::format("{},{}", latex_letters(letters.substr(0, comma)), latex_letters(letters.substr(comma + 1)));
+    if (letters.find_first_not_of("0123456789") == std::string::npos) return letters;
     const std::vector<std::string_view> each = letters_of(letters);
     if (each.size() == 1 && each[0].size() == 1 && each[0] != "_") return letters;
     std::string result;
     std::string upright;
     const auto flush = [&] {
-        if (!upright.empty()) result += "\\mathrm{" + upright + "}";
+        if (!upright.empty()) result += fmt::format("\\mathrm{{{}}}", upright);
         upright.clear();
     };
     for (const std::string_view letter : each) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/mathml.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <map>
 #include <sstream>
@@ -23,7 +25,7 @@ const std::string applied = "<mo>&#x2061;</mo>";  // function application, invis
 std::string write(const Phrase& phrase);
 
 std::string element(const std::string& name, const std::string& content) {
-    return "<" + name + ">" + content + "</" + name + ">";
+    return fmt::format("<{0}>{1}</{0}>", name, content);
 }
 std::string row(const std::string& content) { return element("mrow", content); }
 std::string operation(const std::string& sign) { return element("mo", sign); }
@@ -53,7 +55,8 @@ std::pair<std::string, std::string> symbol_parts(const SymbolInfo& info) {
     std::string stem = identifier(letters.stem);
     constexpr std::array<const char*, 5> dots{"", "˙", "¨", "⃛", "⃜"};
     if (info.order > 0 && info.order < 5)
-        stem = "<mover accent=\"true\">" + stem + operation(dots[static_cast<std::size_t>(info.order)]) + "</mover>";
+        stem = fmt::format("<mover accent=\"true\">{}{}</mover>", stem,
+                           operation(dots[static_cast<std::size_t>(info.order)]));
     else if (info.order > 0)
         stem = element("msup", stem + row(operation("(") + element("mn", std::to_string(info.order)) + operation(")")));
     const bool is_number = letters.index.find_first_not_of("0123456789") == std::string::npos;
@@ -109,7 +112,7 @@ std::string write_call(const Phrase& phrase, const std::string& name) {
     const bool bare = takes_exponent(phrase.name) && arg.kind == Kind::symbol &&
                       arg.info.kind != SymbolInfo::Kind::input;
     std::string args;
-    for (const Phrase& each : phrase.args) args += (args.empty() ? "" : operation(",")) + write(each);
+    for (const Phrase& each : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : "<mo>,</mo>", write(each));
     return row(name + applied + (bare ? args : parenthesized(args)));
 }
 
@@ -158,7 +161,7 @@ std::string write(const Phrase& phrase) {
 }
 
 std::string math(const std::string& content) {
-    return "<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">" + content + "</math>";
+    return fmt::format("<math xmlns=\"http://www.w3.org/1998/Math/MathML\" display=\"block\">{}</math>", content);
 }
 
 }  // namespace

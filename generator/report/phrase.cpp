@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/phrase.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <sstream>
@@ -161,9 +163,8 @@ std::string digits(const Phrase& number) {
         ++places;
     }
     stream << cln::numerator(value * scale);
-    std::string result = stream.str();
-    if (result.size() <= places) result.insert(0, places + 1 - result.size(), '0');
-    return result.insert(result.size() - places, ".");
+    const std::string all = fmt::format("{:0>{}}", stream.str(), places + 1);
+    return fmt::format("{}.{}", all.substr(0, all.size() - places), all.substr(all.size() - places));
 }
 
 Fronted take_front(const Phrase& phrase) {

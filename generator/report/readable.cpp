@@ -186,6 +186,7 @@ private:
     /// k·(r−l0), m·g·l·(1−cos θ), (x1−x2)²; but not k·(2·x1−x2), a·(sin θ+sin ψ) nor (r·ω²·cos θ−g)·sin θ.
     bool may_stand_as_one(const Polynomial& group) {
         if (group.size() == 1) return true;
+        if (has_own_denominators(group)) return false;
         const Factorization factors = compose_.factorizer()(group);
         const auto is_circular = [](const AtomNode& atom) { return atom.is_circular(); };
         const bool is_lone = factors.sums.size() == 1 && factors.sums[0].second == 1;

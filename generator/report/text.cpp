@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/text.hpp"
 
+#include <fmt/format.h>
+
 #include <sstream>
 
 #include <cln/integer.h>
@@ -15,7 +17,7 @@ using Kind = Phrase::Kind;
 std::string write(const Phrase& phrase);
 
 std::string enclosed(const Phrase& phrase, bool parentheses) {
-    return parentheses ? "(" + write(phrase) + ")" : write(phrase);
+    return parentheses ? fmt::format("({})", write(phrase)) : write(phrase);
 }
 
 bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
@@ -34,10 +36,9 @@ std::string write_sum(const Phrase& phrase, const char* plus, const char* minus)
     for (const Phrase& term : phrase.args) {
         const bool is_negative = term.kind == Kind::negative;
         const Phrase& value = is_negative ? term.args[0] : term;
-        if (result.empty())
-            result = is_negative ? "-" : "";
-        else
-            result += is_negative ? minus : plus;
+        const char* first = is_negative ? "-" : "";
+        const char* next = is_negative ? minus : plus;
+        result += result.empty() ? first : next;
         result += enclosed(value, is_signed_or_sum(value));
     }
     return result;
@@ -58,9 +59,9 @@ std::string language_name(const std::string& name) {
 }
 
 std::string write_call(const Phrase& phrase) {
-    std::string result = language_name(phrase.name) + "(";
-    for (std::size_t i = 0; i < phrase.args.size(); ++i) result += (i ? "," : "") + write(phrase.args[i]);
-    return result + ")";
+    std::string args;
+    for (const Phrase& arg : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : ",", write(arg));
+    return fmt::format("{}({})", language_name(phrase.name), args);
 }
 
 std::string write(const Phrase& phrase) {
@@ -73,7 +74,7 @@ std::string write(const Phrase& phrase) {
             const Phrase& below = phrase.args[1];
             const bool compound = is_signed_or_sum(below) || is_fraction(below) || below.kind == Kind::product ||
                                   below.kind == Kind::quotient;
-            return enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])) + "/" + enclosed(below, compound);
+            return fmt::format("{}/{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])), enclosed(below, compound));
         }
         case Kind::power: {
             const Phrase& base = phrase.args[0];
@@ -82,10 +83,10 @@ std::string write(const Phrase& phrase) {
                                 (base.kind == Kind::number && !is_fraction(base));
             const bool flat = exponent.kind == Kind::symbol || exponent.kind == Kind::call ||
                               (exponent.kind == Kind::number && !is_fraction(exponent));
-            return enclosed(base, !simple) + "^" + enclosed(exponent, !flat);
+            return fmt::format("{}^{}", enclosed(base, !simple), enclosed(exponent, !flat));
         }
         case Kind::call: return write_call(phrase);
-        case Kind::negative: return "-" + enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0]));
+        case Kind::negative: return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
     }
     return {};
 }

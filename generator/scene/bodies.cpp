@@ -16,15 +16,16 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
     if (has_at && table.has("at")) {
         for (const std::string_view other : {key, std::string_view("from"), std::string_view("axes")})
             if (table.has(other))
-                table.complain(other, fmt::format("{} has both 'at' and '{}'; 'at' alone says where it is", table.title(),
-                                                  other));
+                table.complain(other, fmt::format("{} has both 'at' and '{}'; 'at' alone says where it is",
+                                                  table.title(), other));
         position.from = table.needed_name("at");
         for (Expression& component : position.offset.component) component = zero(position.from.place);
         return position;
     }
     if (has_at && !table.has(key)) {
         if (!table.reading().has_joints)
-            table.reading().complain(table.place(), fmt::format("{} needs 'at' or '{}': where it is", table.title(), key));
+            table.reading().complain(table.place(),
+                                     fmt::format("{} needs 'at' or '{}': where it is", table.title(), key));
     } else {
         position.offset = table.needed_vector(key);
     }
@@ -36,8 +37,9 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
 std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node) {
     const toml::array* const pair = node.as_array();
     if (!pair || pair->size() != 2) {
-        reading.complain(place_of(node), pair ? "a rotation has two parts: [axis, angle]"
-                                              : "'rotate' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]");
+        reading.complain(place_of(node),
+                         pair ? "a rotation has two parts: [axis, angle]"
+                              : "'rotate' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]");
         return {};
     }
     Rotation rotation;
@@ -47,14 +49,16 @@ std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& 
         if (name == "x" || name == "y" || name == "z")
             rotation.letter = name[0];
         else
-            reading.complain(place_of(axis), fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
-                                                         in_quotes(name)));
+            reading.complain(place_of(axis),
+                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
+                                         in_quotes(name)));
     } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
         rotation.axis = read_vector(reading, axis, "the axis");
     } else {
-        reading.complain(place_of(axis), fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
-                                                     components ? fmt::format("an array of {}", components->size())
-                                                                : kind_of(axis)));
+        reading.complain(
+            place_of(axis),
+            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
+                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
     }
     rotation.angle = read_expression(reading, *pair->get(1), "the angle");
     return rotation;

@@ -14,7 +14,9 @@ namespace {
 class Checker {
 public:
     Checker(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics)
-        : scene_(scene), diagnostics_(diagnostics), names_(declare(scene, others, diagnostics)),
+        : scene_(scene),
+          diagnostics_(diagnostics),
+          names_(declare(scene, others, diagnostics)),
           quantities_(names_, diagnostics) {}
 
     void check() {
@@ -128,25 +130,33 @@ private:
 
     void check_coordinate(const Name& name) {
         const Declared* const declared = NameSpaces::find(names_.values, name.text);
-        if (declared && (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::other)) return;
+        if (declared && (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::other))
+            return;
         std::vector<std::string> coordinates;
         for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
-        complain(name.place, declared ? fmt::format("{} is {}; expected a coordinate", in_quotes(name.text), described(declared->kind))
+        complain(name.place, declared ? fmt::format("{} is {}; expected a coordinate", in_quotes(name.text),
+                                                    described(declared->kind))
                                       : fmt::format("unknown coordinate {}{}", in_quotes(name.text),
                                                     quantities_.suggestion(name.text, coordinates)));
     }
 
     void check_energy() {
         const std::string advice = "; a potential that depends on rates belongs in 'lagrangian'";
-        quantities_.check(scene_.kinetic, {.subject = "the kinetic energy", .order = 1, .input_order = 1, .time = true});
-        quantities_.check(scene_.potential,
-                          {.subject = "the potential", .order = 0, .input_order = 2, .time = true, .advice = advice});
-        quantities_.check(scene_.lagrangian, {.subject = "the Lagrangian", .order = 1, .input_order = 1, .time = true});
-        quantities_.check(scene_.rayleigh, {.subject = "the dissipation", .order = 1, .input_order = 2, .time = true});
+        quantities_.check(scene_.kinetic,
+                          {.subject = "the kinetic energy", .order = 1, .input_order = 1, .time = true});
+        quantities_.check(
+            scene_.potential,
+            {.subject = "the potential", .order = 0, .input_order = 2, .time = true, .advice = advice});
+        quantities_.check(scene_.lagrangian,
+                          {.subject = "the Lagrangian", .order = 1, .input_order = 1, .time = true});
+        quantities_.check(scene_.rayleigh,
+                          {.subject = "the dissipation", .order = 1, .input_order = 2, .time = true});
         if (!scene_.lagrangian) return;
         const auto refuse = [&](const char* what, Place place) {
-            complain(place, fmt::format("{} beside a 'lagrangian' (line {}), which stands for the whole energy; leave one out",
-                                        what, scene_.lagrangian.place().line));
+            complain(
+                place,
+                fmt::format("{} beside a 'lagrangian' (line {}), which stands for the whole energy; leave one out",
+                            what, scene_.lagrangian.place().line));
         };
         if (scene_.gravity) refuse("'gravity'", scene_.gravity->place);
         if (!scene_.particles.empty()) refuse("a [[particle]]", scene_.particles.front().name.place);
@@ -177,7 +187,8 @@ private:
 
     bool check_name(const Name& name) {
         if (is_name(name.text)) return true;
-        complain(name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _", in_quotes(name.text)));
+        complain(name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
+                                         in_quotes(name.text)));
         return false;
     }
 
@@ -187,11 +198,16 @@ private:
             for (const Name& name : *list) {
                 if (!check_name(name)) continue;
                 if (const Declared* const declared = NameSpaces::find(names_.values, name.text))
-                    complain(name.place, fmt::format("{} cannot be left open: it is {} of the scene", in_quotes(name.text),
-                                                     described(declared->kind)));
+                    complain(name.place, fmt::format("{} cannot be left open: it is {} of the scene",
+                                                     in_quotes(name.text), described(declared->kind)));
                 more.insert(name.text);
             }
-        const Legal anything{.subject = "a claim", .order = 2, .input_order = 2, .time = true, .advice = {}, .more = &more,
+        const Legal anything{.subject = "a claim",
+                             .order = 2,
+                             .input_order = 2,
+                             .time = true,
+                             .advice = {},
+                             .more = &more,
                              .claim = true};
         quantities_.check(claim.equation.lhs, anything);
         quantities_.check(claim.equation.rhs, anything);

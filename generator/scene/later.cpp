@@ -19,12 +19,12 @@ void allow(const Table& table, const std::string& name) {
     if (name == "impulse") table.allow({"at", "vector", "axes"});
     if (name == "polynomial") table.allow({"coefficients"});
     if (name == "joint")
-        table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate",
-                     "axis", "pitch", "coordinates", "angles", "motion"});
+        table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate",
+                     "child_rotate", "axis", "pitch", "coordinates", "angles", "motion"});
     if (name != "speeds") return;
     for (const Entry& entry : table.entries())
         if (const toml::table* const inner = entry.node->as_table())
-            Table(table.reading(), *inner, "speed " + in_quotes(entry.key), entry.place)
+            Table(table.reading(), *inner, labelled("speed", entry.key), entry.place)
                 .allow({"form", "initial", "unit", "about"});
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Tables of the scene language that this version does not treat yet: their keys are checked, then they are refused.
+/// Tables of the scene language that this version does not treat yet: their keys are checked, then they are
+/// refused.
 
 #include <string>
 #include <vector>

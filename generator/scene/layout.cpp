@@ -96,9 +96,10 @@ private:
         layout_.statements.push_back({begin, at_});
         const auto [first, is_new] = keys_.emplace(name, source_.place(begin));
         if (is_new) return;
-        layout_.mistakes.push_back({source_.place(begin), fmt::format("{} is given twice in {}; first on line {}", in_quotes(name),
-                                                                      table_.empty() ? "the scene" : escaped(table_),
-                                                                      first->second.line)});
+        layout_.mistakes.push_back(
+            {source_.place(begin),
+             fmt::format("{} is given twice in {}; first on line {}", in_quotes(name),
+                         table_.empty() ? "the scene" : escaped(table_), first->second.line)});
         drop_statement(layout_, begin);
     }
 
@@ -139,7 +140,8 @@ private:
 
     void too_deep(std::size_t offset) {
         layout_.is_too_deep = true;
-        layout_.mistakes.push_back({source_.place(offset), fmt::format("a key of more than {} parts", most_parts)});
+        layout_.mistakes.push_back(
+            {source_.place(offset), fmt::format("a key of more than {} parts", most_parts)});
     }
 };
 
@@ -160,6 +162,8 @@ bool drop_statement(Layout& layout, std::size_t offset) {
     return !is_blank;
 }
 
-Layout survey(const SourceText& source) { return Surveyor(source).survey(); }
+Layout survey(const SourceText& source) {
+    return Surveyor(source).survey();
+}
 
 }  // namespace alembert

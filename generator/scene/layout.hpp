@@ -17,11 +17,11 @@ struct Layout {
     struct Statement {
         std::size_t begin, end;  ///< `key = value`, in bytes
     };
-    std::string text;                      ///< the file with doubled keys and their values blanked out
+    std::string text;  ///< the file with doubled keys and their values blanked out
     std::vector<Statement> statements;
     std::map<std::string, Place> headers;  ///< where `[name]` stands first
     std::vector<Diagnostic> mistakes;
-    bool is_too_deep = false;              ///< then it must not be parsed
+    bool is_too_deep = false;  ///< then it must not be parsed
 };
 
 /// Blanks the statement at `offset`, so that what follows can be parsed. False where there is none.

@@ -15,12 +15,14 @@ Link read_link(const Table& table, std::string_view constant) {
     if (between && table.has("along"))
         table.complain("along", fmt::format("{} has both 'between' and 'along'; give one", table.title()));
     else if (!between && !table.has("along"))
-        table.reading().complain(table.place(), fmt::format("{} needs 'between' (two points) or 'along' (an expression)",
-                                                            table.title()));
+        table.reading().complain(
+            table.place(),
+            fmt::format("{} needs 'between' (two points) or 'along' (an expression)", table.title()));
     if (between) {
         std::vector<Name> ends = table.names("between");
         if (const auto* array = between->node->as_array(); array && array->size() != 2)
-            table.complain("between", fmt::format("{} names {} points; expected two", table.what("between"), array->size()));
+            table.complain("between",
+                           fmt::format("{} names {} points; expected two", table.what("between"), array->size()));
         else if (ends.size() == 2)
             link.between.emplace(std::move(ends[0]), std::move(ends[1]));
     } else {
@@ -52,7 +54,8 @@ void read_torque(Table table, Scene& scene) {
     const Entry* const vector = table.find("vector");
     if (vector && !vector->node->is_array()) {
         torque.vector.place = place_of(*vector->node);
-        torque.vector.component = {zero(torque.vector.place), zero(torque.vector.place), table.expression("vector")};
+        torque.vector.component = {zero(torque.vector.place), zero(torque.vector.place),
+                                   table.expression("vector")};
     } else {
         torque.vector = table.needed_vector("vector");
     }

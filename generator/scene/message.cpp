@@ -38,7 +38,8 @@ std::vector<Cell> cells(std::string_view line) {
 /// The beginning of each line of the text.
 std::vector<std::size_t> line_starts(std::string_view text) {
     std::vector<std::size_t> starts{0};
-    for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1)) starts.push_back(i + 1);
+    for (std::size_t i = text.find('\n'); i != std::string_view::npos; i = text.find('\n', i + 1))
+        starts.push_back(i + 1);
     return starts;
 }
 
@@ -69,14 +70,17 @@ int distance(const std::u32string& a, const std::u32string& b, int most) {
     const int n = static_cast<int>(a.size()), m = static_cast<int>(b.size());
     if (std::abs(n - m) > most) return most + 1;
     std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
-    const auto at = [&](int i, int j) -> int& { return d[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)]; };
+    const auto at = [&](int i, int j) -> int& {
+        return d[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    };
     for (int i = 0; i <= n; ++i) at(i, 0) = i;
     for (int j = 0; j <= m; ++j) at(0, j) = j;
     for (int i = 1; i <= n; ++i)
         for (int j = 1; j <= m; ++j) {
             const auto x = static_cast<std::size_t>(i - 1), y = static_cast<std::size_t>(j - 1);
             at(i, j) = std::min({at(i - 1, j) + 1, at(i, j - 1) + 1, at(i - 1, j - 1) + (a[x] != b[y])});
-            if (i > 1 && j > 1 && a[x] == b[y - 1] && a[x - 1] == b[y]) at(i, j) = std::min(at(i, j), at(i - 2, j - 2) + 1);
+            if (i > 1 && j > 1 && a[x] == b[y - 1] && a[x - 1] == b[y])
+                at(i, j) = std::min(at(i, j), at(i - 2, j - 2) + 1);
         }
     return at(n, m);
 }
@@ -118,9 +122,11 @@ std::string describe(const Scene& scene, const std::vector<Diagnostic>& diagnost
         const auto line = static_cast<std::size_t>(place.line);
         if (line == 0 || line > starts.size()) continue;
         const std::size_t end = line < starts.size() ? starts[line] : scene.text.size();
-        text += excerpt(std::string_view(scene.text).substr(starts[line - 1], end - starts[line - 1]), place.column);
+        text +=
+            excerpt(std::string_view(scene.text).substr(starts[line - 1], end - starts[line - 1]), place.column);
     }
-    if (diagnostics.size() > most_told) text += fmt::format("{}: and {} more\n", file, diagnostics.size() - most_told);
+    if (diagnostics.size() > most_told)
+        text += fmt::format("{}: and {} more\n", file, diagnostics.size() - most_told);
     return text;
 }
 

@@ -28,11 +28,15 @@ void add(std::vector<Declaration>& list, const std::vector<Item>& items, Kind ki
 
 bool is_reserved(const std::string& name, Kind kind) {
     switch (kind) {
-        case Kind::frame: return name == "N";
+        case Kind::frame:
+            return name == "N";
         case Kind::point:
-        case Kind::particle: return name == "O";
-        case Kind::body: return name == "N" || name == "O";
-        default: return name == "t" || name == "pi" || find_function(name) != nullptr;
+        case Kind::particle:
+            return name == "O";
+        case Kind::body:
+            return name == "N" || name == "O";
+        default:
+            return name == "t" || name == "pi" || find_function(name) != nullptr;
     }
 }
 
@@ -47,10 +51,12 @@ std::string reason(const std::string& name) {
 /// Tells an illegal or reserved name; true where it may be used.
 bool check(const Name& name, Kind kind, std::vector<Diagnostic>& diagnostics) {
     if (!is_name(name.text))
-        diagnostics.push_back({name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
-                                                       in_quotes(name.text))});
+        diagnostics.push_back(
+            {name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
+                                     in_quotes(name.text))});
     else if (is_reserved(name.text, kind))
-        diagnostics.push_back({name.place, fmt::format("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
+        diagnostics.push_back(
+            {name.place, fmt::format("the name '{0}' is reserved: {0} is {1}", name.text, reason(name.text))});
     else
         return true;
     return false;
@@ -64,8 +70,9 @@ NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& 
     for (const auto& [name, kind, index] : list) {
         const auto [first, is_new] = space.emplace(name->text, Declared{kind, index, name->place});
         if (!is_new)
-            diagnostics.push_back({name->place, fmt::format("the name {} is taken: {} has it on line {}", in_quotes(name->text),
-                                                            described(first->second.kind), first->second.place.line)});
+            diagnostics.push_back(
+                {name->place, fmt::format("the name {} is taken: {} has it on line {}", in_quotes(name->text),
+                                          described(first->second.kind), first->second.place.line)});
     }
     return space;
 }
@@ -74,19 +81,29 @@ NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& 
 
 std::string described(Kind kind) {
     switch (kind) {
-        case Kind::coordinate: return "a coordinate";
-        case Kind::parameter: return "a parameter";
-        case Kind::input: return "an input";
-        case Kind::definition: return "a definition";
-        case Kind::frame: return "a frame";
-        case Kind::point: return "a point";
-        case Kind::particle: return "a particle";
-        case Kind::body: return "a body";
-        default: return "a table that is not supported yet";
+        case Kind::coordinate:
+            return "a coordinate";
+        case Kind::parameter:
+            return "a parameter";
+        case Kind::input:
+            return "an input";
+        case Kind::definition:
+            return "a definition";
+        case Kind::frame:
+            return "a frame";
+        case Kind::point:
+            return "a point";
+        case Kind::particle:
+            return "a particle";
+        case Kind::body:
+            return "a body";
+        default:
+            return "a table that is not supported yet";
     }
 }
 
-NameSpaces declare(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics) {
+NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
+                   std::vector<Diagnostic>& diagnostics) {
     std::vector<Declaration> values, frames, points;
     add(values, scene.coordinates, Kind::coordinate);
     add(values, scene.parameters, Kind::parameter);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The three name spaces of a scene: values (coordinates, parameters, inputs, definitions), frames (and bodies), points
-/// (and particles and bodies' mass centres).
+/// The three name spaces of a scene: values (coordinates, parameters, inputs, definitions), frames (and bodies),
+/// points (and particles and bodies' mass centres).
 
 #include <string>
 #include <unordered_map>
@@ -32,9 +32,10 @@ struct NameSpaces {
     }
 };
 
-/// Gathers what the scene declares; illegal, reserved and doubled names are told. `others` belong to tables of later
-/// issues: they are known in all spaces.
-NameSpaces declare(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics);
+/// Gathers what the scene declares; illegal, reserved and doubled names are told. `others` belong to tables of
+/// later issues: they are known in all spaces.
+NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
+                   std::vector<Diagnostic>& diagnostics);
 
 /// All names of a space, for "did you mean".
 std::vector<std::string> spellings(const NameSpaces::Space& space);

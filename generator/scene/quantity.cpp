@@ -15,9 +15,13 @@ using Kind = Tree::Kind;
 
 constexpr int most_suggestions = 200;  // looking for them takes time, and no one reads more
 
-const char* order_name(int order) { return order == 1 ? "rates" : "accelerations"; }
+const char* order_name(int order) {
+    return order == 1 ? "rates" : "accelerations";
+}
 
-bool begins_with(const std::string& text, const char* beginning) { return text.rfind(beginning, 0) == 0; }
+bool begins_with(const std::string& text, const char* beginning) {
+    return text.rfind(beginning, 0) == 0;
+}
 
 }  // namespace
 
@@ -48,7 +52,8 @@ void Quantities::check(const Expression& expression, const Legal& legal) {
 
 void Quantities::need_scalar(Context& context, const Tree& tree, int raised) {
     if (rank(context, tree, raised) == Rank::vector)
-        complain(context, tree, "a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)");
+        complain(context, tree,
+                 "a vector stands where a number is expected; take a component, dot(…, ex(N)), or norm(…)");
 }
 
 Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised) {
@@ -57,15 +62,24 @@ Quantities::Rank Quantities::rank(Context& context, const Tree& tree, int raised
         return Rank::number;
     };
     switch (tree.kind) {
-        case Kind::number: return Rank::number;
-        case Kind::name: meet_name(context, tree, raised); return Rank::number;
-        case Kind::call: return rank_of_call(context, tree, raised);
-        case Kind::sum: return rank_of_sum(context, tree, raised);
-        case Kind::product: return rank_of_product(context, tree, raised);
-        case Kind::negate: return rank(context, *tree.args[0], raised);
-        case Kind::reciprocal: return refuse_vector(*tree.args[0], 0, "a division by a vector");
+        case Kind::number:
+            return Rank::number;
+        case Kind::name:
+            meet_name(context, tree, raised);
+            return Rank::number;
+        case Kind::call:
+            return rank_of_call(context, tree, raised);
+        case Kind::sum:
+            return rank_of_sum(context, tree, raised);
+        case Kind::product:
+            return rank_of_product(context, tree, raised);
+        case Kind::negate:
+            return rank(context, *tree.args[0], raised);
+        case Kind::reciprocal:
+            return refuse_vector(*tree.args[0], 0, "a division by a vector");
         case Kind::power:
-            for (const TreePtr& arg : tree.args) refuse_vector(*arg, 0, "a vector in a power; its square is dot(u, u)");
+            for (const TreePtr& arg : tree.args)
+                refuse_vector(*arg, 0, "a vector in a power; its square is dot(u, u)");
             return Rank::number;
         case Kind::derivative:
             return refuse_vector(*tree.args[0], tree.primes,
@@ -81,7 +95,8 @@ Quantities::Rank Quantities::rank_of_sum(Context& context, const Tree& tree, int
         const Rank next = rank(context, *arg, raised);
         if (first == Rank::wrong) first = next;
         if (next == first || next == Rank::wrong || !is_consistent) continue;
-        complain(context, *arg, next == Rank::vector ? "a vector is added to a number" : "a number is added to a vector");
+        complain(context, *arg,
+                 next == Rank::vector ? "a vector is added to a number" : "a number is added to a vector");
         is_consistent = false;
     }
     return is_consistent ? first : Rank::wrong;
@@ -109,14 +124,16 @@ Quantities::Rank Quantities::rank_of_call(Context& context, const Tree& tree, in
     for (const TreePtr& arg : tree.args) switch (function->takes) {
             case Function::Takes::scalars:
                 if (rank(context, *arg, raised) == Rank::vector)
-                    complain(context, *arg, fmt::format("'{}' takes numbers, and this is a vector", function->name));
+                    complain(context, *arg,
+                             fmt::format("'{}' takes numbers, and this is a vector", function->name));
                 break;
             case Function::Takes::vectors:
                 if (rank(context, *arg, raised) == Rank::number)
                     complain(context, *arg,
-                             fmt::format("'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
-                                         "and this is a number",
-                                         function->name));
+                             fmt::format(
+                                 "'{}' takes vectors (pos(P), vel(P), omega(B), ex(B) and what is made of them), "
+                                 "and this is a number",
+                                 function->name));
                 break;
             case Function::Takes::points:
                 check_place(arg->text, context.expression.place(arg->offset), "point");
@@ -146,15 +163,20 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
     const Declared* const declared = NameSpaces::find(names_.values, tree.text);
     if (!declared) return meet_unknown(context, tree);
     switch (declared->kind) {
-        case Declared::Kind::parameter: return constant("is a parameter and does not change with time");
-        case Declared::Kind::coordinate: return meet(context, tree, {.order = 0}, raised + tree.primes);
-        case Declared::Kind::input: return meet(context, tree, {.input_order = 0, .time = true}, raised + tree.primes);
+        case Declared::Kind::parameter:
+            return constant("is a parameter and does not change with time");
+        case Declared::Kind::coordinate:
+            return meet(context, tree, {.order = 0}, raised + tree.primes);
+        case Declared::Kind::input:
+            return meet(context, tree, {.input_order = 0, .time = true}, raised + tree.primes);
         case Declared::Kind::definition:
             if (!context.legal.definitions)
-                return complain(context, tree, fmt::format("{} may not refer to a definition: {}", context.legal.subject,
-                                                           in_quotes(tree.text)));
+                return complain(context, tree,
+                                fmt::format("{} may not refer to a definition: {}", context.legal.subject,
+                                            in_quotes(tree.text)));
             return meet(context, tree, definitions_[tree.text], raised + tree.primes);
-        default: return;
+        default:
+            return;
     }
 }
 
@@ -166,26 +188,35 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
     context.contents.time |= found.time;
 
     const Legal& legal = context.legal;
-    const Declared* const declared = tree.kind == Kind::name ? NameSpaces::find(names_.values, tree.text) : nullptr;
+    const Declared* const declared =
+        tree.kind == Kind::name ? NameSpaces::find(names_.values, tree.text) : nullptr;
     const std::string word = in_quotes(tree.text + std::string(static_cast<std::size_t>(tree.primes), '\''));
     const bool indirect = declared && declared->kind == Declared::Kind::definition;
     if (std::max(found.order, found.input_order) > 2)
-        return complain(context, tree, fmt::format("a third derivative, by {}; mechanics knows rates and accelerations only", word));
+        return complain(
+            context, tree,
+            fmt::format("a third derivative, by {}; mechanics knows rates and accelerations only", word));
     if (found.order >= 0 && legal.order < 0)
-        return complain(context, tree, fmt::format("{} may depend on {} only; {} {}", legal.subject,
-                                                   legal.time ? "the time and parameters" : "parameters", word,
-                                                   indirect ? "contains a coordinate"
-                                                   : declared ? "is a coordinate" : "depends on the coordinates"));
+        return complain(context, tree,
+                        fmt::format("{} may depend on {} only; {} {}", legal.subject,
+                                    legal.time ? "the time and parameters" : "parameters", word,
+                                    indirect   ? "contains a coordinate"
+                                    : declared ? "is a coordinate"
+                                               : "depends on the coordinates"));
     if (found.time && !legal.time)
-        return complain(context, tree, fmt::format("{} may depend on parameters only; {} {}", legal.subject, word,
-                                                   tree.text == "t" ? "is the time" : indirect ? "contains the time"
-                                                                                               : "is an input, a function of time"));
+        return complain(context, tree,
+                        fmt::format("{} may depend on parameters only; {} {}", legal.subject, word,
+                                    tree.text == "t" ? "is the time"
+                                    : indirect       ? "contains the time"
+                                                     : "is an input, a function of time"));
     if (found.order > legal.order)
-        return complain(context, tree, fmt::format("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order), word,
-                                                   indirect ? " contains one" : "", legal.advice));
+        return complain(context, tree,
+                        fmt::format("{} may not depend on {}: {}{}{}", legal.subject, order_name(found.order),
+                                    word, indirect ? " contains one" : "", legal.advice));
     if (found.input_order > legal.input_order)
-        complain(context, tree, fmt::format("{} may not depend on the {} derivative of an input: {}", legal.subject,
-                                            found.input_order == 1 ? "first" : "second", word));
+        complain(context, tree,
+                 fmt::format("{} may not depend on the {} derivative of an input: {}", legal.subject,
+                             found.input_order == 1 ? "first" : "second", word));
 }
 
 void Quantities::meet_unknown(Context& context, const Tree& tree) {
@@ -193,7 +224,8 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
     if (!unknown_.insert(tree.text).second) return;
     std::string message = fmt::format("unknown name {} in this expression", in_quotes(tree.text));
     if (const Declared* const other = NameSpaces::find(names_.points, tree.text)) {
-        message += fmt::format("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
+        message +=
+            fmt::format("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
     } else if (const Declared* const frame = NameSpaces::find(names_.frames, tree.text)) {
         message += fmt::format("; {} is {}, not a number", tree.text, described(frame->kind));
     } else {
@@ -205,7 +237,9 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
 void Quantities::check_place(const std::string& name, Place place, const std::string& kind) {
     const bool is_point = kind == "point";
     const NameSpaces::Space& other = is_point ? names_.frames : names_.points;
-    if (place.line == 0 || name == (is_point ? "O" : "N") || NameSpaces::find(is_point ? names_.points : names_.frames, name)) return;
+    if (place.line == 0 || name == (is_point ? "O" : "N") ||
+        NameSpaces::find(is_point ? names_.points : names_.frames, name))
+        return;
     std::string message = fmt::format("unknown {} {}", kind, in_quotes(name));
     if (const Declared* const declared = NameSpaces::find(other, name))
         message = fmt::format("{} is {}; expected a {}", in_quotes(name), described(declared->kind), kind);

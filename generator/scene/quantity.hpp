@@ -12,22 +12,26 @@
 
 namespace alembert {
 
-/// What an expression may contain. Orders count derivatives: of coordinates (-1: no coordinates at all) and inputs.
+/// What an expression may contain. Orders count derivatives: of coordinates (-1: no coordinates at all) and
+/// inputs.
 struct Legal {
     std::string subject;  ///< "a mass", for messages
     int order = -1;
     int input_order = -1;
     bool time = false;
     bool definitions = true;
-    std::string advice = {};  ///< what to do instead, where a rate is refused
+    std::string advice = {};                                ///< what to do instead, where a rate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
-    bool claim = false;       ///< momenta p_…, multipliers lambda… are legal, known or not
+    bool claim = false;  ///< momenta p_…, multipliers lambda… are legal, known or not
 };
 
 class Quantities {
 public:
     Quantities(const NameSpaces& names, std::vector<Diagnostic>& diagnostics)
-        : names_(names), diagnostics_(diagnostics), values_(spellings(names.values)), frames_(spellings(names.frames)),
+        : names_(names),
+          diagnostics_(diagnostics),
+          values_(spellings(names.values)),
+          frames_(spellings(names.frames)),
           points_(spellings(names.points)) {
         values_.insert(values_.end(), {"t", "pi"});
     }

@@ -40,15 +40,24 @@ struct Section {
 };
 
 constexpr Section sections[] = {
-    {"parameters", false, one<read_parameters>},   {"inputs", false, one<read_inputs>},
-    {"coordinates", false, one<read_coordinates>}, {"definitions", false, one<read_definitions>},
-    {"frame", true, each<read_frame>},             {"point", true, each<read_point>},
-    {"particle", true, each<read_particle>},       {"body", true, each<read_body>},
-    {"force", true, each<read_force>},             {"torque", true, each<read_torque>},
-    {"spring", true, each<read_spring>},           {"damper", true, each<read_damper>},
-    {"energy", false, one<read_energy>},           {"dissipation", false, one<read_dissipation>},
-    {"forces", false, one<read_forces>},           {"outputs", false, one<read_outputs>},
-    {"event", true, each<read_event>},             {"simulation", false, one<read_simulation>},
+    {"parameters", false, one<read_parameters>},
+    {"inputs", false, one<read_inputs>},
+    {"coordinates", false, one<read_coordinates>},
+    {"definitions", false, one<read_definitions>},
+    {"frame", true, each<read_frame>},
+    {"point", true, each<read_point>},
+    {"particle", true, each<read_particle>},
+    {"body", true, each<read_body>},
+    {"force", true, each<read_force>},
+    {"torque", true, each<read_torque>},
+    {"spring", true, each<read_spring>},
+    {"damper", true, each<read_damper>},
+    {"energy", false, one<read_energy>},
+    {"dissipation", false, one<read_dissipation>},
+    {"forces", false, one<read_forces>},
+    {"outputs", false, one<read_outputs>},
+    {"event", true, each<read_event>},
+    {"simulation", false, one<read_simulation>},
     {"claim", true, each<read_claim>},
 };
 
@@ -61,25 +70,30 @@ Place header_of(const Entry& entry) {
 void read_section(const Reading& reading, const Section& section, const Entry& entry, Scene& scene) {
     if (!section.is_list) {
         if (const toml::table* const table = entry.node->as_table())
-            return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)), scene);
+            return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)),
+                                scene);
         const bool is_list = entry.node->is_array_of_tables();
-        return reading.complain(header_of(entry), is_list ? fmt::format("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
-                                                          : fmt::format("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
+        return reading.complain(
+            header_of(entry),
+            is_list ? fmt::format("there is one [{0}] in a scene, not a list; write [{0}]", section.name)
+                    : fmt::format("'{0}' is {1}; expected a table: [{0}]", section.name, kind_of(*entry.node)));
     }
     const toml::array* const list = entry.node->as_array();
     if (!list) {
-        return reading.complain(header_of(entry),
-                                entry.node->is_table()
-                                    ? fmt::format("there may be many of these in a scene; write [[{}]] for each", section.name)
-                                    : fmt::format("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
-                                                  kind_of(*entry.node)));
+        return reading.complain(
+            header_of(entry),
+            entry.node->is_table()
+                ? fmt::format("there may be many of these in a scene; write [[{}]] for each", section.name)
+                : fmt::format("'{0}' is {1}; expected a list of tables: write [[{0}]] for each", section.name,
+                              kind_of(*entry.node)));
     }
     for (const toml::node& node : *list)
         if (const toml::table* const table = node.as_table())
             section.read(Table(reading, *table, fmt::format("[[{}]]", section.name), place_of(node)), scene);
         else
-            reading.complain(place_of(node), fmt::format("an element of '{0}' is {1}; expected a table: write [[{0}]] for each",
-                                                         section.name, kind_of(node)));
+            reading.complain(place_of(node),
+                             fmt::format("an element of '{0}' is {1}; expected a table: write [[{0}]] for each",
+                                         section.name, kind_of(node)));
 }
 
 void refuse_unknown(const Reading& reading, const Entry& entry) {
@@ -148,7 +162,8 @@ Scene parse_scene(std::string text, std::string file) {
     Scene scene;
     scene.file = std::move(file);
     scene.text = std::move(text);
-    if (std::vector<Diagnostic> mistakes = check_bytes(scene.text); !mistakes.empty()) fail(scene, std::move(mistakes));
+    if (std::vector<Diagnostic> mistakes = check_bytes(scene.text); !mistakes.empty())
+        fail(scene, std::move(mistakes));
 
     const SourceText source(scene.text);
     Layout layout = survey(source);

@@ -147,8 +147,9 @@ private:
         for (const std::size_t next : node.targets) deepest = std::max(deepest, nodes_[next].levels);
         node.levels = std::min(deepest + node.weight, most_levels + 1);
         if (node.levels > most_levels && deepest <= most_levels)
-            diagnostics.push_back({node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
-                                                                 in_quotes(node.name->text), most_levels)});
+            diagnostics.push_back(
+                {node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
+                                               in_quotes(node.name->text), most_levels)});
         if (node.kind == Kind::definition && !node.in_circle) references_.definitions.push_back(node.index);
     }
 
@@ -162,9 +163,12 @@ private:
         std::reverse(circle.begin(), circle.end());
         if (std::all_of(circle.begin(), circle.end(), [&](std::size_t k) { return nodes_[k].in_circle; })) return;
         for (const std::size_t k : circle) nodes_[k].in_circle = true;
-        std::rotate(circle.begin(), std::min_element(circle.begin(), circle.end(), [&](std::size_t a, std::size_t b) {
-                        return nodes_[a].name->place < nodes_[b].name->place;
-                    }), circle.end());
+        std::rotate(circle.begin(),
+                    std::min_element(circle.begin(), circle.end(),
+                                     [&](std::size_t a, std::size_t b) {
+                                         return nodes_[a].name->place < nodes_[b].name->place;
+                                     }),
+                    circle.end());
         const Node& first = nodes_[circle.front()];
         std::string chain;
         for (std::size_t i = 0; i < circle.size(); ++i) {

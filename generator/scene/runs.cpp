@@ -17,39 +17,42 @@ struct Method {
 };
 
 constexpr Method methods[] = {
-    {"auto", true, false},      {"euler", true, true},     {"rk2", false, true},       {"rk4", true, true},
-    {"dopri5", true, false},    {"dop853", true, false},   {"verner76", false, false}, {"verner98", false, false},
-    {"abm", false, false},      {"bdf", false, false},     {"taylor", false, false},   {"radau", false, false},
-    {"verlet", false, true},    {"kahanli8", false, true}, {"gauss", false, true},     {"rattle", false, true},
-    {"cvode", false, false},    {"ida", false, false},
+    {"auto", true, false},   {"euler", true, true},     {"rk2", false, true},       {"rk4", true, true},
+    {"dopri5", true, false}, {"dop853", true, false},   {"verner76", false, false}, {"verner98", false, false},
+    {"abm", false, false},   {"bdf", false, false},     {"taylor", false, false},   {"radau", false, false},
+    {"verlet", false, true}, {"kahanli8", false, true}, {"gauss", false, true},     {"rattle", false, true},
+    {"cvode", false, false}, {"ida", false, false},
 };
 
 /// True for a literal number that is zero or negative, however it is written.
 bool is_not_positive(const Tree& tree) {
     if (tree.kind == Tree::Kind::negate) return tree.args[0]->kind == Tree::Kind::number;
-    return tree.kind == Tree::Kind::number && tree.text.substr(0, tree.text.find_first_of("eE")).find_first_of("123456789") ==
-                                                  std::string::npos;
+    return tree.kind == Tree::Kind::number &&
+           tree.text.substr(0, tree.text.find_first_of("eE")).find_first_of("123456789") == std::string::npos;
 }
 
 std::optional<Name> read_method(const Table& table) {
     const std::optional<Name> name = table.name("method");
     if (!name) return {};
-    const auto known = std::find_if(std::begin(methods), std::end(methods), [&](const Method& m) { return m.name == name->text; });
+    const auto known = std::find_if(std::begin(methods), std::end(methods),
+                                    [&](const Method& m) { return m.name == name->text; });
     if (known == std::end(methods)) {
         std::vector<std::string> names;
         for (const Method& method : methods) names.emplace_back(method.name);
         const std::string meant = nearest(name->text, names);
-        table.reading().complain(name->place, fmt::format("unknown method {}; {}", in_quotes(name->text),
-                                                          meant.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
-                                                                        : "did you mean '" + meant + "'?"));
+        table.reading().complain(name->place,
+                                 fmt::format("unknown method {}; {}", in_quotes(name->text),
+                                             meant.empty() ? fmt::format("there are {}", fmt::join(names, ", "))
+                                                           : "did you mean '" + meant + "'?"));
         return {};
     }
     if (!known->is_supported)
         table.reading().complain(name->place, fmt::format("the method '{}' is not supported yet", known->name));
     else if (table.has("step") && !known->takes_step)
-        table.complain("step", fmt::format("only methods with fixed steps (euler, rk4) take 'step'; {} chooses its own: "
-                                           "give 'tolerance'",
-                                           known->name));
+        table.complain("step",
+                       fmt::format("only methods with fixed steps (euler, rk4) take 'step'; {} chooses its own: "
+                                   "give 'tolerance'",
+                                   known->name));
     return name;
 }
 
@@ -67,8 +70,8 @@ void read_simulation(const Table& table, Scene& scene) {
     for (const auto& [key, value] : positive) {
         *value = table.expression(key);
         if (value->tree && is_not_positive(*value->tree))
-            table.reading().complain(value->place(), fmt::format("{} is {}; expected a number greater than 0", table.what(key),
-                                                                 escaped(value->text, 40)));
+            table.reading().complain(value->place(), fmt::format("{} is {}; expected a number greater than 0",
+                                                                 table.what(key), escaped(value->text, 40)));
     }
     simulation.method = read_method(table);
 }
@@ -93,14 +96,16 @@ void read_claim(Table table, Scene& scene) {
     if (const auto at = table.name("at")) {
         claim.at = at->text;
         if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact")
-            table.reading().complain(at->place, fmt::format("a claim is held at \"motion\", \"rest\" or \"impact\", not at {}",
-                                                            in_quotes(claim.at)));
+            table.reading().complain(
+                at->place, fmt::format("a claim is held at \"motion\", \"rest\" or \"impact\", not at {}",
+                                       in_quotes(claim.at)));
     }
     if (const Entry* const equation = table.find("equation"); !equation)
         table.reading().complain(table.place(), table.title() + " needs 'equation'");
     else if (!equation->node->is_string())
-        table.reading().complain(place_of(*equation->node), fmt::format("{} is {}; expected an equation in quotes",
-                                                                        table.what("equation"), kind_of(*equation->node)));
+        table.reading().complain(place_of(*equation->node),
+                                 fmt::format("{} is {}; expected an equation in quotes", table.what("equation"),
+                                             kind_of(*equation->node)));
     else
         claim.equation = read_equality(table.reading(), *equation->node, claim.at == "impact");
     scene.claims.push_back(std::move(claim));

@@ -16,7 +16,8 @@ constexpr std::size_t most_bytes = 1024 * 1024;
 /// Reads one TOML string from its opening quotes on, adding what it means byte by byte.
 class StringReader {
 public:
-    StringReader(const SourceText& source, std::size_t begin) : source_(source), text_(source.text()), at_(begin) {}
+    StringReader(const SourceText& source, std::size_t begin)
+        : source_(source), text_(source.text()), at_(begin) {}
 
     Literal read() {
         const char quote = text_[at_];
@@ -45,7 +46,8 @@ private:
     bool closes(char quote, bool is_long) const {
         if (text_[at_] != quote) return false;
         if (!is_long) return true;
-        return text_.compare(at_, 3, std::string(3, quote)) == 0 && (at_ + 3 >= text_.size() || text_[at_ + 3] != quote);
+        return text_.compare(at_, 3, std::string(3, quote)) == 0 &&
+               (at_ + 3 >= text_.size() || text_[at_ + 3] != quote);
     }
 
     void add(std::string_view bytes, Place place) {
@@ -65,19 +67,34 @@ private:
         const Place place = source_.place(at_);
         const char kind = ++at_ < text_.size() ? text_[at_++] : '\\';
         switch (kind) {
-            case 'b': return add("\b", place);
-            case 't': return add("\t", place);
-            case 'n': return add("\n", place);
-            case 'f': return add("\f", place);
-            case 'r': return add("\r", place);
-            case 'e': return add("\x1B", place);
-            case 'x': return add(encode(hexadecimal(2)), place);
-            case 'u': return add(encode(hexadecimal(4)), place);
-            case 'U': return add(encode(hexadecimal(8)), place);
-            case ' ': case '\t': case '\r': case '\n':
-                while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) ++at_;
+            case 'b':
+                return add("\b", place);
+            case 't':
+                return add("\t", place);
+            case 'n':
+                return add("\n", place);
+            case 'f':
+                return add("\f", place);
+            case 'r':
+                return add("\r", place);
+            case 'e':
+                return add("\x1B", place);
+            case 'x':
+                return add(encode(hexadecimal(2)), place);
+            case 'u':
+                return add(encode(hexadecimal(4)), place);
+            case 'U':
+                return add(encode(hexadecimal(8)), place);
+            case ' ':
+            case '\t':
+            case '\r':
+            case '\n':
+                while (at_ < text_.size() &&
+                       std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+                    ++at_;
                 return;
-            default: return add(std::string_view(&kind, 1), place);
+            default:
+                return add(std::string_view(&kind, 1), place);
         }
     }
 
@@ -116,12 +133,15 @@ Place SourceText::place(std::size_t offset) const {
     return {static_cast<int>(line - lines_.begin()) + 1, static_cast<int>(character - *line) + 1};
 }
 
-Literal read_string(const SourceText& source, std::size_t begin) { return StringReader(source, begin).read(); }
+Literal read_string(const SourceText& source, std::size_t begin) {
+    return StringReader(source, begin).read();
+}
 
 std::vector<Diagnostic> check_bytes(std::string_view text) {
     std::vector<Diagnostic> found;
     if (text.size() > most_bytes) {
-        found.push_back({{}, fmt::format("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), most_bytes)});
+        found.push_back(
+            {{}, fmt::format("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), most_bytes)});
         return found;
     }
     bool has_invalid = false, has_control = false, has_return = false;

@@ -14,12 +14,23 @@ namespace alembert {
 namespace {
 
 /// What toml++ says of a value that begins with no quote or bracket and is no number, date or boolean.
-constexpr std::string_view of_values[] = {
-    "could not determine value type", "expected digit",  "expected decimal digit", "expected expected digit",
-    "expected value-terminator",      "expected 'true'", "expected 'false'",       "expected 'nan'",
-    "expected 'inf'",                 "expected month",  "expected day",           "expected a comment or whitespace",
-    "leading zeroes",                 "expected '-'",    "expected ':'",           "could not be interpreted",
-    "is not representable in 64 bits"};
+constexpr std::string_view of_values[] = {"could not determine value type",
+                                          "expected digit",
+                                          "expected decimal digit",
+                                          "expected expected digit",
+                                          "expected value-terminator",
+                                          "expected 'true'",
+                                          "expected 'false'",
+                                          "expected 'nan'",
+                                          "expected 'inf'",
+                                          "expected month",
+                                          "expected day",
+                                          "expected a comment or whitespace",
+                                          "leading zeroes",
+                                          "expected '-'",
+                                          "expected ':'",
+                                          "could not be interpreted",
+                                          "is not representable in 64 bits"};
 
 /// toml++'s words, and ours for the same.
 constexpr std::pair<std::string_view, std::string_view> rewordings[] = {
@@ -58,9 +69,11 @@ std::string about_value(std::string_view value, std::string_view message) {
     const std::string shown = escaped(value, 40);
     if (message.find("64 bits") != std::string_view::npos || message.find("interpreted") != std::string_view::npos)
         return fmt::format("the number {} is beyond the range of {}", shown,
-                           value.find_first_of(".eE") == std::string_view::npos ? "64-bit integers; write it with a point"
-                                                                                : "double precision");
-    if (is_number_like(value)) return fmt::format("{} is not a number in TOML, where .5 is 0.5, 5. is 5.0 and 05 is 5", shown);
+                           value.find_first_of(".eE") == std::string_view::npos
+                               ? "64-bit integers; write it with a point"
+                               : "double precision");
+    if (is_number_like(value))
+        return fmt::format("{} is not a number in TOML, where .5 is 0.5, 5. is 5.0 and 05 is 5", shown);
     return fmt::format("not a plain number; an expression or a name stands in quotes: \"{}\"", shown);
 }
 
@@ -80,15 +93,16 @@ Diagnostic syntax_mistake(const toml::parse_error& error, const Layout& layout, 
         const std::size_t first = message.find('\''), last = message.rfind('\'');
         const std::string name = first < last ? message.substr(first + 1, last - first - 1) : "";
         if (const auto header = layout.headers.find(name); header != layout.headers.end())
-            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name), header->second.line)};
+            return {place, fmt::format("the table [{}] is given twice; first on line {}", escaped(name),
+                                       header->second.line)};
     }
     const auto says = [&](std::string_view words) { return message.find(words) != std::string::npos; };
     if (std::any_of(std::begin(of_values), std::end(of_values), says))
         if (const auto value = value_around(source.text(), source.offset(place)))
             return {source.place(value->begin), about_value(value->text, message)};
     for (const auto& [theirs, ours] : rewordings)
-        if (says(theirs)) return {place, "not valid TOML: " + std::string(ours)};
-    return {place, "not valid TOML: " + escaped(message, 200)};
+        if (says(theirs)) return {place, fmt::format("not valid TOML: {}", ours)};
+    return {place, fmt::format("not valid TOML: {}", escaped(message, 200))};
 }
 
 }  // namespace alembert

@@ -32,22 +32,23 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what) 
 
 void read_parameters(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.parameters.push_back(read_item<Parameter>(table, entry, "parameter " + in_quotes(entry.key)));
+        scene.parameters.push_back(read_item<Parameter>(table, entry, labelled("parameter", entry.key)));
 }
 
 void read_inputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.inputs.push_back(read_item<Input>(table, entry, "input " + in_quotes(entry.key)));
+        scene.inputs.push_back(read_item<Input>(table, entry, labelled("input", entry.key)));
 }
 
 void read_coordinates(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
-        const std::string what = "coordinate " + in_quotes(entry.key);
+        const std::string what = labelled("coordinate", entry.key);
         Coordinate coordinate{{entry.key, entry.place}, {}, zero(entry.place), {}, {}};
         if (const toml::table* const inner = entry.node->as_table()) {
             const Table keys(table.reading(), *inner, what, entry.place);
             keys.allow({"initial", "rate", "unit", "about"}, {"guess", "rate_guess"});
-            coordinate.initial = keys.has("initial") || keys.has("guess") ? keys.expression("initial") : zero(entry.place);
+            coordinate.initial =
+                keys.has("initial") || keys.has("guess") ? keys.expression("initial") : zero(entry.place);
             if (keys.has("rate")) coordinate.rate = keys.expression("rate");
             coordinate.unit = keys.text("unit");
             coordinate.about = keys.text("about");
@@ -60,8 +61,9 @@ void read_coordinates(const Table& table, Scene& scene) {
 
 void read_definitions(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.definitions.push_back({{entry.key, entry.place},
-                                     read_expression(table.reading(), *entry.node, "definition " + in_quotes(entry.key))});
+        scene.definitions.push_back(
+            {{entry.key, entry.place},
+             read_expression(table.reading(), *entry.node, labelled("definition", entry.key))});
 }
 
 void read_energy(const Table& table, Scene& scene) {
@@ -70,7 +72,8 @@ void read_energy(const Table& table, Scene& scene) {
     scene.potential = table.expression("potential");
     scene.lagrangian = table.expression("lagrangian");
     if (table.has("lagrangian") && (table.has("kinetic") || table.has("potential")))
-        table.complain("lagrangian", "'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'");
+        table.complain("lagrangian",
+                       "'lagrangian' stands for the whole energy; leave out 'kinetic' and 'potential'");
 }
 
 void read_dissipation(const Table& table, Scene& scene) {
@@ -82,13 +85,13 @@ void read_forces(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.generalized_forces.push_back(
             {{entry.key, entry.place},
-             read_expression(table.reading(), *entry.node, "the force along " + in_quotes(entry.key))});
+             read_expression(table.reading(), *entry.node, labelled("the force along", entry.key))});
 }
 
 void read_outputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.outputs.push_back({{entry.key, entry.place},
-                                 read_expression(table.reading(), *entry.node, "output " + in_quotes(entry.key))});
+                                 read_expression(table.reading(), *entry.node, labelled("output", entry.key))});
 }
 
 }  // namespace alembert

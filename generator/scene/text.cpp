@@ -41,8 +41,8 @@ bool is_name(std::string_view text) {
 
 bool is_disturbing(char32_t c) {
     return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0x61C || c == 0x180E ||
-           (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF ||
-           (c >= 0xFFF9 && c <= 0xFFFB) || (c >= 0xE0000 && c <= 0xE0FFF) || c == invalid_character;
+           (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) ||
+           c == 0xFEFF || (c >= 0xFFF9 && c <= 0xFFFB) || (c >= 0xE0000 && c <= 0xE0FFF) || c == invalid_character;
 }
 
 std::string escaped(std::string_view text, std::size_t most) {
@@ -66,13 +66,20 @@ std::string escaped(std::string_view text, std::size_t most) {
     return result;
 }
 
-std::string in_quotes(std::string_view text) { return fmt::format("'{}'", escaped(text)); }
+std::string in_quotes(std::string_view text) {
+    return fmt::format("'{}'", escaped(text));
+}
+
+std::string labelled(std::string_view label, std::string_view text) {
+    return fmt::format("{} '{}'", label, escaped(text));
+}
 
 int width(char32_t c) {
     const auto in = [c](char32_t first, char32_t last) { return c >= first && c <= last; };
     if (in(0x300, 0x36F) || in(0x20D0, 0x20FF) || in(0xFE00, 0xFE0F)) return 0;
-    if (in(0x1100, 0x115F) || in(0x2E80, 0xA4CF) || in(0xAC00, 0xD7A3) || in(0xF900, 0xFAFF) || in(0xFE30, 0xFE6F) ||
-        in(0xFF00, 0xFF60) || in(0xFFE0, 0xFFE6) || in(0x1F300, 0x1FAFF) || in(0x20000, 0x3FFFD))
+    if (in(0x1100, 0x115F) || in(0x2E80, 0xA4CF) || in(0xAC00, 0xD7A3) || in(0xF900, 0xFAFF) ||
+        in(0xFE30, 0xFE6F) || in(0xFF00, 0xFF60) || in(0xFFE0, 0xFFE6) || in(0x1F300, 0x1FAFF) ||
+        in(0x20000, 0x3FFFD))
         return 2;
     return 1;
 }

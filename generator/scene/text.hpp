@@ -13,8 +13,8 @@ namespace alembert {
 /// What `decode` gives for a byte that begins no UTF-8 sequence.
 inline constexpr char32_t invalid_character = 0xFFFFFFFF;
 
-/// The code point at `text[i]`; moves `i` past it. Overlong forms, surrogates and stray bytes are invalid: then `i`
-/// moves by one byte.
+/// The code point at `text[i]`; moves `i` past it. Overlong forms, surrogates and stray bytes are invalid: then
+/// `i` moves by one byte.
 char32_t decode(std::string_view text, std::size_t& i);
 
 std::string encode(char32_t c);
@@ -22,7 +22,9 @@ std::string encode(char32_t c);
 /// ASCII letter, `_`, or a letter of another script.
 bool is_letter(char32_t c);
 
-inline bool is_digit(char32_t c) { return c >= U'0' && c <= U'9'; }
+inline bool is_digit(char32_t c) {
+    return c >= U'0' && c <= U'9';
+}
 
 /// A letter or `_`, then letters, digits, `_`.
 bool is_name(std::string_view text);
@@ -35,6 +37,9 @@ std::string escaped(std::string_view text, std::size_t most = 60);
 
 /// The same in single quotes.
 std::string in_quotes(std::string_view text);
+
+/// `label 'text'`.
+std::string labelled(std::string_view label, std::string_view text);
 
 /// Columns on a terminal: 0, 1 or 2.
 int width(char32_t c);

@@ -17,24 +17,75 @@ constexpr int most_digits = 400;
 /// What to write in place of a character that looks right but is not part of the language.
 std::string_view replacement(char32_t c) {
     switch (c) {
-        case U'·': case U'×': case U'⋅': case U'∗': case U'∙': case U'•': return "use *";
-        case U'−': case U'–': case U'—': case U'‐': case U'‑': return "use -";
-        case U'÷': case U'∕': case U'⁄': return "use /";
-        case U'′': case U'’': case U'‘': case U'´': case U'`': return "use '";
-        case U'″': case U'”': case U'“': case U'"': return "use '' for a second derivative";
-        case U'²': return "use ^2";
-        case U'³': return "use ^3";
-        case U'√': return "use sqrt(…)";
-        case U'½': return "use 1/2";
-        case U'∞': return "numbers are finite";
-        case U'[': case U']': case U'{': case U'}': return "use parentheses";
-        case U'<': case U'>': case U'≤': case U'≥': case U'≠': return "comparisons are not part of the language";
-        case U'%': return "there are no percentages or remainders; use /100";
-        case U'!': return "there are no factorials";
-        case U'\u0307': case U'\u0308': return "use ' for a derivative with respect to time: x'";
-        case U'₀': case U'₁': case U'₂': case U'₃': case U'₄': case U'₅': case U'₆': case U'₇': case U'₈': case U'₉':
+        case U'·':
+        case U'×':
+        case U'⋅':
+        case U'∗':
+        case U'∙':
+        case U'•':
+            return "use *";
+        case U'−':
+        case U'–':
+        case U'—':
+        case U'‐':
+        case U'‑':
+            return "use -";
+        case U'÷':
+        case U'∕':
+        case U'⁄':
+            return "use /";
+        case U'′':
+        case U'’':
+        case U'‘':
+        case U'´':
+        case U'`':
+            return "use '";
+        case U'″':
+        case U'”':
+        case U'“':
+        case U'"':
+            return "use '' for a second derivative";
+        case U'²':
+            return "use ^2";
+        case U'³':
+            return "use ^3";
+        case U'√':
+            return "use sqrt(…)";
+        case U'½':
+            return "use 1/2";
+        case U'∞':
+            return "numbers are finite";
+        case U'[':
+        case U']':
+        case U'{':
+        case U'}':
+            return "use parentheses";
+        case U'<':
+        case U'>':
+        case U'≤':
+        case U'≥':
+        case U'≠':
+            return "comparisons are not part of the language";
+        case U'%':
+            return "there are no percentages or remainders; use /100";
+        case U'!':
+            return "there are no factorials";
+        case U'\u0307':
+        case U'\u0308':
+            return "use ' for a derivative with respect to time: x'";
+        case U'₀':
+        case U'₁':
+        case U'₂':
+        case U'₃':
+        case U'₄':
+        case U'₅':
+        case U'₆':
+        case U'₇':
+        case U'₈':
+        case U'₉':
             return "use plain digits in names: x1";
-        default: return {};
+        default:
+            return {};
     }
 }
 
@@ -71,8 +122,10 @@ private:
             while (at_ < text_.size() && text_[at_] == '\'') ++at_;
             return add(Token::Kind::primes, begin);
         }
-        if (text_.compare(at_, 2, "**") == 0) fail(begin, "'**' is not an operator here; a power is written with ^");
-        if (text_.compare(at_, 2, "==") == 0) fail(begin, "'==' is not part of the language; an equation has one =");
+        if (text_.compare(at_, 2, "**") == 0)
+            fail(begin, "'**' is not an operator here; a power is written with ^");
+        if (text_.compare(at_, 2, "==") == 0)
+            fail(begin, "'==' is not part of the language; an equation has one =");
         if (std::string_view("+-*/^(),=").find(byte) != std::string_view::npos) {
             ++at_;
             return add(Token::Kind::symbol, begin, byte);
@@ -103,8 +156,9 @@ private:
         }
         check_range(begin);
         if (at_ < text_.size() && (text_[at_] == '.' || (text_[at_] == '_' && digit(at_ + 1))))
-            fail(begin, text_[at_] == '_' ? "digits are written together, without _, in an expression"
-                                          : in_quotes(text_.substr(begin, number_like(begin))) + " is not a number");
+            fail(begin, text_[at_] == '_'
+                            ? "digits are written together, without _, in an expression"
+                            : in_quotes(text_.substr(begin, number_like(begin))) + " is not a number");
         add(Token::Kind::number, begin);
     }
 
@@ -124,7 +178,8 @@ private:
         bool small = true;
         if (e < at_) {
             const char* const first = text_.data() + e + (text_[e + 1] == '+' ? 2 : 1);
-            small = std::from_chars(first, end, exponent).ec == std::errc{} && std::abs(exponent) <= 2 * most_digits;
+            small =
+                std::from_chars(first, end, exponent).ec == std::errc{} && std::abs(exponent) <= 2 * most_digits;
         }
         if (result.ec != std::errc{} || !small)
             fail(begin, fmt::format("the number {} is beyond the range of double precision",
@@ -147,6 +202,8 @@ private:
 
 }  // namespace
 
-std::vector<Token> tokenize(const std::string& text) { return Lexer(text).tokens(); }
+std::vector<Token> tokenize(const std::string& text) {
+    return Lexer(text).tokens();
+}
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 ///
 ///     tokenize("2*x''")  gives  number `2`, symbol `*`, name `x`, primes `''`, end
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,22 @@ struct Mistake {
 
 /// Throws Mistake at the first character that cannot be part of an expression.
 std::vector<Token> tokenize(const std::string& text);
+
+/// The words of one expression and how far its reader has come.
+struct Words {
+    const std::string& text;
+    std::vector<Token> tokens;
+    std::size_t at = 0;
+
+    static bool is(const Token& token, char symbol) { return token.symbol == symbol; }
+    const Token& now() const { return tokens[at]; }
+    const Token& ahead(std::size_t k) const { return tokens[std::min(at + k, tokens.size() - 1)]; }
+    const Token& last() const { return tokens[at - 1]; }
+    bool at_end() const { return now().kind == Token::Kind::end; }
+    bool at_symbol(char symbol) const { return is(now(), symbol); }
+    std::string word(const Token& token) const { return text.substr(token.offset, token.length); }
+    /// The end in bytes of the last token read.
+    int end() const { return at == 0 ? 0 : last().offset + last().length; }
+};
 
 }  // namespace alembert

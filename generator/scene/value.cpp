@@ -23,7 +23,8 @@ Literal read_number(const Reading& reading, const toml::node& node) {
         literal.places.assign(literal.text.size() + 1, place_of(node));
         return literal;
     }
-    for (; at < text.size() && std::string_view("+-.0123456789eE_").find(text[at]) != std::string_view::npos; ++at) {
+    for (; at < text.size() && std::string_view("+-.0123456789eE_").find(text[at]) != std::string_view::npos;
+         ++at) {
         if (text[at] == '_' || (text[at] == '+' && literal.text.empty())) continue;
         literal.text += text[at];
         literal.places.push_back(reading.source.place(at));
@@ -53,20 +54,28 @@ Place place_of(const toml::node& node) {
 
 std::string kind_of(const toml::node& node) {
     switch (node.type()) {
-        case toml::node_type::string: return "the string " + in_quotes(node.as_string()->get());
-        case toml::node_type::integer: return fmt::format("the integer {}", node.as_integer()->get());
+        case toml::node_type::string:
+            return labelled("the string", node.as_string()->get());
+        case toml::node_type::integer:
+            return fmt::format("the integer {}", node.as_integer()->get());
         case toml::node_type::floating_point: {
             const double value = node.as_floating_point()->get();
             if (std::isnan(value)) return "nan";
             if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
             return fmt::format("the number {}", value);
         }
-        case toml::node_type::boolean: return node.as_boolean()->get() ? "true" : "false";
-        case toml::node_type::array: return "an array";
-        case toml::node_type::table: return "a table";
-        case toml::node_type::date: return "a date";
-        case toml::node_type::time: return "a time of day";
-        default: return "a date and time";
+        case toml::node_type::boolean:
+            return node.as_boolean()->get() ? "true" : "false";
+        case toml::node_type::array:
+            return "an array";
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::date:
+            return "a date";
+        case toml::node_type::time:
+            return "a time of day";
+        default:
+            return "a date and time";
     }
 }
 
@@ -127,8 +136,8 @@ Vector read_vector(const Reading& reading, const toml::node& node, const std::st
         return vector;
     }
     if (array->size() < 2 || array->size() > 3) {
-        reading.complain(vector.place, fmt::format("{} has {} component{}; a vector has two or three", what, array->size(),
-                                                   array->size() == 1 ? "" : "s"));
+        reading.complain(vector.place, fmt::format("{} has {} component{}; a vector has two or three", what,
+                                                   array->size(), array->size() == 1 ? "" : "s"));
         return vector;
     }
     for (std::size_t i = 0; i < array->size(); ++i)
@@ -141,12 +150,14 @@ Table::Table(const Reading& reading, const toml::table& table, std::string title
     : reading_(&reading), title_(std::move(title)), place_(place) {
     for (const auto& [key, node] : table) {
         const toml::source_position begin = key.source().begin;
-        entries_.push_back({std::string(key.str()), {static_cast<int>(begin.line), static_cast<int>(begin.column)}, &node});
+        entries_.push_back(
+            {std::string(key.str()), {static_cast<int>(begin.line), static_cast<int>(begin.column)}, &node});
     }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
 }
 
-void Table::allow(std::initializer_list<std::string_view> known, std::initializer_list<std::string_view> later) const {
+void Table::allow(std::initializer_list<std::string_view> known,
+                  std::initializer_list<std::string_view> later) const {
     const std::vector<std::string> all = [&] {
         std::vector<std::string> list(known.begin(), known.end());
         list.insert(list.end(), later.begin(), later.end());
@@ -161,12 +172,14 @@ void Table::allow(std::initializer_list<std::string_view> known, std::initialize
         const std::string meant = nearest(entry.key, all);
         std::string hint = meant.empty() ? fmt::format("it may have {}", fmt::join(all, ", "))
                                          : fmt::format("did you mean '{}'?", meant);
-        reading_->complain(entry.place, fmt::format("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
+        reading_->complain(entry.place,
+                           fmt::format("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
     }
 }
 
 const Entry* Table::find(std::string_view key) const {
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+    const auto found =
+        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
     return found == entries_.end() ? nullptr : &*found;
 }
 
@@ -175,10 +188,12 @@ void Table::complain(std::string_view key, const std::string& message) const {
     reading_->complain(entry ? entry->place : place_, message);
 }
 
-std::string Table::what(std::string_view key) const { return fmt::format("'{}' of {}", escaped(key), title_); }
+std::string Table::what(std::string_view key) const {
+    return fmt::format("'{}' of {}", escaped(key), title_);
+}
 
 void Table::entitle(const Name& name) {
-    if (!name.text.empty()) title_ += " " + in_quotes(name.text);
+    if (!name.text.empty()) title_ = labelled(title_, name.text);
 }
 
 void Table::need(std::string_view key) const {

@@ -67,7 +67,8 @@ public:
     const std::vector<Entry>& entries() const { return entries_; }
 
     /// Complains of each key that is neither `known` nor among those of `later` issues.
-    void allow(std::initializer_list<std::string_view> known, std::initializer_list<std::string_view> later = {}) const;
+    void allow(std::initializer_list<std::string_view> known,
+               std::initializer_list<std::string_view> later = {}) const;
 
     const Entry* find(std::string_view key) const;
     bool has(std::string_view key) const { return find(key) != nullptr; }

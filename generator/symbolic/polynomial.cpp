@@ -205,6 +205,24 @@ Monomial common_monomial(const Polynomial& polynomial) {
     return result;
 }
 
+Monomial shared_monomial(const Polynomial& polynomial) {
+    if (polynomial.is_zero()) return {};
+    Monomial result;
+    for (Factor shared : polynomial.terms().front().monomial) {
+        const bool is_positive = shared.exponent > 0;
+        const bool in_all = std::all_of(polynomial.terms().begin(), polynomial.terms().end(), [&](const Term& term) {
+            for (const Factor& factor : term.monomial) {
+                if (compare(factor.atom, shared.atom) != 0) continue;
+                if (cln::abs(factor.exponent) < cln::abs(shared.exponent)) shared.exponent = factor.exponent;
+                return (factor.exponent > 0) == is_positive;
+            }
+            return false;
+        });
+        if (in_all) result.push_back(shared);
+    }
+    return result;
+}
+
 Rational common_divisor(const Rational& a, const Rational& b) {
     return Rational(cln::gcd(cln::numerator(a), cln::numerator(b))) /
            Rational(cln::lcm(cln::denominator(a), cln::denominator(b)));

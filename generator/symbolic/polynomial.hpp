@@ -95,6 +95,8 @@ Monomial power(const Monomial& base, const Rational& exponent);
 
 /// The largest monomial that divides all terms (lowest exponents, negative ones too).
 Monomial common_monomial(const Polynomial& polynomial);
+/// What every term holds: a/r² + b/r³ = r⁻²·(a + b/r), while a + b/r shares nothing.
+Monomial shared_monomial(const Polynomial& polynomial);
 /// The positive rational c for which the coefficients of polynomial/c are coprime integers; 1 for zero.
 Rational content(const Polynomial& polynomial);
 Rational common_divisor(const Rational& a, const Rational& b);

@@ -162,19 +162,16 @@ double EventWatch::locate(const Stretch& step, int index, double left, double g_
                           double g_right) {
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero
-    double c = a, g_c = g_a;          // the point before
     const double least = 4 * epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
     const double highest = std::max(std::abs(g_left), std::abs(g_right));  // a pole rises above both
     double part = 0.5;
     for (int i = 0; i < 100; ++i) {
         const double next = b + part * (a - b);
         const double g_next = value(step, index, next);
-        if (sign(g_next) == sign(g_b)) {
-            c = b, g_c = g_b;
-        } else {
-            c = a, g_c = g_a;
-            a = b, g_a = g_b;
-        }
+        const bool same_side = sign(g_next) == sign(g_b);
+        const double c = same_side ? b : a,
+                     g_c = same_side ? g_b : g_a;  // the point that drops out of the bracket
+        if (!same_side) a = b, g_a = g_b;
         b = next, g_b = g_next;
         const double width = std::abs(a - b);
         const double best = std::abs(g_b) < std::abs(g_a) ? b : a;

@@ -16,8 +16,6 @@
 
 #include "alembert/error.hpp"
 
-extern char** environ;
-
 namespace alembert {
 namespace {
 

@@ -1,0 +1,217 @@
+// Equations of motion of 'cart_rod': lagrange, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], phi [rad], then their rates
+//   par    m1 [kg], m2 [kg], l [m], g [m/s^2]
+//   cost   17 operations a right-hand side: 3 additions, 11 multiplications, 1 divisions, 2 functions
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &g = par[3];
+
+    // Constants
+    const Real M00 = m1 + m2;
+    const Real k0 = m2 * l;
+    const Real z0 = m2 * l * l;
+    const Real M11 = (Real(4) / Real(3)) * z0;
+    const Real k1 = m2 * l * g;
+    const Real k2 = Real(0.75) * Real(1) / z0;
+    const Real k3 = Real(0.5) * M00;
+    const Real k4 = (Real(2) / Real(3)) * z0;
+
+    // Result
+    par[4] = M00;
+    par[5] = k0;
+    par[6] = M11;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi;
+
+    // Forcing f
+    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
+    const Real z0 = k1 * sin_phi;
+    const Real f1 = -z0;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z1 = k2 * M10;
+    const Real z2 = Real(1) / (M00 - M10 * z1);
+    const Real x_ddot = z2 * (f0 + z0 * z1);
+    const Real phi_ddot = -x_ddot * z1 - k2 * z0;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = phi_dot;
+    rate[2] = x_ddot;
+    rate[3] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[1], &phi_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi;
+
+    // Forcing f
+    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
+    const Real f1 = -k1 * sin_phi;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = M10;
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &k0 = par[5], &k1 = par[7], &k3 = par[9], &k4 = par[10];
+
+    // Trigonometry
+    const Real cos_phi = cos(phi);
+
+    // Energy
+    const Real z0 = k0 * x_dot * phi_dot * cos_phi;
+    const Real T = k3 * x_dot * x_dot + k4 * phi_dot * phi_dot + z0;
+    const Real z1 = k1 * cos_phi;
+    const Real V = -z1;
+    const Real E = T - z1;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real tip_x = x + Real(2) * l * sin_phi;
+    const Real z0 = m2 * (x_dot + l * phi_dot * cos_phi);
+    const Real momentum = m1 * x_dot + z0;
+    const Real tip_y = -Real(2) * l * cos_phi;
+
+    // Result
+    out[0] = tip_x;
+    out[1] = tip_y;
+    out[2] = momentum;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+};
+
+constexpr const char* coordinate_names[] = { "x", "phi", nullptr};
+constexpr const char* parameter_names[] = { "m1", "m2", "l", "g", nullptr};
+constexpr const char* output_names[] = { "tip_x", "tip_y", "momentum", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 2, 1.5, 0.6, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    1, 2, 4, 7, 3, 0, "cart_rod", "lagrange, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

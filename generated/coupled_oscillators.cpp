@@ -1,0 +1,194 @@
+// Equations of motion of 'coupled_oscillators': lagrange, intermediate symbols.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x1 [m], x2 [m], then their rates
+//   par    m1 [kg], m2 [kg], k1 [N/m], k2 [N/m], k3 [N/m], c1 [N s/m], c2 [N s/m]
+//   cost   14 operations a right-hand side: 7 additions, 7 multiplications, 0 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1];
+
+    // Constants
+    const Real k0 = Real(1) / m2;
+    const Real k4 = Real(1) / m1;
+
+    // Result
+    par[7] = k0;
+    par[8] = k4;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
+    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
+    const Real &k0 = par[7], &k4 = par[8];
+
+    // Forcing f
+    const Real z0 = c2 * (x1_dot - x2_dot);
+    const Real z1 = k2 * (x1 - x2);
+    const Real z2 = (k1 * x1 + z1) + (c1 * x1_dot + z0);
+    const Real f0 = -z2;
+    const Real f1 = (z1 - k3 * x2) + z0;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real x2_ddot = k0 * f1;
+    const Real x1_ddot = -k4 * z2;
+
+    // Result
+    rate[0] = x1_dot;
+    rate[1] = x2_dot;
+    rate[2] = x1_ddot;
+    rate[3] = x2_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
+    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
+
+    // Forcing f
+    const Real z0 = c2 * (x1_dot - x2_dot);
+    const Real z1 = k2 * (x1 - x2);
+    const Real z2 = (k1 * x1 + z1) + (c1 * x1_dot + z0);
+    const Real f0 = -z2;
+    const Real f1 = (z1 - k3 * x2) + z0;
+
+    // Result
+    mass[0] = m1;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = m2;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
+    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
+
+    // Energy
+    const Real z0 = x1 - x2;
+    const Real z1 = c2 * (x1_dot - x2_dot);
+    const Real z2 = k1 * x1 * x1 + k2 * z0 * z0 + k3 * x2 * x2;
+    const Real V = Real(0.5) * z2;
+    const Real z3 = m1 * x1_dot * x1_dot + m2 * x2_dot * x2_dot;
+    const Real T = Real(0.5) * z3;
+    const Real z4 = x1_dot * m1 * x1_dot + x2_dot * m2 * x2_dot;
+    const Real h = z4 - Real(0.5) * (z3 - z2);
+    const Real E = Real(0.5) * (z3 + z2);
+    const Real z5 = x1_dot * (c1 * x1_dot + z1) - x2_dot * z1;
+    const Real P = -z5;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = P;
+    jacobi[0] = h;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &x1_dot = state[2], &x2_dot = state[3];
+    const Real &c1 = par[5], &c2 = par[6];
+
+    // Outputs
+    const Real z0 = x1_dot - x2_dot;
+    const Real loss = c1 * x1_dot * x1_dot + c2 * z0 * z0;
+
+    // Result
+    out[0] = loss;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+};
+
+constexpr const char* coordinate_names[] = { "x1", "x2", nullptr};
+constexpr const char* parameter_names[] = { "m1", "m2", "k1", "k2", "k3", "c1", "c2", nullptr};
+constexpr const char* output_names[] = { "loss", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 0.5, 20, 5, 15, 0.05, 0.1, 0};
+
+constexpr alembert_solver_table table{
+    1, 2, 7, 2, 1, 0, "coupled_oscillators", "lagrange, intermediate symbols",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

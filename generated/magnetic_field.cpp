@@ -1,0 +1,189 @@
+// Equations of motion of 'magnetic_field': lagrange, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], z [m], then their rates
+//   par    m [kg], q [C], B [T], E [V/m]
+//   cost   5 operations a right-hand side: 1 additions, 4 multiplications, 0 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &q = par[1], &B = par[2], &E = par[3];
+
+    // Constants
+    const Real k0 = q * E;
+    const Real k1 = q * B;
+    const Real k2 = Real(1) / m;
+    const Real k3 = Real(0.5) * m;
+
+    // Result
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
+    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+
+    // Forcing f
+    const Real f0 = k0 + k1 * y_dot;
+    const Real z0 = k1 * x_dot;
+    const Real f1 = -z0;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real y_ddot = -k2 * z0;
+    const Real x_ddot = k2 * f0;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = z_dot;
+    rate[3] = x_ddot;
+    rate[4] = y_ddot;
+    rate[5] = Real(0);
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &x_dot = state[3], &y_dot = state[4];
+    const Real &m = par[0], &k0 = par[4], &k1 = par[5];
+
+    // Forcing f
+    const Real f0 = k0 + k1 * y_dot;
+    const Real f1 = -k1 * x_dot;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = m;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
+    const Real &k0 = par[4], &k3 = par[7];
+
+    // Energy
+    const Real T = k3 * (x_dot * x_dot + y_dot * y_dot + z_dot * z_dot);
+    const Real z0 = k0 * x;
+    const Real V = -z0;
+    const Real E_ = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E_;
+    energy[3] = Real(0);
+    jacobi[0] = E_;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
+
+    // Outputs
+    const Real speed = sqrt(x_dot * x_dot + y_dot * y_dot + z_dot * z_dot);
+
+    // Result
+    out[0] = speed;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "z", nullptr};
+constexpr const char* parameter_names[] = { "m", "q", "B", "E", nullptr};
+constexpr const char* output_names[] = { "speed", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 1, 2, 0.6, 0};
+
+constexpr alembert_solver_table table{
+    1, 3, 4, 4, 1, 0, "magnetic_field", "lagrange, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

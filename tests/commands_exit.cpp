@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// The contract of the command line: exit codes, JSON fields, what stands on which stream.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string pendulum = R"toml(
+gravity = [0, "g"]
+[parameters]
+m = 2.0
+l = 1.5
+g = 9.81
+[coordinates]
+theta = { initial = 0.3, rate = 0.1 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["l*sin(theta)", "l*cos(theta)"]
+[simulation]
+duration = 2
+)toml";
+
+}  // namespace
+
+TEST_CASE("commands: eval gives the pendulum's closed form, with --at for state and parameters") {
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    const auto run_at = run({"eval", scene, "--json", "--at", "theta=0.5", "theta'=2", "l=2"});
+    REQUIRE(run_at.exit == 0);
+    const Json result = Json::parse(run_at.out);
+    CHECK(result["accelerations"]["theta"].get<double>() == doctest::Approx(-9.81 / 2 * std::sin(0.5)).epsilon(1e-15));
+    CHECK(result["kinetic"].get<double>() == doctest::Approx(0.5 * 2 * 4 * 4).epsilon(1e-15));
+    CHECK(result["potential"].get<double>() == doctest::Approx(-2 * 9.81 * 2 * std::cos(0.5)).epsilon(1e-15));
+    for (const char* key : {"time", "coordinates", "rates", "accelerations", "speeds", "speed_rates", "multipliers", "kinetic",
+                            "potential", "energy", "residuals", "outputs"})
+        CHECK_MESSAGE(result.contains(key), key);
+}
+
+TEST_CASE("commands: simulate writes the CSV on the sample grid and the JSON of commands.md") {
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    const std::string csv = scene + ".csv";
+    const auto result = run({"simulate", scene, "--json", "-o", csv, "--sample", "0.3"});
+    REQUIRE(result.exit == 0);
+    const Json json = Json::parse(result.out);
+    for (const char* key : {"final", "method", "steps", "rejected", "evaluations", "energy_drift", "constraint_drift", "seconds"})
+        CHECK_MESSAGE(json.contains(key), key);
+    CHECK(json["final"]["time"] == 2.0);
+    CHECK(json["energy_drift"].get<double>() < 1e-9);
+    CHECK_FALSE(json.contains("work_balance"));
+    std::ifstream file(csv);
+    std::string line;
+    std::getline(file, line);
+    CHECK(line == "t,theta,theta',energy");
+    int rows = 0;
+    std::string last;
+    while (std::getline(file, line)) {
+        ++rows;
+        last = line;
+    }
+    CHECK(rows == 8);  // 0, 0.3 … 1.8, and 2
+    CHECK(last.starts_with("2,"));
+}
+
+TEST_CASE("commands: a mistake in the scene is exit 3 with its place, an unknown formalism or file too") {
+    const std::string broken = temporary("broken.toml", pendulum + "\n[outputs]\nx = \"l*sin(thetta)\"\n");
+    const auto result = run({"derive", broken});
+    CHECK(result.exit == 3);
+    CHECK(result.out.empty());
+    CHECK(result.err.find("broken.toml:17:12: unknown name 'thetta'") != std::string::npos);
+    CHECK(result.err.find("did you mean 'theta'?") != std::string::npos);
+    CHECK(run({"derive", "no/such/scene.toml"}).exit == 3);
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    CHECK(run({"derive", scene, "--by", "kane"}).exit == 3);
+    CHECK(run({"eval", scene, "--at", "thetta=1"}).exit == 3);
+    CHECK(run({"eval", scene, "--at", "theta=1x"}).exit == 3);
+    CHECK(run({"simulate", scene, "--tolerance", "-1"}).exit == 3);
+    CHECK(run({"simulate", scene, "--method", "rk4"}).exit == 3);  // no step
+    CHECK(run({"fly", scene}).exit == 3);
+    CHECK(run({}).exit == 3);
+    CHECK(run({"--version"}).exit == 0);
+    CHECK(run({"--help"}).exit == 0);
+}
+
+TEST_CASE("commands: a singular mass matrix is exit 4 and names the combination of rates") {
+    const std::string scene = temporary("singular.toml", R"toml(
+[coordinates]
+x = 0.1
+y = 0.2
+[energy]
+kinetic = "(x' + y')^2/2"
+potential = "x^2 + y^2"
+)toml");
+    for (const char* verb : {"eval", "simulate"}) {
+        const auto result = run({verb, scene});
+        CHECK(result.exit == 4);
+        CHECK(result.err.find("x' - y'") != std::string::npos);
+    }
+    const std::string massless = temporary("massless.toml", R"toml(
+[coordinates]
+x = 0.1
+[[particle]]
+name = "P"
+mass = 0
+position = ["x", 0]
+)toml");
+    const auto result = run({"eval", massless});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("no inertia resists x'") != std::string::npos);
+}
+
+TEST_CASE("commands: what is not a number is blamed on its term, and a run that fails keeps what it had") {
+    const std::string scene = temporary("fall.toml", R"toml(
+[coordinates]
+r = { initial = 1.0 }
+[energy]
+kinetic = "r'^2/2"
+potential = "-1/r^2"
+[simulation]
+duration = 10
+)toml");
+    const std::string csv = scene + ".csv";
+    const auto result = run({"simulate", scene, "--json", "-o", csv});
+    CHECK(result.exit == 4);
+    const Json json = Json::parse(result.out);
+    CHECK(json["completed"] == false);
+    // The fall to the centre takes t = r₀²/√2 from rest: ½ r'² = 1/r² − 1/r₀².
+    CHECK(json["final"]["time"].get<double>() == doctest::Approx(1 / std::sqrt(2)).epsilon(1e-3));
+    CHECK(std::filesystem::file_size(csv) > 100);
+    const auto at_centre = run({"eval", scene, "--at", "r=0"});
+    CHECK(at_centre.exit == 4);
+    CHECK(at_centre.err.find("division by zero") != std::string::npos);
+    CHECK(at_centre.err.find("[energy] potential") != std::string::npos);
+}
+
+TEST_CASE("commands: a folder that cannot be written is exit 5, and no half file is left") {
+    const std::string scene = temporary("pendulum.toml", pendulum);
+    CHECK(run({"simulate", scene, "-o", "/no/such/folder/x.csv"}).exit == 5);
+    const std::string file = temporary("occupied", "");
+    CHECK(run({"emit", scene, "-o", file + "/inside"}).exit == 5);
+}
+
+TEST_CASE("commands: names that are C++ keywords, Greek letters and our own temporaries work") {
+    const std::string scene = temporary("names.toml", R"toml(
+gravity = [0, "g"]
+[parameters]
+double = 1.5
+g = 9.81
+Real = 2.0
+k0 = 0.5
+[coordinates]
+I = 0.3
+θ = { initial = 0.2, rate = 0.1 }
+lambda = 0.1
+z0 = 0.4
+[[particle]]
+name = "new"
+mass = "double"
+position = ["I + lambda", "θ"]
+[[particle]]
+name = "int"
+mass = "Real"
+position = ["lambda*cos(z0)", "lambda*sin(z0) + 2", "k0*θ"]
+[[particle]]
+name = "M00"
+mass = 1
+position = ["I", "z0"]
+[simulation]
+duration = 0.5
+)toml");
+    const auto derived = run({"derive", scene});
+    CHECK(derived.exit == 0);
+    CHECK(derived.out.find("θ''") != std::string::npos);
+    const auto evaluated = run({"eval", scene, "--json"});
+    REQUIRE(evaluated.exit == 0);
+    CHECK(Json::parse(evaluated.out)["accelerations"].contains("I"));
+    const auto simulated = run({"simulate", scene, "--json"});
+    REQUIRE(simulated.exit == 0);
+    CHECK(Json::parse(simulated.out)["energy_drift"].get<double>() < 1e-9);
+    CHECK(run({"derive", scene, "--format", "latex"}).out.find("\\theta") != std::string::npos);
+}
+
+TEST_CASE("commands: the text of a derived equation is a valid claim, in every textbook scene") {
+    for (const std::string& file : alembert::test::scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        const auto derived = run({"derive", file, "--json"});
+        REQUIRE(derived.exit == 0);
+        std::ifstream in(file);
+        std::string text((std::istreambuf_iterator<char>(in)), {});
+        for (const Json& equation : Json::parse(derived.out)["equations"])
+            text += "\n[[claim]]\nequation = \"" + equation["text"].get<std::string>() + "\"\n";
+        const auto again = run({"derive", temporary("claimed.toml", text)});
+        CHECK(again.exit == 0);
+        CHECK(again.err.empty());
+    }
+}

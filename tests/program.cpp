@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "program.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace alembert::test {
+
+namespace {
+
+/// Lives as long as the test process.
+struct Folder {
+    std::filesystem::path path;
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "alembert-test-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path = name;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+};
+
+const std::filesystem::path& folder() {
+    static const Folder one;
+    return one.path;
+}
+
+std::string contents(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+double seconds_of(const rusage& usage) {
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+}  // namespace
+
+Run run(const std::vector<std::string>& args) {
+    const std::filesystem::path out = folder() / "out", err = folder() / "err";
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error("fork failed");
+    if (child == 0) {
+        const auto redirect = [](const std::filesystem::path& file, int to) {
+            const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+            if (fd < 0 || dup2(fd, to) < 0) _exit(126);
+        };
+        redirect(out, STDOUT_FILENO);
+        redirect(err, STDERR_FILENO);
+        setenv("XDG_CACHE_HOME", (folder() / "cache").c_str(), 1);
+        std::vector<char*> argv{const_cast<char*>(ALEMBERT_PROGRAM)};
+        for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
+        argv.push_back(nullptr);
+        execv(ALEMBERT_PROGRAM, argv.data());
+        _exit(127);
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    return {.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            .out = contents(out),
+            .err = contents(err),
+            .seconds = seconds_of(usage),
+            .megabytes = usage.ru_maxrss / 1024};
+}
+
+std::string temporary(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder() / name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+}
+
+}  // namespace alembert::test
