@@ -42,8 +42,8 @@ void prepare(Real* par) {
     const Real M11 = m * l * l;
     const Real k1 = m * l * g;
     const Real k2 = Real(1) / M11;
-    const Real k3 = Real(0.5) * M11;
-    const Real k4 = Real(0.5) * M00;
+    const Real k3 = Real(0.5) * M00;
+    const Real k4 = Real(0.5) * M11;
 
     // Result
     par[7] = M00;
@@ -126,7 +126,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 
     // Energy
     const Real z0 = k0 * x_dot * theta_dot * cos_theta;
-    const Real T = k4 * x_dot * x_dot + k3 * theta_dot * theta_dot + z0;
+    const Real T = k3 * x_dot * x_dot + k4 * theta_dot * theta_dot + z0;
     const Real V = k1 * cos_theta;
     const Real E = T + V;
     const Real P = x_dot * F0 * cos_phi0 - b * x_dot * x_dot;
@@ -151,8 +151,8 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const Real cos_phi0 = cos(phi0);
 
     // Outputs
-    const Real height = l * cos_theta;
     const Real power = x_dot * F0 * cos_phi0;
+    const Real height = l * cos_theta;
 
     // Result
     out[0] = height;

@@ -145,9 +145,9 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
 
     // Outputs
     const Real tip_x = x + Real(2) * l * sin_phi;
+    const Real tip_y = -Real(2) * l * cos_phi;
     const Real z0 = m2 * (x_dot + l * phi_dot * cos_phi);
     const Real momentum = m1 * x_dot + z0;
-    const Real tip_y = -Real(2) * l * cos_phi;
 
     // Result
     out[0] = tip_x;

@@ -64,8 +64,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
-    const Real phi_ddot = -z2 / M11;
     const Real r_ddot = k1 * f0;
+    const Real phi_ddot = -z2 / M11;
 
     // Result
     rate[0] = r_dot;

@@ -37,8 +37,8 @@ void prepare(Real* par) {
     const Real &m1 = par[0], &m2 = par[1];
 
     // Constants
-    const Real k0 = Real(1) / m2;
-    const Real k4 = Real(1) / m1;
+    const Real k0 = Real(1) / m1;
+    const Real k4 = Real(1) / m2;
 
     // Result
     par[7] = k0;
@@ -53,15 +53,15 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real &k0 = par[7], &k4 = par[8];
 
     // Forcing f
-    const Real z0 = c2 * (x1_dot - x2_dot);
-    const Real z1 = k2 * (x1 - x2);
-    const Real z2 = (k1 * x1 + z1) + (c1 * x1_dot + z0);
+    const Real z0 = k2 * (x1 - x2);
+    const Real z1 = c2 * (x1_dot - x2_dot);
+    const Real z2 = (k1 * x1 + z0) + (c1 * x1_dot + z1);
     const Real f0 = -z2;
-    const Real f1 = (z1 - k3 * x2) + z0;
+    const Real f1 = (z0 - k3 * x2) + z1;
 
     // Solve M q'' = f with M = L D L^T
-    const Real x2_ddot = k0 * f1;
-    const Real x1_ddot = -k4 * z2;
+    const Real x1_ddot = -k0 * z2;
+    const Real x2_ddot = k4 * f1;
 
     // Result
     rate[0] = x1_dot;
@@ -77,11 +77,11 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
     const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
 
     // Forcing f
-    const Real z0 = c2 * (x1_dot - x2_dot);
-    const Real z1 = k2 * (x1 - x2);
-    const Real z2 = (k1 * x1 + z1) + (c1 * x1_dot + z0);
+    const Real z0 = k2 * (x1 - x2);
+    const Real z1 = c2 * (x1_dot - x2_dot);
+    const Real z2 = (k1 * x1 + z0) + (c1 * x1_dot + z1);
     const Real f0 = -z2;
-    const Real f1 = (z1 - k3 * x2) + z0;
+    const Real f1 = (z0 - k3 * x2) + z1;
 
     // Result
     mass[0] = m1;
@@ -100,15 +100,15 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     // Energy
     const Real z0 = x1 - x2;
     const Real z1 = c2 * (x1_dot - x2_dot);
-    const Real z2 = k1 * x1 * x1 + k2 * z0 * z0 + k3 * x2 * x2;
-    const Real V = Real(0.5) * z2;
-    const Real z3 = m1 * x1_dot * x1_dot + m2 * x2_dot * x2_dot;
-    const Real T = Real(0.5) * z3;
-    const Real z4 = x1_dot * m1 * x1_dot + x2_dot * m2 * x2_dot;
-    const Real h = z4 - Real(0.5) * (z3 - z2);
-    const Real E = Real(0.5) * (z3 + z2);
-    const Real z5 = x1_dot * (c1 * x1_dot + z1) - x2_dot * z1;
-    const Real P = -z5;
+    const Real z2 = m1 * x1_dot * x1_dot + m2 * x2_dot * x2_dot;
+    const Real T = Real(0.5) * z2;
+    const Real z3 = k1 * x1 * x1 + k2 * z0 * z0 + k3 * x2 * x2;
+    const Real V = Real(0.5) * z3;
+    const Real E = Real(0.5) * (z2 + z3);
+    const Real z4 = x1_dot * (c1 * x1_dot + z1) - x2_dot * z1;
+    const Real P = -z4;
+    const Real z5 = x1_dot * m1 * x1_dot + x2_dot * m2 * x2_dot;
+    const Real h = z5 - Real(0.5) * (z2 - z3);
 
     // Result
     energy[0] = T;

@@ -43,8 +43,8 @@ void prepare(Real* par) {
     const Real M11 = m2 * l2 * l2;
     const Real k1 = l1 * g * z0;
     const Real k2 = Real(0.5) * l1;
-    const Real k3 = Real(0.5) * l2;
-    const Real k4 = m2 * l2 * g;
+    const Real k3 = m2 * l2 * g;
+    const Real k4 = Real(0.5) * l2;
     const Real k5 = Real(1) / M11;
     const Real k6 = Real(0.5) * M00;
     const Real k7 = Real(0.5) * M11;
@@ -85,8 +85,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real z1 = k2 * sin_phi1 * cos_theta1;
     const Real z2 = k1 * sin_theta1 + z0 * theta2_dot * theta2_dot - z1;
     const Real f0 = -z2;
-    const Real z3 = k3 * sin_phi1 * cos_theta2;
-    const Real z4 = k4 * sin_theta2 - z0 * theta1_dot * theta1_dot - z3;
+    const Real z3 = k4 * sin_phi1 * cos_theta2;
+    const Real z4 = k3 * sin_theta2 - z0 * theta1_dot * theta1_dot - z3;
     const Real f1 = -z4;
 
     // Solve M q'' = f with M = L D L^T
@@ -125,8 +125,8 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
     const Real z0 = k0 * sin_phi0;
     const Real z1 = k2 * sin_phi1 * cos_theta1;
     const Real f0 = z1 - k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
-    const Real z2 = k3 * sin_phi1 * cos_theta2;
-    const Real f1 = z0 * theta1_dot * theta1_dot - k4 * sin_theta2 + z2;
+    const Real z2 = k4 * sin_phi1 * cos_theta2;
+    const Real f1 = z0 * theta1_dot * theta1_dot - k3 * sin_theta2 + z2;
 
     // Result
     mass[0] = M00;
@@ -146,19 +146,19 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     // Trigonometry
     const Real phi0 = theta1 - theta2;
     const Real cos_phi0 = cos(phi0);
-    const Real cos_theta1 = cos(theta1);
     const Real phi1 = Real(3) * t;
     const Real sin_phi1 = sin(phi1);
+    const Real cos_theta1 = cos(theta1);
     const Real cos_theta2 = cos(theta2);
 
     // Energy
     const Real z0 = theta1_dot * theta2_dot * k0 * cos_phi0;
     const Real T = k6 * theta1_dot * theta1_dot + k7 * theta2_dot * theta2_dot + z0;
-    const Real z1 = k1 * cos_theta1 + k4 * cos_theta2;
+    const Real z1 = k1 * cos_theta1 + k3 * cos_theta2;
     const Real V = -z1;
     const Real E = T - z1;
     const Real z2 = theta1_dot * k2 * sin_phi1 * cos_theta1;
-    const Real P = z2 + theta2_dot * k3 * sin_phi1 * cos_theta2;
+    const Real P = z2 + theta2_dot * k4 * sin_phi1 * cos_theta2;
 
     // Result
     energy[0] = T;

@@ -37,8 +37,8 @@ void prepare(Real* par) {
     const Real &m = par[0], &k = par[1], &l0 = par[2], &g = par[3];
 
     // Constants
-    const Real k0 = m * g;
-    const Real k1 = k * l0;
+    const Real k0 = k * l0;
+    const Real k1 = m * g;
     const Real k2 = Real(2) * m;
     const Real k3 = Real(1) / m;
     const Real k4 = Real(0.5) * m;
@@ -67,14 +67,14 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real z0 = r * (k - m * theta_dot * theta_dot);
-    const Real z1 = z0 - (k1 + k0 * cos_theta);
+    const Real z1 = z0 - (k0 + k1 * cos_theta);
     const Real f0 = -z1;
-    const Real z2 = r * (k2 * r_dot * theta_dot + k0 * sin_theta);
+    const Real z2 = r * (k2 * r_dot * theta_dot + k1 * sin_theta);
     const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
-    const Real theta_ddot = -z2 / M11;
     const Real r_ddot = -k3 * z1;
+    const Real theta_ddot = -z2 / M11;
 
     // Result
     rate[0] = r_dot;
@@ -97,8 +97,8 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
     // Forcing f
     const Real z0 = r * (k - m * theta_dot * theta_dot);
-    const Real f0 = (k1 + k0 * cos_theta) - z0;
-    const Real f1 = -r * (k2 * r_dot * theta_dot + k0 * sin_theta);
+    const Real f0 = (k0 + k1 * cos_theta) - z0;
+    const Real f1 = -r * (k2 * r_dot * theta_dot + k1 * sin_theta);
 
     // Result
     mass[0] = m;
@@ -112,7 +112,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &l0 = par[2], &k0 = par[4], &k4 = par[8], &k5 = par[9];
+    const Real &l0 = par[2], &k1 = par[5], &k4 = par[8], &k5 = par[9];
 
     // Trigonometry
     const Real cos_theta = cos(theta);
@@ -120,7 +120,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     // Energy
     const Real T = k4 * (r * r * theta_dot * theta_dot + r_dot * r_dot);
     const Real z0 = l0 - r;
-    const Real z1 = k0 * r * cos_theta - k5 * z0 * z0;
+    const Real z1 = k1 * r * cos_theta - k5 * z0 * z0;
     const Real V = -z1;
     const Real E = T - z1;
 

@@ -61,8 +61,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real f1 = -z0;
 
     // Solve M q'' = f with M = L D L^T
-    const Real y_ddot = -k2 * z0;
     const Real x_ddot = k2 * f0;
+    const Real y_ddot = -k2 * z0;
 
     // Result
     rate[0] = x_dot;

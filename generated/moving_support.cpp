@@ -38,8 +38,8 @@ void prepare(Real* par) {
 
     // Constants
     const Real M00 = m * l * l;
-    const Real k0 = m * l * g;
-    const Real k1 = m * l;
+    const Real k0 = m * l;
+    const Real k1 = m * l * g;
     const Real k2 = Real(1) / M00;
     const Real k3 = Real(0.5) * M00;
     const Real k4 = Real(0.5) * m;
@@ -62,13 +62,13 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real &a = par[2], &gamma = par[3], &M00 = par[5], &k0 = par[6], &k1 = par[7], &k2 = par[8];
 
     // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
     const Real phi0 = gamma * t;
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Forcing f
-    const Real z0 = k1 * a * gamma * gamma * cos_phi0 * cos_phi;
-    const Real z1 = k0 - k1 * a * gamma * gamma * sin_phi0;
+    const Real z0 = k0 * a * gamma * gamma * cos_phi0 * cos_phi;
+    const Real z1 = k1 - k0 * a * gamma * gamma * sin_phi0;
     const Real f0 = z0 - z1 * sin_phi;
 
     // Solve M q'' = f with M = L D L^T
@@ -86,13 +86,13 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
     const Real &a = par[2], &gamma = par[3], &M00 = par[5], &k0 = par[6], &k1 = par[7];
 
     // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
     const Real phi0 = gamma * t;
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Forcing f
-    const Real z0 = k1 * a * gamma * gamma * cos_phi0 * cos_phi;
-    const Real z1 = k0 - k1 * a * gamma * gamma * sin_phi0;
+    const Real z0 = k0 * a * gamma * gamma * cos_phi0 * cos_phi;
+    const Real z1 = k1 - k0 * a * gamma * gamma * sin_phi0;
     const Real f0 = z0 - z1 * sin_phi;
 
     // Result
@@ -109,31 +109,31 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real &k5 = par[11];
 
     // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
     const Real phi0 = gamma * t;
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Energy
-    const Real z0 = gamma * sin_phi0;
-    const Real z1 = gamma * cos_phi0;
-    const Real z2 = a * z0;
-    const Real z3 = k3 * phi_dot * phi_dot;
-    const Real z4 = a * z1;
-    const Real z5 = k4 * z4 * z4;
-    const Real z6 = k4 * z2 * z2;
-    const Real z7 = z2 * cos_phi - z4 * sin_phi;
-    const Real T = (z3 + z5 + z6) - k1 * phi_dot * z7;
-    const Real z8 = k0 * cos_phi;
+    const Real z0 = gamma * cos_phi0;
+    const Real z1 = gamma * sin_phi0;
+    const Real z2 = k3 * phi_dot * phi_dot;
+    const Real z3 = a * z0;
+    const Real z4 = k4 * z3 * z3;
+    const Real z5 = a * z1;
+    const Real z6 = k4 * z5 * z5;
+    const Real z7 = z5 * cos_phi - z3 * sin_phi;
+    const Real T = (z2 + z4 + z6) - k0 * phi_dot * z7;
+    const Real z8 = k1 * cos_phi;
     const Real z9 = k5 * a * sin_phi0;
     const Real z10 = z8 - z9;
     const Real V = -z10;
     const Real E = T - z10;
-    const Real z11 = z2 * a * gamma * z1;
-    const Real z12 = m * (z11 - z4 * a * gamma * z0);
-    const Real z13 = phi_dot * phi_dot * (z4 * cos_phi + z2 * sin_phi);
-    const Real z14 = k5 * z4 + k1 * (z13 - phi_ddot * z7);
+    const Real z11 = z5 * a * gamma * z0;
+    const Real z12 = m * (z11 - z3 * a * gamma * z1);
+    const Real z13 = phi_dot * phi_dot * (z3 * cos_phi + z5 * sin_phi);
+    const Real z14 = k5 * z3 + k0 * (z13 - phi_ddot * z7);
     const Real P = z12 + z14;
-    const Real h = z3 - z8 + z9 - z5 - z6;
+    const Real h = z2 - z8 + z9 - z4 - z6;
 
     // Result
     energy[0] = T;
@@ -150,14 +150,14 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const Real &l = par[1], &a = par[2], &gamma = par[3];
 
     // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
     const Real phi0 = gamma * t;
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Outputs
-    const Real z0 = l * sin_phi + a * cos_phi0;
-    const Real z1 = l * cos_phi - a * sin_phi0;
-    const Real reach = sqrt(z1 * z1 + z0 * z0);
+    const Real z0 = l * cos_phi - a * sin_phi0;
+    const Real z1 = l * sin_phi + a * cos_phi0;
+    const Real reach = sqrt(z0 * z0 + z1 * z1);
 
     // Result
     out[0] = reach;

@@ -127,20 +127,20 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const Real &m = par[0], &R = par[1], &Omega = par[2];
 
     // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
     const Real phi0 = Omega * t;
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
-    const auto [sin_theta, cos_theta] = sincos(theta);
 
     // Outputs
-    const Real z0 = theta_dot * cos_theta;
-    const Real z1 = R * (cos_phi0 * z0 - Omega * sin_phi0 * sin_theta);
-    const Real z2 = R * (sin_phi0 * z0 + Omega * cos_phi0 * sin_theta);
     const Real height = -R * (cos_theta - Real(1));
-    const Real z3 = R * theta_dot * sin_theta * sin_theta;
-    const Real z4 = z1 * cos_phi0 * cos_theta;
-    const Real speed_on_hoop = z3 + z4 + z2 * sin_phi0 * cos_theta;
-    const Real z5 = R * sin_phi0 * sin_theta * z1;
-    const Real z6 = m * (z5 - R * cos_phi0 * sin_theta * z2);
+    const Real z0 = R * theta_dot * sin_theta * sin_theta;
+    const Real z1 = theta_dot * cos_theta;
+    const Real z2 = R * (cos_phi0 * z1 - Omega * sin_phi0 * sin_theta);
+    const Real z3 = z2 * cos_phi0 * cos_theta;
+    const Real z4 = R * (sin_phi0 * z1 + Omega * cos_phi0 * sin_theta);
+    const Real speed_on_hoop = z0 + z3 + z4 * sin_phi0 * cos_theta;
+    const Real z5 = R * sin_phi0 * sin_theta * z2;
+    const Real z6 = m * (z5 - R * cos_phi0 * sin_theta * z4);
     const Real drive = -z6;
 
     // Result

@@ -70,8 +70,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real f1 = -z1;
 
     // Solve M q'' = f with M = L D L^T
-    const Real phi_ddot = -z1 / M11;
     const Real theta_ddot = -k2 * z0;
+    const Real phi_ddot = -z1 / M11;
 
     // Result
     rate[0] = theta_dot;
@@ -138,12 +138,12 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Outputs
-    const Real z0 = theta_dot * cos_theta;
-    const Real z1 = l * (sin_theta * phi_dot * sin_phi - z0 * cos_phi);
-    const Real z2 = l * (z0 * sin_phi + sin_theta * phi_dot * cos_phi);
-    const Real z3 = l * sin_theta * cos_phi * z2;
-    const Real spin = m * (z3 + l * sin_theta * sin_phi * z1);
     const Real height = -l * cos_theta;
+    const Real z0 = theta_dot * cos_theta;
+    const Real z1 = l * (z0 * sin_phi + sin_theta * phi_dot * cos_phi);
+    const Real z2 = l * sin_theta * cos_phi * z1;
+    const Real z3 = l * (sin_theta * phi_dot * sin_phi - z0 * cos_phi);
+    const Real spin = m * (z2 + l * sin_theta * sin_phi * z3);
 
     // Result
     out[0] = height;

@@ -37,15 +37,15 @@ void prepare(Real* par) {
     const Real &m = par[0], &M = par[1], &l = par[2], &Omega = par[3], &g = par[4];
 
     // Constants
-    const Real k0 = Real(2) * l;
+    const Real k0 = Real(2) * m * l * l;
     const Real k1 = Real(4) * M * l * l;
-    const Real k2 = Real(2) * m * l * l;
-    const Real k3 = Real(2) * l * g * (m + M);
-    const Real k4 = m * l * l * Omega * Omega;
-    const Real k5 = Real(2) * k4;
+    const Real k2 = Real(2) * l * g * (m + M);
+    const Real k3 = m * l * l * Omega * Omega;
+    const Real k4 = Real(2) * k3;
+    const Real k5 = l * l;
     const Real k6 = Real(2) * M;
-    const Real k7 = l * l;
-    const Real k8 = Real(4) * k4;
+    const Real k7 = Real(4) * k3;
+    const Real k8 = Real(2) * l;
 
     // Result
     par[5] = k0;
@@ -63,16 +63,16 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &alpha = state[0], &alpha_dot = state[1];
-    const Real &k1 = par[6], &k2 = par[7], &k3 = par[8], &k5 = par[10];
+    const Real &k0 = par[5], &k1 = par[6], &k2 = par[7], &k4 = par[9];
 
     // Trigonometry
     const auto [sin_alpha, cos_alpha] = sincos(alpha);
 
     // Mass matrix M(q), lower triangle
-    const Real M00 = k2 + k1 * sin_alpha * sin_alpha;
+    const Real M00 = k0 + k1 * sin_alpha * sin_alpha;
 
     // Forcing f
-    const Real z0 = (k3 - (k5 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
+    const Real z0 = (k2 - (k4 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
     const Real f0 = -z0;
 
     // Solve M q'' = f with M = L D L^T
@@ -87,16 +87,16 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
     const Real &alpha = state[0], &alpha_dot = state[1];
-    const Real &k1 = par[6], &k2 = par[7], &k3 = par[8], &k5 = par[10];
+    const Real &k0 = par[5], &k1 = par[6], &k2 = par[7], &k4 = par[9];
 
     // Trigonometry
     const auto [sin_alpha, cos_alpha] = sincos(alpha);
 
     // Mass matrix M(q), lower triangle
-    const Real M00 = k2 + k1 * sin_alpha * sin_alpha;
+    const Real M00 = k0 + k1 * sin_alpha * sin_alpha;
 
     // Forcing f
-    const Real z0 = (k3 - (k5 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
+    const Real z0 = (k2 - (k4 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
     const Real f0 = -z0;
 
     // Result
@@ -108,19 +108,19 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &alpha = state[0], &alpha_dot = state[1];
-    const Real &m = par[0], &k3 = par[8], &k4 = par[9], &k6 = par[11], &k7 = par[12], &k8 = par[13];
+    const Real &m = par[0], &k2 = par[7], &k3 = par[8], &k5 = par[10], &k6 = par[11], &k7 = par[12];
 
     // Trigonometry
     const auto [sin_alpha, cos_alpha] = sincos(alpha);
 
     // Energy
-    const Real z0 = k4 * sin_alpha * sin_alpha;
-    const Real z1 = k7 * alpha_dot * alpha_dot * (m + k6 * sin_alpha * sin_alpha);
+    const Real z0 = k3 * sin_alpha * sin_alpha;
+    const Real z1 = k5 * alpha_dot * alpha_dot * (m + k6 * sin_alpha * sin_alpha);
     const Real T = z0 + z1;
-    const Real z2 = k3 * cos_alpha;
+    const Real z2 = k2 * cos_alpha;
     const Real V = -z2;
     const Real E = T - z2;
-    const Real P = k8 * alpha_dot * sin_alpha * cos_alpha;
+    const Real P = k7 * alpha_dot * sin_alpha * cos_alpha;
     const Real h = z1 - z0 - z2;
 
     // Result
@@ -135,7 +135,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 template <typename Real>
 void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
     const Real &alpha = state[0], &alpha_dot = state[1];
-    const Real &m = par[0], &l = par[2], &Omega = par[3], &k0 = par[5];
+    const Real &m = par[0], &l = par[2], &Omega = par[3], &k8 = par[13];
 
     // Trigonometry
     const auto [sin_alpha, cos_alpha] = sincos(alpha);
@@ -143,12 +143,12 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const auto [sin_phi0, cos_phi0] = sincos(phi0);
 
     // Outputs
+    const Real lift = k8 - Real(2) * l * cos_alpha;
     const Real z0 = l * sin_alpha;
     const Real z1 = l * alpha_dot * cos_alpha;
-    const Real z2 = z0 * Omega * sin_phi0 - z1 * cos_phi0;
-    const Real z3 = z1 * sin_phi0 + z0 * Omega * cos_phi0;
-    const Real lift = k0 - Real(2) * l * cos_alpha;
-    const Real z4 = z0 * cos_phi0 * z3 + z0 * sin_phi0 * z2;
+    const Real z2 = z1 * sin_phi0 + z0 * Omega * cos_phi0;
+    const Real z3 = z0 * Omega * sin_phi0 - z1 * cos_phi0;
+    const Real z4 = z0 * cos_phi0 * z2 + z0 * sin_phi0 * z3;
     const Real spin = Real(2) * m * z4;
 
     // Result

@@ -88,27 +88,35 @@ int exponent_of(const Monomial& monomial, const Atom& atom) {
 /// from² = 1 − to², as often as it goes.
 Polynomial eliminate_square(const Polynomial& polynomial, const Atom& from, const Atom& to) {
     const Polynomial square = Rational(1) - Polynomial(to, 2);
-    Polynomial result;
+    std::vector<Term> terms;
     for (const Term& term : polynomial.terms()) {
         const int squares = exponent_of(term.monomial, from) / 2;
+        if (squares <= 0) {
+            terms.push_back(term);
+            continue;
+        }
         const Monomial rest = term.monomial * Monomial{{from, Rational(-2 * squares)}};
-        result = result + Polynomial::collect({{squares ? rest : term.monomial, term.coefficient}}) *
-                              power(square, squares);
+        const Polynomial expanded = power(square, squares);
+        for (const Term& part : expanded.terms())
+            terms.push_back({rest * part.monomial, term.coefficient * part.coefficient});
     }
-    return result;
+    return Polynomial::collect(std::move(terms));
 }
 
 /// 1 = sin² + cos² in the terms without the angle, where the others have degree two: A·sin² + C·cos².
 Polynomial homogeneous(const Polynomial& polynomial, const Angle& angle) {
-    const Polynomial one = Polynomial(angle.sine, 2) + Polynomial(angle.cosine, 2);
-    Polynomial result;
+    std::vector<Term> terms;
     for (const Term& term : polynomial.terms()) {
         const int degree = exponent_of(term.monomial, angle.sine) + exponent_of(term.monomial, angle.cosine);
         if (degree > 2) return polynomial;
-        const Polynomial part = Polynomial::collect({term});
-        result = result + (degree == 0 ? part * one : part);
+        if (degree == 0) {
+            terms.push_back({term.monomial * Monomial{{angle.sine, 2}}, term.coefficient});
+            terms.push_back({term.monomial * Monomial{{angle.cosine, 2}}, term.coefficient});
+        } else {
+            terms.push_back(term);
+        }
     }
-    return result;
+    return Polynomial::collect(std::move(terms));
 }
 
 /// The best form so far. A later candidate has to be strictly better.

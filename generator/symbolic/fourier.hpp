@@ -72,6 +72,9 @@ bool is_zero(const Fourier& f);
 /// The part of f that holds symbol^exponent, divided by it. (The linear coefficient of an acceleration.)
 Fourier coefficient(const Fourier& f, const GiNaC::symbol& symbol, int exponent = 1);
 
+/// The coefficient of π itself in an argument.
+Rational coefficient_of_pi(const Polynomial& arg);
+
 /// The sine or cosine of a term, or null.
 const AtomNode* circular(const Monomial& monomial);
 
