@@ -205,3 +205,28 @@ TEST_CASE("commands: the text of a derived equation is a valid claim, in every t
         CHECK(again.err.empty());
     }
 }
+
+TEST_CASE("commands: every broken scene is refused with exit 3 by every verb, within 200 MB") {
+    for (const std::string& file : alembert::test::scenes_in("tests/broken"))
+        for (const char* verb : {"derive", "eval", "simulate"}) {
+            CAPTURE(file);
+            const auto result = run({verb, file});
+            CHECK(result.exit == 3);
+            CHECK(result.out.empty());
+            CHECK(result.err.find(".toml:") != std::string::npos);
+            CHECK(result.megabytes < 200);
+        }
+}
+
+TEST_CASE("commands: parameters that are chained powers are refused or computed, not expanded") {
+    std::string scene = "[parameters]\np0 = 1.00001\n";
+    for (int k = 1; k <= 5; ++k) scene += "p" + std::to_string(k) + " = \"p" + std::to_string(k - 1) + "^64\"\n";
+    scene += "[coordinates]\nx = 1\n[[particle]]\nname = \"P\"\nmass = \"p3\"\nposition = [\"x\", 0]\n";
+    const std::string file = temporary("chained.toml", scene);
+    const auto result = run({"eval", file, "--json"});
+    CHECK(result.exit == 3);  // p5 is beyond double range
+    CHECK(result.err.find("p5") != std::string::npos);
+    CHECK(result.megabytes < 200);
+    scene.replace(scene.find("p5 = \"p4^64\""), 12, "p5 = \"p4/2^9\"");
+    CHECK(run({"emit", temporary("chained.toml", scene), "-o", file + "-d", "--fold"}).exit == 0);
+}

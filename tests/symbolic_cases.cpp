@@ -15,9 +15,13 @@ using GiNaC::symbol;
 
 Mechanics::Mechanics() : time(symbols.declare("t", SymbolInfo::Kind::time)) {}
 
-symbol Mechanics::parameter(const std::string& name) { return symbols.declare(name, SymbolInfo::Kind::parameter); }
+symbol Mechanics::parameter(const std::string& name) {
+    return symbols.declare(name, SymbolInfo::Kind::parameter);
+}
 
-symbol Mechanics::input(const std::string& name) { return symbols.declare(name, SymbolInfo::Kind::input); }
+symbol Mechanics::input(const std::string& name) {
+    return symbols.declare(name, SymbolInfo::Kind::input);
+}
 
 void Mechanics::coordinates(const std::vector<std::string>& names) {
     int order = 0;
@@ -43,7 +47,9 @@ ex Mechanics::residual(int i) const {
 
 namespace {
 
-ex square(const ex& x) { return x * x; }
+ex square(const ex& x) {
+    return x * x;
+}
 
 void double_pendulum(Mechanics& m) {
     const auto m1 = m.parameter("m1"), m2 = m.parameter("m2"), l1 = m.parameter("l1"), l2 = m.parameter("l2"),
@@ -110,7 +116,8 @@ void stretched_pendulum(Mechanics& m) {
 void bead_on_hoop(Mechanics& m) {
     const auto mass = m.parameter("m"), r = m.parameter("r"), Omega = m.parameter("Omega"), g = m.parameter("g");
     m.coordinates({"theta"});
-    const ex x = r * sin(m.q[0]) * cos(Omega * m.time), y = r * sin(m.q[0]) * sin(Omega * m.time), z = -r * cos(m.q[0]);
+    const ex x = r * sin(m.q[0]) * cos(Omega * m.time), y = r * sin(m.q[0]) * sin(Omega * m.time),
+             z = -r * cos(m.q[0]);
     m.T = mass * (square(m.dot(x)) + square(m.dot(y)) + square(m.dot(z))) / 2;
     m.V = mass * g * z;
 }
@@ -233,7 +240,8 @@ void rolling_wedge(Mechanics& m) {
     const auto M = m.parameter("M"), mass = m.parameter("m"), g = m.parameter("g"), alpha = m.parameter("alpha");
     m.coordinates({"x", "s"});
     const ex X = m.q[0] + m.q[1] * cos(alpha), Y = -m.q[1] * sin(alpha);
-    m.T = M * square(m.qdot[0]) / 2 + mass * (square(m.dot(X)) + square(m.dot(Y))) / 2 + mass * square(m.qdot[1]) / 4;
+    m.T = M * square(m.qdot[0]) / 2 + mass * (square(m.dot(X)) + square(m.dot(Y))) / 2 +
+          mass * square(m.qdot[1]) / 4;
     m.V = mass * g * Y;
 }
 

@@ -14,8 +14,8 @@ namespace alembert::test {
 struct Mechanics {
     Symbols symbols;
     std::vector<GiNaC::symbol> q, qdot, qddot;
-    GiNaC::ex T, V, R;            ///< R: Rayleigh's function
-    std::vector<GiNaC::ex> Q;     ///< applied; empty for none
+    GiNaC::ex T, V, R;         ///< R: Rayleigh's function
+    std::vector<GiNaC::ex> Q;  ///< applied; empty for none
     GiNaC::symbol time;
 
     Mechanics();

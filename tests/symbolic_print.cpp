@@ -23,8 +23,14 @@ using GiNaC::sqrt;
 struct Sheet {
     test::Mechanics m;
     GiNaC::symbol mass, a, b, l, g, F, t, x, theta, psi;
-    Sheet() : mass(m.parameter("m")), a(m.parameter("a")), b(m.parameter("b")), l(m.parameter("l")),
-              g(m.parameter("g")), F(m.input("F")), t(m.time) {
+    Sheet()
+        : mass(m.parameter("m")),
+          a(m.parameter("a")),
+          b(m.parameter("b")),
+          l(m.parameter("l")),
+          g(m.parameter("g")),
+          F(m.input("F")),
+          t(m.time) {
         m.coordinates({"x", "theta", "psi2"});
         x = m.q[0];
         theta = m.q[1];
@@ -82,7 +88,7 @@ TEST_CASE_FIXTURE(Sheet, "readable: nothing that depends on state, time or input
             readable_equation(fourier(lhs, m.symbols).value(), fourier(rhs, m.symbols).value());
         return text(e.lhs) + " = " + text(e.rhs) + (e.divided_by ? " by " + text(*e.divided_by) : "");
     };
-    const ex &xdd = m.qddot[0];
+    const ex& xdd = m.qddot[0];
     CHECK(divided(x * xdd, x * F) == "x*x'' = x*F");
     CHECK(divided(t * xdd, 0) == "t*x'' = 0");
     CHECK(divided(-mass * xdd, -F) == "m*x'' = F by -1");
@@ -111,7 +117,8 @@ TEST_CASE_FIXTURE(Sheet, "latex: dots, indices, fractions and functions") {
 TEST_CASE("latex: names") {
     const auto name = [](const std::string& text) {
         const Lettering letters = lettering(text);
-        return latex_letters(letters.stem) + (letters.index.empty() ? "" : "_{" + latex_letters(letters.index) + "}");
+        return latex_letters(letters.stem) +
+               (letters.index.empty() ? "" : "_{" + latex_letters(letters.index) + "}");
     };
     CHECK(name("theta1") == "\\theta_{1}");
     CHECK(name("θ12") == "\\theta_{12}");

@@ -15,8 +15,8 @@ using namespace alembert;
 using GiNaC::ex;
 using GiNaC::numeric;
 
-/// Sums, products, sines, squares, quotients, roots and other functions of everything a scene has, at random. What is
-/// below a root, a fraction line or a logarithm is positive.
+/// Sums, products, sines, squares, quotients, roots and other functions of everything a scene has, at random. What
+/// is below a root, a fraction line or a logarithm is positive.
 class Monkey {
 public:
     explicit Monkey(unsigned seed) : random_(seed) {
@@ -24,24 +24,33 @@ public:
         letters_.push_back(m.time);
         letters_.push_back(m.input("F"));
         m.coordinates({"x", "theta"});
-        for (const auto* level : {&m.q, &m.qdot, &m.qddot}) letters_.insert(letters_.end(), level->begin(), level->end());
+        for (const auto* level : {&m.q, &m.qdot, &m.qddot})
+            letters_.insert(letters_.end(), level->begin(), level->end());
     }
 
     ex expression(int depth) {
-        if (depth <= 0 || one_of(8) == 0) return one_of(5) == 0 ? ex(numeric(one_of(9) - 4, one_of(4) + 1)) : letter();
+        if (depth <= 0 || one_of(8) == 0)
+            return one_of(5) == 0 ? ex(numeric(one_of(9) - 4, one_of(4) + 1)) : letter();
         const ex part = expression(depth - 1);
         switch (one_of(11)) {
             case 0:
             case 1:
-            case 2: return part + expression(depth - 1);
+            case 2:
+                return part + expression(depth - 1);
             case 3:
             case 4:
-            case 5: return part * expression(depth - 1);
-            case 6: return one_of(2) == 0 ? sin(expression(depth - 2)) : cos(expression(depth - 2));
-            case 7: return part * part;
-            case 8: return 1 / (2 + part * part);
-            case 9: return sqrt(1 + part * part);
-            default: return transcendental();
+            case 5:
+                return part * expression(depth - 1);
+            case 6:
+                return one_of(2) == 0 ? sin(expression(depth - 2)) : cos(expression(depth - 2));
+            case 7:
+                return part * part;
+            case 8:
+                return 1 / (2 + part * part);
+            case 9:
+                return sqrt(1 + part * part);
+            default:
+                return transcendental();
         }
     }
 
@@ -55,10 +64,14 @@ private:
     ex transcendental() {
         const ex a = expression(1);
         switch (one_of(4)) {
-            case 0: return exp(a);
-            case 1: return tan(a);
-            case 2: return log(3 + a * a);
-            default: return pow(2 + a * a, numeric(one_of(5) - 2, 2));
+            case 0:
+                return exp(a);
+            case 1:
+                return tan(a);
+            case 2:
+                return log(3 + a * a);
+            default:
+                return pow(2 + a * a, numeric(one_of(5) - 2, 2));
         }
     }
 

@@ -157,18 +157,26 @@ ex translate(const Tree& tree, const Symbols& symbols) {
         }
         case Tree::Kind::name:
             for (const GiNaC::symbol& symbol : symbols.all())
-                if (symbols.info(symbol).name == tree.text && symbols.info(symbol).order == tree.primes) return symbol;
+                if (symbols.info(symbol).name == tree.text && symbols.info(symbol).order == tree.primes)
+                    return symbol;
             if (tree.text == "pi") return GiNaC::Pi;
             throw std::out_of_range(tree.text);
         case Tree::Kind::call:
             if (tree.text == "sqrt") return sqrt(args[0]);
-            return GiNaC::function(GiNaC::function::find_function(tree.text, static_cast<unsigned>(args.size())), args);
-        case Tree::Kind::sum: return GiNaC::add(args);
-        case Tree::Kind::product: return GiNaC::mul(args);
-        case Tree::Kind::negate: return -args[0];
-        case Tree::Kind::reciprocal: return 1 / args[0];
-        case Tree::Kind::power: return pow(args[0], args[1]);
-        case Tree::Kind::derivative: break;
+            return GiNaC::function(GiNaC::function::find_function(tree.text, static_cast<unsigned>(args.size())),
+                                   args);
+        case Tree::Kind::sum:
+            return GiNaC::add(args);
+        case Tree::Kind::product:
+            return GiNaC::mul(args);
+        case Tree::Kind::negate:
+            return -args[0];
+        case Tree::Kind::reciprocal:
+            return 1 / args[0];
+        case Tree::Kind::power:
+            return pow(args[0], args[1]);
+        case Tree::Kind::derivative:
+            break;
     }
     throw std::invalid_argument("a derivative of a parenthesis");
 }
@@ -214,7 +222,8 @@ std::string output_of(const std::string& command) {
     FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe);
     std::array<char, 4096> buffer{};
-    while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) result.append(buffer.data(), count);
+    while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe))
+        result.append(buffer.data(), count);
     CHECK(pclose(pipe) == 0);
     return result;
 }

@@ -9,6 +9,7 @@
 #include "alembert/integrate.hpp"
 #include "analysis/diagnose.hpp"
 #include "commands/pipeline.hpp"
+#include "commands/progress.hpp"
 #include "emit/emit.hpp"
 
 namespace alembert {
@@ -142,7 +143,11 @@ int simulate(const Request& request) {
     if (balance) initial.push_back(0);
     Drift drift(module, par, n, balance);
     Options options = wishes;
-    options.on_step = std::ref(drift);
+    Progress progress("integrating");
+    options.on_step = [&](double t, std::span<const double> state, std::span<const double> rate) {
+        drift(t, state, rate);
+        progress.at((t - options.start) / options.duration);
+    };
     const Trajectory motion = integrate(rhs, initial, options, make_events(module, start.parameters, d.mechanism.event_stops));
     const double integrate_seconds = lap();
 

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "lower/interpret.hpp"
 #include "lower/solve.hpp"
 #include "symbolic/functions.hpp"
 
@@ -130,10 +131,21 @@ private:
 
     int parameter(int index) {
         const Mechanism::Parameter& p = m_.parameters[index];
+        if (!p.independent && fold_) return program_.number(folded(p.value));
         if (!p.independent || fold_) return (*this)(p.value);
         int position = 0;
         for (int i = 0; i < index; ++i) position += m_.parameters[i].independent ? 1 : 0;
         return program_.variable({Variable::Kind::parameter, position});
+    }
+
+    /// What an expression in parameters comes to at the scene's values, in double precision.
+    Rational folded(const ex& e) {
+        Program program;
+        const int node = Lowering(program, m_, false)(e);
+        State<double> state;
+        for (const Mechanism::Parameter& p : m_.parameters)
+            if (p.independent) state.parameters.push_back(ex_to<GiNaC::numeric>(p.value).to_double());
+        return cln::rational(cln::cl_DF(interpret(program, state)[node]));
     }
 
     int input(int index, int order) {

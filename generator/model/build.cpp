@@ -36,6 +36,7 @@ public:
         declare_coordinates();
         define();
         if (!mistakes_.empty()) fail(scene_, mistakes_);
+        evaluate_parameters();
         check_values();
         add_masses();
         add_links();
@@ -195,14 +196,18 @@ private:
 
     // Values at the scene's own parameters
 
+    // Parameters as floating-point numbers, each made once: exact values of chained powers would grow without bound.
+    void evaluate_parameters() {
+        for (std::size_t round = 0; round <= m_.parameters.size(); ++round)
+            for (const Mechanism::Parameter& p : m_.parameters)
+                if (!numbers_.contains(p.symbol))
+                    if (const ex value = p.value.subs(numbers_, GiNaC::subs_options::no_pattern).evalf();
+                        GiNaC::is_a<numeric>(value))
+                        numbers_[p.symbol] = value;
+    }
+
     double number(const ex& e) const {
-        ex value = e;
-        for (std::size_t round = 0; round <= m_.parameters.size() && !GiNaC::is_a<numeric>(value.evalf()); ++round) {
-            GiNaC::exmap known;
-            for (const Mechanism::Parameter& p : m_.parameters) known[p.symbol] = p.value;
-            value = value.subs(known, GiNaC::subs_options::no_pattern);
-        }
-        const ex result = value.evalf();
+        const ex result = e.subs(numbers_, GiNaC::subs_options::no_pattern).evalf();
         if (!GiNaC::is_a<numeric>(result) || !ex_to<numeric>(result).is_real()) return std::nan("");
         return ex_to<numeric>(result).to_double();
     }
@@ -210,9 +215,9 @@ private:
     double number_at(const Expression& e) {
         try {
             return number(m_.z->expand(translator_.scalar(e)));
-        } catch (const GiNaC::pole_error&) {
-            return std::nan("");
-        } catch (const std::overflow_error&) {
+        } catch (const SceneMistake&) {
+            throw;
+        } catch (const std::exception&) {  // a pole, or beyond CLN's range
             return std::nan("");
         }
     }
@@ -432,6 +437,7 @@ private:
     Translator translator_;
     std::map<std::string, Orientation> orientations_;
     std::map<std::string, Vector3> positions_, velocities_;
+    GiNaC::exmap numbers_;  // of the parameters
     std::vector<Diagnostic> mistakes_;
 };
 

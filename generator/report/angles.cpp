@@ -135,10 +135,11 @@ struct Choice {
 
 enum class Forms { level, all };
 
-/// The best form of an expanded polynomial, angle after angle: once the squares of the first are settled, what stands
-/// before each of its products is a polynomial in the others, with a best form of its own.
-/// (A·sin²φ + B·cos²φ)·sin²θ + C·cos²θ
-Polynomial reduce(const Polynomial& expanded, const Angle* angle, const Angle* end, Forms forms, const Cost& cost) {
+/// The best form of an expanded polynomial, angle after angle: once the squares of the first are settled, what
+/// stands before each of its products is a polynomial in the others, with a best form of its own. (A·sin²φ +
+/// B·cos²φ)·sin²θ + C·cos²θ
+Polynomial reduce(const Polynomial& expanded, const Angle* angle, const Angle* end, Forms forms,
+                  const Cost& cost) {
     if (angle == end) return expanded;
     const auto is_own = [&](const AtomNode& atom) {
         return compare(atom, *angle->sine) == 0 || compare(atom, *angle->cosine) == 0;
@@ -207,8 +208,8 @@ Basis multiples(const std::vector<Polynomial>& args) {
     }
     for (const Polynomial& arg : args) {
         const Rational scale = content(arg);
-        const auto index = static_cast<std::size_t>(
-            std::find(names.begin(), names.end(), (1 / scale) * arg) - names.begin());
+        const auto index =
+            static_cast<std::size_t>(std::find(names.begin(), names.end(), (1 / scale) * arg) - names.begin());
         const Rational n = scale * directions.at(names[index]);
         if (n > 6) continue;
         std::vector<int> row(names.size(), 0);
@@ -271,9 +272,8 @@ std::vector<Basis> pairs(const std::vector<Polynomial>& args) {
             if (!is_integer(content(a)) || !is_integer(content(b))) continue;
             // Solving by leading terms needs leads that differ.
             if (compare(a.terms()[0].monomial, b.terms()[0].monomial) == 0) continue;
-            if (std::any_of(a.terms().begin(), a.terms().end(), [&](const Term& term) {
-                    return compare(term.monomial, b.terms()[0].monomial) == 0;
-                }))
+            if (std::any_of(a.terms().begin(), a.terms().end(),
+                            [&](const Term& term) { return compare(term.monomial, b.terms()[0].monomial) == 0; }))
                 std::swap(a, b);
             if (auto basis = combinations(args, {a, b})) result.push_back(std::move(*basis));
         }

@@ -16,8 +16,8 @@
 
 namespace alembert {
 
-/// The form of a normal form (at most one sine or cosine in a term) with the least `cost`. Ties go to the form that comes
-/// first: products of the same degree, the sum of multiple angles, one of sin² and cos² eliminated.
+/// The form of a normal form (at most one sine or cosine in a term) with the least `cost`. Ties go to the form
+/// that comes first: products of the same degree, the sum of multiple angles, one of sin² and cos² eliminated.
 Polynomial unfold(const Polynomial& normal_form, const std::function<int(const Polynomial&)>& cost);
 
 }  // namespace alembert

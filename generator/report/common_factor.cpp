@@ -10,8 +10,12 @@ namespace alembert {
 
 namespace {
 
-bool is_parameter(const AtomNode& atom) { return atom.steady && !atom.is_circular(); }
-bool is_rest(const AtomNode& atom) { return !is_parameter(atom); }
+bool is_parameter(const AtomNode& atom) {
+    return atom.steady && !atom.is_circular();
+}
+bool is_rest(const AtomNode& atom) {
+    return !is_parameter(atom);
+}
 
 /// A coefficient: polynomial in parameters; `rest` is what it stands before.
 struct Coefficient {
@@ -61,7 +65,9 @@ CommonFactor common_factor(const Fourier& lhs, const Fourier& rhs, Factorizer& f
     std::erase_if(result.monomial, [&](const Factor& factor) {
         return factor.atom->kind != AtomNode::Kind::symbol &&
                !std::all_of(terms.terms().begin(), terms.terms().end(), [&](const Term& term) {
-                   return !part(term.monomial, [&](const AtomNode& atom) { return compare(atom, *factor.atom) == 0; }).empty();
+                   return !part(term.monomial, [&](const AtomNode& atom) {
+                               return compare(atom, *factor.atom) == 0;
+                           }).empty();
                });
     });
     return result;

@@ -46,18 +46,21 @@ bool is_inertia(const std::string& name) {
 
 Piece symbol_piece(const Factor& factor) {
     const SymbolInfo& info = factor.atom->info;
-    Piece piece{.place = Standing::parameter, .tie = {}, .base = symbol(factor.atom->symbol, info), .exponent = factor.exponent};
+    Piece piece{.place = Standing::parameter,
+                .tie = {},
+                .base = symbol(factor.atom->symbol, info),
+                .exponent = factor.exponent};
     if (factor.atom->steady) {
         piece.order = {is_inertia(info.name) ? 0 : info.name == "g" ? 1 : 2, info.rank, 0};
         return piece;
     }
     piece.place = Standing::state;
     const bool rate = info.kind == Symbol::coordinate && info.order > 0;
-    const int level = info.kind == Symbol::time                         ? 0
-                      : rate                                            ? 3 + info.order
-                      : info.kind == Symbol::coordinate                 ? 1
-                      : info.kind == Symbol::input                      ? 3
-                                                                        : 2;
+    const int level = info.kind == Symbol::time         ? 0
+                      : rate                            ? 3 + info.order
+                      : info.kind == Symbol::coordinate ? 1
+                      : info.kind == Symbol::input      ? 3
+                                                        : 2;
     piece.order = {level, info.rank, 0};
     return piece;
 }
@@ -105,12 +108,14 @@ bool has_own_denominators(const Polynomial& polynomial) {
 }
 
 bool has_state(const Monomial& monomial) {
-    return std::any_of(monomial.begin(), monomial.end(), [](const Factor& factor) { return !factor.atom->steady; });
+    return std::any_of(monomial.begin(), monomial.end(),
+                       [](const Factor& factor) { return !factor.atom->steady; });
 }
 
 bool Composer::stays_apart(const Polynomial& polynomial) const {
-    const bool has_decimal = decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
-                                                      [](const Term& term) { return !is_integer(term.coefficient); });
+    const bool has_decimal =
+        decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
+                                 [](const Term& term) { return !is_integer(term.coefficient); });
     return polynomial.size() > 1 && (has_decimal || has_own_denominators(polynomial));
 }
 
@@ -122,9 +127,13 @@ const Composer::Entry& Composer::entry(const Polynomial& polynomial) {
     return memo_.emplace(polynomial, Entry{std::move(phrase), measured}).first->second;
 }
 
-const Phrase& Composer::operator()(const Polynomial& polynomial) { return entry(polynomial).phrase; }
+const Phrase& Composer::operator()(const Polynomial& polynomial) {
+    return entry(polynomial).phrase;
+}
 
-int Composer::cost(const Polynomial& polynomial) { return entry(polynomial).cost; }
+int Composer::cost(const Polynomial& polynomial) {
+    return entry(polynomial).cost;
+}
 
 Phrase Composer::formula(const Polynomial& normal_form) {
     return (*this)(unfold(normal_form, [this](const Polynomial& form) { return cost(form); }));
@@ -164,9 +173,9 @@ Phrase Composer::compose(const Polynomial& polynomial) {
             // cos(Ω·t)·cos θ
             pieces.back().order = {has_coordinate(atom.args[0]) ? 1 : 0, 0, 0};
         } else if (atom.kind == Kind::base) {
-            const Polynomial inside =
-                unfold(atom.args[0], [this](const Polynomial& form) { return cost(form); });
-            const Rational scale = is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
+            const Polynomial inside = unfold(atom.args[0], [this](const Polynomial& form) { return cost(form); });
+            const Rational scale =
+                is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
             if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
             pieces.push_back({.place = atom.steady ? Standing::sum : Standing::function,
                               .tie = tie,
@@ -190,7 +199,8 @@ Phrase Composer::compose(const Polynomial& polynomial) {
         }
     }
     if (!exponential.is_zero())
-        pieces.push_back({.place = Standing::function, .tie = exponential, .base = call("exp", {formula(exponential)})});
+        pieces.push_back(
+            {.place = Standing::function, .tie = exponential, .base = call("exp", {formula(exponential)})});
     for (auto& [sum, exponent] : factors.sums) {
         // (C−A)·x, not −(A−C)·x
         if (unit < 0 && exponent % 2 == 1 && may_turn(sum)) {
@@ -247,7 +257,9 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
         best = std::move(candidate);
         least = offered;
     };
-    const auto is_mass = [](const AtomNode& atom) { return atom.kind == Kind::symbol && is_inertia(atom.info.name); };
+    const auto is_mass = [](const AtomNode& atom) {
+        return atom.kind == Kind::symbol && is_inertia(atom.info.name);
+    };
     offer(partition(polynomial, [](const AtomNode& atom) { return !atom.steady; }));
     offer(partition(polynomial, [](const AtomNode& atom) { return atom.is_circular(); }));
     offer(partition(polynomial, [&](const AtomNode& atom) { return !is_mass(atom); }));
@@ -258,7 +270,8 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
     for (const Term& term : polynomial.terms())
         for (const Factor& factor : term.monomial) ++occurrences[factor.atom];
     for (const auto& [chosen, count] : occurrences)
-        if (count > 1) offer(partition(polynomial, [&](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
+        if (count > 1)
+            offer(partition(polynomial, [&](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
     return best;
 }
 

@@ -3,8 +3,8 @@
 
 /// Polynomials as phrases: factored, with factors and terms in the order in which books write them.
 ///
-///     number · (sums of parameters) · parameters · (sums with the state) · coordinates · inputs · rates · functions
-///     (m1+m2)·l1·θ1″,   m·(l+x)·x′·θ′,   m2·g·l·sin φ
+///     number · (sums of parameters) · parameters · (sums with the state) · coordinates · inputs · rates ·
+///     functions (m1+m2)·l1·θ1″,   m·(l+x)·x′·θ′,   m2·g·l·sin φ
 ///
 /// Among parameters masses and moments of inertia come first, then g, then the others as declared.
 

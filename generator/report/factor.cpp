@@ -41,7 +41,8 @@ Occurrences occurrences(const Polynomial& polynomial) {
     return result;
 }
 
-/// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first term.
+/// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
+/// term.
 std::optional<Polynomial> exact_quotient(const Polynomial& dividend, const Polynomial& divisor) {
     const Term& lead = divisor.terms()[0];
     Polynomial rest = dividend;
@@ -92,8 +93,7 @@ public:
     }
 
     Polynomial from(const GiNaC::ex& e) const {
-        if (GiNaC::is_a<GiNaC::numeric>(e))
-            return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
+        if (GiNaC::is_a<GiNaC::numeric>(e)) return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
         if (GiNaC::is_a<GiNaC::symbol>(e)) {
             const Factor& factor = meaning_.at(GiNaC::ex_to<GiNaC::symbol>(e).gethash());
             return Polynomial(factor.atom, factor.exponent);

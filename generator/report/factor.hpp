@@ -5,8 +5,8 @@
 ///
 ///     ½·m1·l1·g + ½·m2·l1·g  ↦  ½, g·l1, (m1 + m2)¹
 ///
-/// Every atom counts as an independent variable, a sine and a cosine too. The sums have coprime whole coefficients, the
-/// first of them positive, and come in canonical order, whatever order GiNaC found them in.
+/// Every atom counts as an independent variable, a sine and a cosine too. The sums have coprime whole
+/// coefficients, the first of them positive, and come in canonical order, whatever order GiNaC found them in.
 
 #include <map>
 #include <utility>

@@ -21,7 +21,9 @@ using Kind = Phrase::Kind;
 
 std::string write(const Phrase& phrase);
 
-bool is_fraction(const Phrase& phrase) { return phrase.kind == Kind::number && digits(phrase).empty(); }
+bool is_fraction(const Phrase& phrase) {
+    return phrase.kind == Kind::number && digits(phrase).empty();
+}
 
 /// Needs parentheses that grow.
 bool is_tall(const Phrase& phrase) {
@@ -39,7 +41,9 @@ std::string parenthesized(const Phrase& phrase) {
     return in_parentheses(write(phrase), is_tall(phrase));
 }
 
-bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
+bool is_signed_or_sum(const Phrase& phrase) {
+    return phrase.kind == Kind::sum || phrase.kind == Kind::negative;
+}
 
 std::string enclosed(const Phrase& phrase, bool parentheses) {
     return parentheses ? parenthesized(phrase) : write(phrase);
@@ -95,9 +99,13 @@ std::string write_quotient(const Phrase& phrase) {
 }
 
 std::string function_latex(const std::string& name) {
-    static const std::map<std::string, std::string> names{
-        {"asin", "\\arcsin"}, {"acos", "\\arccos"}, {"atan", "\\arctan"}, {"log", "\\ln"},
-        {"csgn", "\\operatorname{sgn}"}, {"minimum", "\\min"}, {"maximum", "\\max"}};
+    static const std::map<std::string, std::string> names{{"asin", "\\arcsin"},
+                                                          {"acos", "\\arccos"},
+                                                          {"atan", "\\arctan"},
+                                                          {"log", "\\ln"},
+                                                          {"csgn", "\\operatorname{sgn}"},
+                                                          {"minimum", "\\min"},
+                                                          {"maximum", "\\max"}};
     for (const char* own : {"sin", "cos", "tan", "sinh", "cosh", "tanh"})
         if (name == own) return fmt::format("\\{}", name);
     const auto found = names.find(name);
@@ -118,8 +126,8 @@ std::string write_call(const Phrase& phrase, const std::string& exponent) {
     if (phrase.name == "abs") return fmt::format("\\left|{}\\right|", write(phrase.args[0]));
     const std::string name = function_latex(phrase.name) + exponent;
     const Phrase& arg = phrase.args[0];
-    const bool bare = takes_exponent(phrase.name) && arg.kind == Kind::symbol &&
-                      arg.info.kind != SymbolInfo::Kind::input;
+    const bool bare =
+        takes_exponent(phrase.name) && arg.kind == Kind::symbol && arg.info.kind != SymbolInfo::Kind::input;
     if (bare) return name + (exponent.empty() && write(arg)[0] != '\\' ? " " : "") + write(arg);
     std::string args;
     for (const Phrase& each : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : ", ", write(each));
@@ -138,14 +146,22 @@ std::string write_power(const Phrase& base, const Phrase& exponent) {
 
 std::string write(const Phrase& phrase) {
     switch (phrase.kind) {
-        case Kind::number: return number_latex(phrase);
-        case Kind::symbol: return symbol_latex(phrase.info);
-        case Kind::product: return write_product(phrase.args);
-        case Kind::quotient: return write_quotient(phrase);
-        case Kind::power: return write_power(phrase.args[0], phrase.args[1]);
-        case Kind::call: return write_call(phrase, "");
-        case Kind::negative: return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
-        case Kind::sum: break;
+        case Kind::number:
+            return number_latex(phrase);
+        case Kind::symbol:
+            return symbol_latex(phrase.info);
+        case Kind::product:
+            return write_product(phrase.args);
+        case Kind::quotient:
+            return write_quotient(phrase);
+        case Kind::power:
+            return write_power(phrase.args[0], phrase.args[1]);
+        case Kind::call:
+            return write_call(phrase, "");
+        case Kind::negative:
+            return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
+        case Kind::sum:
+            break;
     }
     std::string result;
     for (const Phrase& term : phrase.args) {
@@ -161,6 +177,8 @@ std::string write(const Phrase& phrase) {
 
 }  // namespace
 
-std::string latex(const Phrase& phrase) { return write(phrase); }
+std::string latex(const Phrase& phrase) {
+    return write(phrase);
+}
 
 }  // namespace alembert

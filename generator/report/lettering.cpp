@@ -17,25 +17,62 @@ struct Greek {
 
 // Greek capitals that look Latin have no command of their own.
 constexpr std::array<Greek, 56> greek{{
-    {"alpha", "α", "\\alpha"},     {"beta", "β", "\\beta"},         {"gamma", "γ", "\\gamma"},
-    {"delta", "δ", "\\delta"},     {"epsilon", "ε", "\\varepsilon"}, {"zeta", "ζ", "\\zeta"},
-    {"eta", "η", "\\eta"},         {"theta", "θ", "\\theta"},       {"iota", "ι", "\\iota"},
-    {"kappa", "κ", "\\kappa"},     {"lambda", "λ", "\\lambda"},     {"mu", "μ", "\\mu"},
-    {"nu", "ν", "\\nu"},           {"xi", "ξ", "\\xi"},             {"omicron", "ο", "o"},
-    {"pi", "π", "\\pi"},           {"rho", "ρ", "\\rho"},           {"sigma", "σ", "\\sigma"},
-    {"tau", "τ", "\\tau"},         {"upsilon", "υ", "\\upsilon"},   {"phi", "φ", "\\varphi"},
-    {"chi", "χ", "\\chi"},         {"psi", "ψ", "\\psi"},           {"omega", "ω", "\\omega"},
-    {"Gamma", "Γ", "\\Gamma"},     {"Delta", "Δ", "\\Delta"},       {"Theta", "Θ", "\\Theta"},
-    {"Lambda", "Λ", "\\Lambda"},   {"Xi", "Ξ", "\\Xi"},             {"Pi", "Π", "\\Pi"},
-    {"Sigma", "Σ", "\\Sigma"},     {"Upsilon", "Υ", "\\Upsilon"},   {"Phi", "Φ", "\\Phi"},
-    {"Psi", "Ψ", "\\Psi"},         {"Omega", "Ω", "\\Omega"},       {"Alpha", "Α", "\\mathrm{A}"},
-    {"Beta", "Β", "\\mathrm{B}"},  {"Epsilon", "Ε", "\\mathrm{E}"}, {"Zeta", "Ζ", "\\mathrm{Z}"},
-    {"Eta", "Η", "\\mathrm{H}"},   {"Iota", "Ι", "\\mathrm{I}"},    {"Kappa", "Κ", "\\mathrm{K}"},
-    {"Mu", "Μ", "\\mathrm{M}"},    {"Nu", "Ν", "\\mathrm{N}"},      {"Omicron", "Ο", "\\mathrm{O}"},
-    {"Rho", "Ρ", "\\mathrm{P}"},   {"Tau", "Τ", "\\mathrm{T}"},     {"Chi", "Χ", "\\mathrm{X}"},
-    {"varphi", "φ", "\\varphi"},   {"vartheta", "ϑ", "\\vartheta"}, {"varepsilon", "ε", "\\varepsilon"},
-    {"varrho", "ϱ", "\\varrho"},   {"varsigma", "ς", "\\varsigma"}, {"", "µ", "\\mu"},
-    {"", "ϕ", "\\phi"},            {"", "ϵ", "\\epsilon"},
+    {"alpha", "α", "\\alpha"},
+    {"beta", "β", "\\beta"},
+    {"gamma", "γ", "\\gamma"},
+    {"delta", "δ", "\\delta"},
+    {"epsilon", "ε", "\\varepsilon"},
+    {"zeta", "ζ", "\\zeta"},
+    {"eta", "η", "\\eta"},
+    {"theta", "θ", "\\theta"},
+    {"iota", "ι", "\\iota"},
+    {"kappa", "κ", "\\kappa"},
+    {"lambda", "λ", "\\lambda"},
+    {"mu", "μ", "\\mu"},
+    {"nu", "ν", "\\nu"},
+    {"xi", "ξ", "\\xi"},
+    {"omicron", "ο", "o"},
+    {"pi", "π", "\\pi"},
+    {"rho", "ρ", "\\rho"},
+    {"sigma", "σ", "\\sigma"},
+    {"tau", "τ", "\\tau"},
+    {"upsilon", "υ", "\\upsilon"},
+    {"phi", "φ", "\\varphi"},
+    {"chi", "χ", "\\chi"},
+    {"psi", "ψ", "\\psi"},
+    {"omega", "ω", "\\omega"},
+    {"Gamma", "Γ", "\\Gamma"},
+    {"Delta", "Δ", "\\Delta"},
+    {"Theta", "Θ", "\\Theta"},
+    {"Lambda", "Λ", "\\Lambda"},
+    {"Xi", "Ξ", "\\Xi"},
+    {"Pi", "Π", "\\Pi"},
+    {"Sigma", "Σ", "\\Sigma"},
+    {"Upsilon", "Υ", "\\Upsilon"},
+    {"Phi", "Φ", "\\Phi"},
+    {"Psi", "Ψ", "\\Psi"},
+    {"Omega", "Ω", "\\Omega"},
+    {"Alpha", "Α", "\\mathrm{A}"},
+    {"Beta", "Β", "\\mathrm{B}"},
+    {"Epsilon", "Ε", "\\mathrm{E}"},
+    {"Zeta", "Ζ", "\\mathrm{Z}"},
+    {"Eta", "Η", "\\mathrm{H}"},
+    {"Iota", "Ι", "\\mathrm{I}"},
+    {"Kappa", "Κ", "\\mathrm{K}"},
+    {"Mu", "Μ", "\\mathrm{M}"},
+    {"Nu", "Ν", "\\mathrm{N}"},
+    {"Omicron", "Ο", "\\mathrm{O}"},
+    {"Rho", "Ρ", "\\mathrm{P}"},
+    {"Tau", "Τ", "\\mathrm{T}"},
+    {"Chi", "Χ", "\\mathrm{X}"},
+    {"varphi", "φ", "\\varphi"},
+    {"vartheta", "ϑ", "\\vartheta"},
+    {"varepsilon", "ε", "\\varepsilon"},
+    {"varrho", "ϱ", "\\varrho"},
+    {"varsigma", "ς", "\\varsigma"},
+    {"", "µ", "\\mu"},
+    {"", "ϕ", "\\phi"},
+    {"", "ϵ", "\\epsilon"},
 }};
 
 const Greek* find_name(std::string_view name) {
@@ -50,8 +87,12 @@ const Greek* find_letter(std::string_view letter) {
     return nullptr;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_continuation(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
 
 std::vector<std::string_view> letters_of(std::string_view text) {
     std::vector<std::string_view> result;
@@ -103,11 +144,14 @@ Lettering lettering(const std::string& name) {
     return {to_greek(stem), to_greek(index)};
 }
 
-bool is_word(const std::string& letters) { return letters_of(letters).size() > 1; }
+bool is_word(const std::string& letters) {
+    return letters_of(letters).size() > 1;
+}
 
 std::string latex_letters(const std::string& letters) {
     if (const std::size_t comma = letters.find(','); comma != std::string::npos)
-        return fmt::format("{},{}", latex_letters(letters.substr(0, comma)), latex_letters(letters.substr(comma + 1)));
+        return fmt::format("{},{}", latex_letters(letters.substr(0, comma)),
+                           latex_letters(letters.substr(comma + 1)));
     if (letters.find_first_not_of("0123456789") == std::string::npos) return letters;
     const std::vector<std::string_view> each = letters_of(letters);
     if (each.size() == 1 && each[0].size() == 1 && each[0] != "_") return letters;
@@ -133,11 +177,20 @@ std::string xml_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
-            case '&': result += "&amp;"; break;
-            case '<': result += "&lt;"; break;
-            case '>': result += "&gt;"; break;
-            case '"': result += "&quot;"; break;
-            default: result += c;
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
         }
     }
     return result;

@@ -16,7 +16,8 @@ struct Lettering {
 };
 Lettering lettering(const std::string& name);
 
-/// A stem or index for LaTeX's math mode: `\theta`, `x`, `\mathrm{cart}`, `12`. Compiles with pdflatex whatever the name.
+/// A stem or index for LaTeX's math mode: `\theta`, `x`, `\mathrm{cart}`, `12`. Compiles with pdflatex whatever
+/// the name.
 std::string latex_letters(const std::string& letters);
 
 /// True if it is set upright because it has several letters.

@@ -19,7 +19,7 @@ namespace {
 
 using Kind = Phrase::Kind;
 
-const std::string times = "<mo>&#x2062;</mo>";   // invisible
+const std::string times = "<mo>&#x2062;</mo>";    // invisible
 const std::string applied = "<mo>&#x2061;</mo>";  // function application, invisible
 
 std::string write(const Phrase& phrase);
@@ -27,15 +27,25 @@ std::string write(const Phrase& phrase);
 std::string element(const std::string& name, const std::string& content) {
     return fmt::format("<{0}>{1}</{0}>", name, content);
 }
-std::string row(const std::string& content) { return element("mrow", content); }
-std::string operation(const std::string& sign) { return element("mo", sign); }
+std::string row(const std::string& content) {
+    return element("mrow", content);
+}
+std::string operation(const std::string& sign) {
+    return element("mo", sign);
+}
 const std::string minus = operation("&#x2212;");
 
-std::string identifier(const std::string& letters) { return element("mi", xml_escaped(letters)); }
+std::string identifier(const std::string& letters) {
+    return element("mi", xml_escaped(letters));
+}
 
-bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
+bool is_signed_or_sum(const Phrase& phrase) {
+    return phrase.kind == Kind::sum || phrase.kind == Kind::negative;
+}
 
-std::string parenthesized(const std::string& content) { return row(operation("(") + content + operation(")")); }
+std::string parenthesized(const std::string& content) {
+    return row(operation("(") + content + operation(")"));
+}
 
 std::string enclosed(const Phrase& phrase, bool parentheses) {
     return parentheses ? parenthesized(write(phrase)) : write(phrase);
@@ -58,11 +68,11 @@ std::pair<std::string, std::string> symbol_parts(const SymbolInfo& info) {
         stem = fmt::format("<mover accent=\"true\">{}{}</mover>", stem,
                            operation(dots[static_cast<std::size_t>(info.order)]));
     else if (info.order > 0)
-        stem = element("msup", stem + row(operation("(") + element("mn", std::to_string(info.order)) + operation(")")));
+        stem = element("msup",
+                       stem + row(operation("(") + element("mn", std::to_string(info.order)) + operation(")")));
     const bool is_number = letters.index.find_first_not_of("0123456789") == std::string::npos;
     std::string index;
-    if (!letters.index.empty())
-        index = is_number ? element("mn", letters.index) : identifier(letters.index);
+    if (!letters.index.empty()) index = is_number ? element("mn", letters.index) : identifier(letters.index);
     return {stem, index};
 }
 
@@ -90,9 +100,9 @@ std::string write_quotient(const Phrase& phrase) {
 }
 
 std::string function_name_mathml(const std::string& name) {
-    static const std::map<std::string, std::string> names{{"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"},
-                                                          {"log", "ln"},      {"csgn", "sgn"},    {"minimum", "min"},
-                                                          {"maximum", "max"}};
+    static const std::map<std::string, std::string> names{
+        {"asin", "arcsin"}, {"acos", "arccos"}, {"atan", "arctan"}, {"log", "ln"},
+        {"csgn", "sgn"},    {"minimum", "min"}, {"maximum", "max"}};
     const auto found = names.find(name);
     return identifier(found == names.end() ? name : found->second);
 }
@@ -105,14 +115,14 @@ bool takes_exponent(const std::string& name) {
 
 std::string write_call(const Phrase& phrase, const std::string& name) {
     if (phrase.name == "sqrt") return element("msqrt", write(phrase.args[0]));
-    if (phrase.name == "exp")
-        return element("msup", "<mi mathvariant=\"normal\">e</mi>" + write(phrase.args[0]));
+    if (phrase.name == "exp") return element("msup", "<mi mathvariant=\"normal\">e</mi>" + write(phrase.args[0]));
     if (phrase.name == "abs") return row(operation("|") + write(phrase.args[0]) + operation("|"));
     const Phrase& arg = phrase.args[0];
-    const bool bare = takes_exponent(phrase.name) && arg.kind == Kind::symbol &&
-                      arg.info.kind != SymbolInfo::Kind::input;
+    const bool bare =
+        takes_exponent(phrase.name) && arg.kind == Kind::symbol && arg.info.kind != SymbolInfo::Kind::input;
     std::string args;
-    for (const Phrase& each : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : "<mo>,</mo>", write(each));
+    for (const Phrase& each : phrase.args)
+        args += fmt::format("{}{}", args.empty() ? "" : "<mo>,</mo>", write(each));
     return row(name + applied + (bare ? args : parenthesized(args)));
 }
 
@@ -140,15 +150,22 @@ std::string write_power(const Phrase& base, const Phrase& exponent) {
 
 std::string write(const Phrase& phrase) {
     switch (phrase.kind) {
-        case Kind::number: return number_mathml(phrase);
-        case Kind::symbol: return symbol_mathml(phrase.info);
-        case Kind::product: return write_product(phrase);
-        case Kind::quotient: return write_quotient(phrase);
-        case Kind::power: return write_power(phrase.args[0], phrase.args[1]);
-        case Kind::call: return write_call(phrase, function_name_mathml(phrase.name));
+        case Kind::number:
+            return number_mathml(phrase);
+        case Kind::symbol:
+            return symbol_mathml(phrase.info);
+        case Kind::product:
+            return write_product(phrase);
+        case Kind::quotient:
+            return write_quotient(phrase);
+        case Kind::power:
+            return write_power(phrase.args[0], phrase.args[1]);
+        case Kind::call:
+            return write_call(phrase, function_name_mathml(phrase.name));
         case Kind::negative:
             return row(minus + enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
-        case Kind::sum: break;
+        case Kind::sum:
+            break;
     }
     std::string result;
     for (const Phrase& term : phrase.args) {
@@ -166,8 +183,12 @@ std::string math(const std::string& content) {
 
 }  // namespace
 
-std::string mathml(const Phrase& phrase) { return math(write(phrase)); }
+std::string mathml(const Phrase& phrase) {
+    return math(write(phrase));
+}
 
-std::string mathml(const Phrase& lhs, const Phrase& rhs) { return math(row(write(lhs) + operation("=") + write(rhs))); }
+std::string mathml(const Phrase& lhs, const Phrase& rhs) {
+    return math(row(write(lhs) + operation("=") + write(rhs)));
+}
 
 }  // namespace alembert

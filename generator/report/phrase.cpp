@@ -43,7 +43,9 @@ Phrase symbol(const GiNaC::ex& symbol, const SymbolInfo& info) {
     return result;
 }
 
-Phrase pi() { return symbol(GiNaC::Pi, {.name = "pi"}); }
+Phrase pi() {
+    return symbol(GiNaC::Pi, {.name = "pi"});
+}
 
 Phrase sum(std::vector<Phrase> terms) {
     if (terms.empty()) return number(0);
@@ -73,7 +75,9 @@ Phrase power(Phrase base, const Rational& exponent) {
     return power(std::move(base), number(exponent));
 }
 
-Phrase power(Phrase base, Phrase exponent) { return node(Kind::power, {std::move(base), std::move(exponent)}); }
+Phrase power(Phrase base, Phrase exponent) {
+    return node(Kind::power, {std::move(base), std::move(exponent)});
+}
 
 Phrase call(std::string name, std::vector<Phrase> args) {
     Phrase result = node(Kind::call, std::move(args));
@@ -95,14 +99,19 @@ int cost(const Phrase& phrase) {
     int result = 0;
     for (const Phrase& arg : phrase.args) result += cost(arg);
     switch (phrase.kind) {
-        case Kind::number: return is_integer(phrase.value) || phrase.decimal ? 1 : 2;
-        case Kind::symbol: return 2;
-        case Kind::sum: return result + static_cast<int>(phrase.args.size()) - 1;
+        case Kind::number:
+            return is_integer(phrase.value) || phrase.decimal ? 1 : 2;
+        case Kind::symbol:
+            return 2;
+        case Kind::sum:
+            return result + static_cast<int>(phrase.args.size()) - 1;
         case Kind::product:
             for (const Phrase& arg : phrase.args) result += arg.kind == Kind::sum;
             return result;
-        case Kind::quotient: return result + 1;
-        case Kind::power: return result + (phrase.args[0].kind == Kind::sum);
+        case Kind::quotient:
+            return result + 1;
+        case Kind::power:
+            return result + (phrase.args[0].kind == Kind::sum);
         case Kind::call: {
             // sin 2θ is to be read twice
             const Phrase& arg = phrase.args[0];
@@ -111,7 +120,8 @@ int cost(const Phrase& phrase) {
                                   first.args[0].kind == Kind::number;
             return result + (multiple ? 4 : 1);
         }
-        case Kind::negative: return result + 1;
+        case Kind::negative:
+            return result + 1;
     }
     return result;
 }
@@ -120,14 +130,22 @@ GiNaC::ex expression(const Phrase& phrase) {
     GiNaC::exvector args;
     for (const Phrase& arg : phrase.args) args.push_back(expression(arg));
     switch (phrase.kind) {
-        case Kind::number: return expression(phrase.value);
-        case Kind::symbol: return phrase.symbol;
-        case Kind::sum: return GiNaC::add(args);
-        case Kind::product: return GiNaC::mul(args);
-        case Kind::quotient: return args[0] / args[1];
-        case Kind::power: return GiNaC::pow(args[0], args[1]);
-        case Kind::negative: return -args[0];
-        case Kind::call: break;
+        case Kind::number:
+            return expression(phrase.value);
+        case Kind::symbol:
+            return phrase.symbol;
+        case Kind::sum:
+            return GiNaC::add(args);
+        case Kind::product:
+            return GiNaC::mul(args);
+        case Kind::quotient:
+            return args[0] / args[1];
+        case Kind::power:
+            return GiNaC::pow(args[0], args[1]);
+        case Kind::negative:
+            return -args[0];
+        case Kind::call:
+            break;
     }
     if (phrase.name == "sqrt") return GiNaC::sqrt(args[0]);
     const auto count = static_cast<unsigned>(args.size());

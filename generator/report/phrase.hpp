@@ -47,8 +47,8 @@ namespace phrases {
 Phrase number(const Rational& value, bool decimal = false);
 Phrase symbol(const GiNaC::ex& symbol, const SymbolInfo& info);
 Phrase pi();
-Phrase sum(std::vector<Phrase> terms);       ///< 0 for none; sums among the terms are joined to it
-Phrase product(std::vector<Phrase> factors); ///< 1 for none, the factor itself for one
+Phrase sum(std::vector<Phrase> terms);        ///< 0 for none; sums among the terms are joined to it
+Phrase product(std::vector<Phrase> factors);  ///< 1 for none, the factor itself for one
 Phrase quotient(Phrase numerator, Phrase denominator);
 Phrase power(Phrase base, const Rational& exponent);
 Phrase power(Phrase base, Phrase exponent);
@@ -71,8 +71,8 @@ bool is_finite_decimal(const Rational& value);
 /// The digits of a number phrase: `12`, `9.81`, or empty for a fraction.
 std::string digits(const Phrase& number);
 
-/// `2/3·x` and `x/2` have the fraction in front where it is built over a bar. Gives the number in front (1 if none) and
-/// what is left of a product or quotient.
+/// `2/3·x` and `x/2` have the fraction in front where it is built over a bar. Gives the number in front (1 if
+/// none) and what is left of a product or quotient.
 struct Fronted {
     Phrase front;  ///< a number, 1 if none
     Phrase rest;   ///< 1 where nothing is left

@@ -31,8 +31,8 @@ bool is_opaque(const AtomNode& atom) {
 }
 
 bool is_outside(const AtomNode& atom) {
-    return atom.kind == Kind::symbol &&
-           (atom.info.kind == Symbol::input || atom.info.kind == Symbol::other || atom.info.kind == Symbol::definition);
+    return atom.kind == Kind::symbol && (atom.info.kind == Symbol::input || atom.info.kind == Symbol::other ||
+                                         atom.info.kind == Symbol::definition);
 }
 
 /// What terms without accelerations have in common to be one group; the rest of a term is its coefficient.
@@ -57,7 +57,8 @@ Monomial resolve_bases(const Monomial& monomial) {
     for (const Factor& factor : monomial) {
         const bool is_base = factor.atom->kind == Kind::base && factor.atom->args[0].size() == 1;
         const Term* only = is_base ? &factor.atom->args[0].terms()[0] : nullptr;
-        const bool is_wave = only && only->monomial.size() == 1 && circular(only->monomial) && only->coefficient == 1;
+        const bool is_wave =
+            only && only->monomial.size() == 1 && circular(only->monomial) && only->coefficient == 1;
         result = result * (is_wave ? Monomial{{only->monomial[0].atom, factor.exponent}} : Monomial{factor});
     }
     return result;
@@ -73,7 +74,8 @@ Polynomial times(const Monomial& key, const Polynomial& coefficient) {
 using Lines = std::vector<Polynomial>;  ///< each is one term of the outermost sum
 
 bool has_decimals(const Fourier& f) {
-    return std::any_of(f.terms().begin(), f.terms().end(), [](const Term& term) { return is_decimal(term.coefficient); });
+    return std::any_of(f.terms().begin(), f.terms().end(),
+                       [](const Term& term) { return is_decimal(term.coefficient); });
 }
 
 class Writer {
@@ -138,8 +140,8 @@ private:
         return result;
     }
 
-    /// One group as terms of the outermost sum: an acceleration keeps one coefficient, the others are split or factored,
-    /// whatever is shortest.
+    /// One group as terms of the outermost sum: an acceleration keeps one coefficient, the others are split or
+    /// factored, whatever is shortest.
     Lines split(const Polynomial& group) {
         if (group.size() == 1) return {group};
         const Class kind = classify(group.terms()[0].monomial);
@@ -299,8 +301,8 @@ Rational common_number(const Lines& lhs, const Lines& rhs) {
                 all.push_back(term.coefficient);
             }
     if (cln::zerop(common)) return 1;
-    const bool small = std::all_of(all.begin(), all.end(),
-                                   [&](const Rational& c) { return cln::abs(c) <= 1000 * common; });
+    const bool small =
+        std::all_of(all.begin(), all.end(), [&](const Rational& c) { return cln::abs(c) <= 1000 * common; });
     return small ? common : Rational(1);
 }
 

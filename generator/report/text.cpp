@@ -20,7 +20,9 @@ std::string enclosed(const Phrase& phrase, bool parentheses) {
     return parentheses ? fmt::format("({})", write(phrase)) : write(phrase);
 }
 
-bool is_signed_or_sum(const Phrase& phrase) { return phrase.kind == Kind::sum || phrase.kind == Kind::negative; }
+bool is_signed_or_sum(const Phrase& phrase) {
+    return phrase.kind == Kind::sum || phrase.kind == Kind::negative;
+}
 
 std::string number_text(const Phrase& phrase) {
     if (std::string plain = digits(phrase); !plain.empty()) return plain;
@@ -29,7 +31,9 @@ std::string number_text(const Phrase& phrase) {
     return stream.str();
 }
 
-bool is_fraction(const Phrase& phrase) { return phrase.kind == Kind::number && digits(phrase).empty(); }
+bool is_fraction(const Phrase& phrase) {
+    return phrase.kind == Kind::number && digits(phrase).empty();
+}
 
 std::string write_sum(const Phrase& phrase, const char* plus, const char* minus) {
     std::string result;
@@ -66,15 +70,20 @@ std::string write_call(const Phrase& phrase) {
 
 std::string write(const Phrase& phrase) {
     switch (phrase.kind) {
-        case Kind::number: return number_text(phrase);
-        case Kind::symbol: return phrase.info.text();
-        case Kind::sum: return write_sum(phrase, "+", "-");
-        case Kind::product: return write_product(phrase);
+        case Kind::number:
+            return number_text(phrase);
+        case Kind::symbol:
+            return phrase.info.text();
+        case Kind::sum:
+            return write_sum(phrase, "+", "-");
+        case Kind::product:
+            return write_product(phrase);
         case Kind::quotient: {
             const Phrase& below = phrase.args[1];
             const bool compound = is_signed_or_sum(below) || is_fraction(below) || below.kind == Kind::product ||
                                   below.kind == Kind::quotient;
-            return fmt::format("{}/{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])), enclosed(below, compound));
+            return fmt::format("{}/{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])),
+                               enclosed(below, compound));
         }
         case Kind::power: {
             const Phrase& base = phrase.args[0];
@@ -85,8 +94,10 @@ std::string write(const Phrase& phrase) {
                               (exponent.kind == Kind::number && !is_fraction(exponent));
             return fmt::format("{}^{}", enclosed(base, !simple), enclosed(exponent, !flat));
         }
-        case Kind::call: return write_call(phrase);
-        case Kind::negative: return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
+        case Kind::call:
+            return write_call(phrase);
+        case Kind::negative:
+            return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
     }
     return {};
 }

@@ -26,7 +26,9 @@ struct Product {
     std::vector<std::pair<Polynomial, int>> powers;
 };
 
-bool is_absolute(const Factor& factor) { return factor.atom->kind == Kind::function && factor.atom->name == "abs"; }
+bool is_absolute(const Factor& factor) {
+    return factor.atom->kind == Kind::function && factor.atom->name == "abs";
+}
 
 /// Takes whole powers out of bases: P^(3/2) = P·P^(1/2), |a|³ = a²·|a|.
 void take_powers(Product& product) {
@@ -54,7 +56,9 @@ bool has_powers(const Monomial& monomial) {
     return false;
 }
 
-bool has_negative_lead(const Polynomial& arg) { return !arg.is_zero() && arg.terms()[0].coefficient < 0; }
+bool has_negative_lead(const Polynomial& arg) {
+    return !arg.is_zero() && arg.terms()[0].coefficient < 0;
+}
 
 /// sin or cos of `arg` with canonical sign, shifted by multiples of π/2 until π has a coefficient in (−¼, ¼].
 Term circular_term(bool is_sine, Polynomial arg) {
@@ -122,7 +126,8 @@ bool charge(Budget& budget, std::size_t terms) {
     return !budget.spent;
 }
 
-/// c = s^(1/e)·r with r as small as trial division makes it: the part of a root that is rational, and what is left.
+/// c = s^(1/e)·r with r as small as trial division makes it: the part of a root that is rational, and what is
+/// left.
 std::pair<Rational, Rational> take_root(const Rational& c, const Rational& e) {
     const cln::cl_I q = cln::denominator(e);
     // n/d = n·d^(q−1)/d^q
@@ -196,9 +201,11 @@ Fourier power_of_sum(const Polynomial& sum, const Rational& exponent, Budget& bu
     const Fourier outside = Fourier::collect({{monomial, cln::expt(c, cln::numerator(exponent))}});
     // 1/(a + b/P): once P is cleared, its powers have to be multiplied out.
     if (had_denominator)
-        return multiply(outside, power(multiply(Fourier::collect(primitive.terms()), Rational(1), budget), exponent, budget),
-                        budget);
-    return multiply(outside, Fourier::collect({{{{compound_atom(Kind::base, {primitive}), exponent}}, 1}}), budget);
+        return multiply(
+            outside, power(multiply(Fourier::collect(primitive.terms()), Rational(1), budget), exponent, budget),
+            budget);
+    return multiply(outside, Fourier::collect({{{{compound_atom(Kind::base, {primitive}), exponent}}, 1}}),
+                    budget);
 }
 
 }  // namespace
@@ -214,8 +221,12 @@ const AtomNode* circular(const Monomial& monomial) {
     return !monomial.empty() && monomial.back().atom->is_circular() ? monomial.back().atom.get() : nullptr;
 }
 
-Fourier operator+(const Fourier& a, const Fourier& b) { return Fourier(a.polynomial_ + b.polynomial_); }
-Fourier operator-(const Fourier& a, const Fourier& b) { return Fourier(a.polynomial_ - b.polynomial_); }
+Fourier operator+(const Fourier& a, const Fourier& b) {
+    return Fourier(a.polynomial_ + b.polynomial_);
+}
+Fourier operator-(const Fourier& a, const Fourier& b) {
+    return Fourier(a.polynomial_ - b.polynomial_);
+}
 
 Fourier operator*(const Rational& a, const Fourier& b) {
     std::vector<Term> terms = b.terms();
@@ -275,8 +286,12 @@ Fourier multiply(const Fourier& a, const Fourier& b, Budget& budget) {
     return Fourier::collect(std::move(terms));
 }
 
-Fourier sine(const Fourier& arg) { return Fourier::collect({circular_term(true, arg.polynomial())}); }
-Fourier cosine(const Fourier& arg) { return Fourier::collect({circular_term(false, arg.polynomial())}); }
+Fourier sine(const Fourier& arg) {
+    return Fourier::collect({circular_term(true, arg.polynomial())});
+}
+Fourier cosine(const Fourier& arg) {
+    return Fourier::collect({circular_term(false, arg.polynomial())});
+}
 
 Fourier power(const Fourier& base, const Rational& exponent, Budget& budget) {
     if (is_integer(exponent) && exponent >= 0) return raise(base, to_int(exponent), budget);
@@ -304,6 +319,8 @@ Fourier coefficient(const Fourier& f, const GiNaC::symbol& symbol, int exponent)
     return Fourier::collect(std::move(terms));
 }
 
-GiNaC::ex expression(const Fourier& f) { return expression(f.polynomial()); }
+GiNaC::ex expression(const Fourier& f) {
+    return expression(f.polynomial());
+}
 
 }  // namespace alembert

@@ -5,15 +5,16 @@
 ///
 ///     m·l²·cos²θ  ↦  ½·l²·m + ½·l²·m·cos(2θ)
 ///
-/// Every trigonometric polynomial has exactly one such form, so `is_zero` decides equality for these. Divisions and
-/// roots are atoms with negative or broken exponents; there `is_zero` clears the denominators first, which decides
-/// rational expressions too. Other functions (exp, log, atan2 …) are opaque but for oddness and exp(a)·exp(b).
+/// Every trigonometric polynomial has exactly one such form, so `is_zero` decides equality for these. Divisions
+/// and roots are atoms with negative or broken exponents; there `is_zero` clears the denominators first, which
+/// decides rational expressions too. Other functions (exp, log, atan2 …) are opaque but for oddness and
+/// exp(a)·exp(b).
 ///
 ///     const std::optional<Fourier> f = fourier(expression, symbols);
 ///     if (f && is_zero(*f - *g)) …            // proved equal
 ///
-/// A product of k angles has 2ᵏ terms: `fourier` gives nothing, quickly, where any product on the way would have more
-/// than `budget` terms. Throws std::out_of_range for symbols that were not declared and std::domain_error for
+/// A product of k angles has 2ᵏ terms: `fourier` gives nothing, quickly, where any product on the way would have
+/// more than `budget` terms. Throws std::out_of_range for symbols that were not declared and std::domain_error for
 /// a division by zero.
 
 #include <ginac/ginac.h>
@@ -36,9 +37,9 @@ struct Budget {
 /// A polynomial with at most one sine or cosine, with exponent one, in each term.
 class Fourier {
 public:
-    Fourier() = default;                                               ///< zero
-    Fourier(const Rational& constant) : polynomial_(constant) {}       // NOLINT: a number is a normal form
-    explicit Fourier(Atom atom) : polynomial_(std::move(atom)) {}      ///< no sine or cosine
+    Fourier() = default;                                           ///< zero
+    Fourier(const Rational& constant) : polynomial_(constant) {}   // NOLINT: a number is a normal form
+    explicit Fourier(Atom atom) : polynomial_(std::move(atom)) {}  ///< no sine or cosine
     /// For terms that obey the rule already.
     static Fourier collect(std::vector<Term> terms) { return Fourier(Polynomial::collect(std::move(terms))); }
 
@@ -65,8 +66,8 @@ Fourier sine(const Fourier& arg);
 Fourier cosine(const Fourier& arg);
 Fourier power(const Fourier& base, const Rational& exponent, Budget& budget);
 
-/// Exact for trigonometric polynomials and for quotients of them; for roots and other functions true is a proof and
-/// false may be wrong.
+/// Exact for trigonometric polynomials and for quotients of them; for roots and other functions true is a proof
+/// and false may be wrong.
 bool is_zero(const Fourier& f);
 
 /// The part of f that holds symbol^exponent, divided by it. (The linear coefficient of an acceleration.)

@@ -19,7 +19,9 @@ bool steady(const Polynomial& polynomial) {
     return true;
 }
 
-int sign(int value) { return value < 0 ? -1 : value > 0 ? 1 : 0; }
+int sign(int value) {
+    return value < 0 ? -1 : value > 0 ? 1 : 0;
+}
 
 int compare_symbols(const SymbolInfo& a, const SymbolInfo& b) {
     const auto key = [](const SymbolInfo& info) {
@@ -95,7 +97,9 @@ int compare(const AtomNode& a, const AtomNode& b) {
     return 0;
 }
 
-int compare(const Atom& a, const Atom& b) { return compare(*a, *b); }
+int compare(const Atom& a, const Atom& b) {
+    return compare(*a, *b);
+}
 
 int compare(const Monomial& a, const Monomial& b) {
     const std::size_t common = std::min(a.size(), b.size());
@@ -124,9 +128,13 @@ Polynomial operator+(const Polynomial& a, const Polynomial& b) {
     return Polynomial::collect(std::move(terms));
 }
 
-Polynomial operator-(const Polynomial& a) { return Rational(-1) * a; }
+Polynomial operator-(const Polynomial& a) {
+    return Rational(-1) * a;
+}
 
-Polynomial operator-(const Polynomial& a, const Polynomial& b) { return a + (-b); }
+Polynomial operator-(const Polynomial& a, const Polynomial& b) {
+    return a + (-b);
+}
 
 Polynomial operator*(const Rational& a, const Polynomial& b) {
     if (cln::zerop(a)) return {};
@@ -210,14 +218,15 @@ Monomial shared_monomial(const Polynomial& polynomial) {
     Monomial result;
     for (Factor shared : polynomial.terms().front().monomial) {
         const bool is_positive = shared.exponent > 0;
-        const bool in_all = std::all_of(polynomial.terms().begin(), polynomial.terms().end(), [&](const Term& term) {
-            for (const Factor& factor : term.monomial) {
-                if (compare(factor.atom, shared.atom) != 0) continue;
-                if (cln::abs(factor.exponent) < cln::abs(shared.exponent)) shared.exponent = factor.exponent;
-                return (factor.exponent > 0) == is_positive;
-            }
-            return false;
-        });
+        const bool in_all =
+            std::all_of(polynomial.terms().begin(), polynomial.terms().end(), [&](const Term& term) {
+                for (const Factor& factor : term.monomial) {
+                    if (compare(factor.atom, shared.atom) != 0) continue;
+                    if (cln::abs(factor.exponent) < cln::abs(shared.exponent)) shared.exponent = factor.exponent;
+                    return (factor.exponent > 0) == is_positive;
+                }
+                return false;
+            });
         if (in_all) result.push_back(shared);
     }
     return result;
@@ -245,7 +254,9 @@ Polynomial divide(const Polynomial& polynomial, const Monomial& monomial, const 
     return Polynomial::collect(std::move(terms));
 }
 
-bool is_integer(const Rational& value) { return cln::denominator(value) == 1; }
+bool is_integer(const Rational& value) {
+    return cln::denominator(value) == 1;
+}
 
 int to_int(const Rational& value) {
     if (!is_integer(value) || value > 1000000 || value < -1000000)
@@ -253,7 +264,9 @@ int to_int(const Rational& value) {
     return cln::cl_I_to_int(cln::numerator(value));
 }
 
-GiNaC::ex expression(const Rational& value) { return GiNaC::numeric(static_cast<const cln::cl_N&>(value)); }
+GiNaC::ex expression(const Rational& value) {
+    return GiNaC::numeric(static_cast<const cln::cl_N&>(value));
+}
 
 namespace {
 
@@ -261,12 +274,18 @@ GiNaC::ex expression(const AtomNode& atom) {
     GiNaC::exvector args;
     for (const Polynomial& arg : atom.args) args.push_back(alembert::expression(arg));
     switch (atom.kind) {
-        case AtomNode::Kind::symbol: return atom.symbol;
-        case AtomNode::Kind::pi: return GiNaC::Pi;
-        case AtomNode::Kind::base: return args.at(0);
-        case AtomNode::Kind::cosine: return GiNaC::cos(args.at(0));
-        case AtomNode::Kind::sine: return GiNaC::sin(args.at(0));
-        case AtomNode::Kind::function: break;
+        case AtomNode::Kind::symbol:
+            return atom.symbol;
+        case AtomNode::Kind::pi:
+            return GiNaC::Pi;
+        case AtomNode::Kind::base:
+            return args.at(0);
+        case AtomNode::Kind::cosine:
+            return GiNaC::cos(args.at(0));
+        case AtomNode::Kind::sine:
+            return GiNaC::sin(args.at(0));
+        case AtomNode::Kind::function:
+            break;
     }
     if (atom.name == "pow") return GiNaC::pow(args.at(0), args.at(1));
     const auto count = static_cast<unsigned>(args.size());

@@ -40,7 +40,7 @@ struct Term {
 
 class Polynomial {
 public:
-    Polynomial() = default;  ///< zero
+    Polynomial() = default;                ///< zero
     Polynomial(const Rational& constant);  // NOLINT: a number is a polynomial
     explicit Polynomial(Atom atom, const Rational& exponent = 1);
     /// Sorts, adds up equal monomials and drops zeros.
@@ -78,7 +78,9 @@ int compare(const AtomNode& a, const AtomNode& b);
 int compare(const Atom& a, const Atom& b);
 int compare(const Monomial& a, const Monomial& b);
 int compare(const Polynomial& a, const Polynomial& b);
-inline bool operator==(const Polynomial& a, const Polynomial& b) { return compare(a, b) == 0; }
+inline bool operator==(const Polynomial& a, const Polynomial& b) {
+    return compare(a, b) == 0;
+}
 struct PolynomialLess {
     bool operator()(const Polynomial& a, const Polynomial& b) const { return compare(a, b) < 0; }
 };

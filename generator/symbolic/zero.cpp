@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// f = 0 for a sum of quotients: multiply by every denominator; what is left is a polynomial in independent functions.
+// f = 0 for a sum of quotients: multiply by every denominator; what is left is a polynomial in independent
+// functions.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -13,13 +14,14 @@ namespace {
 
 using Kind = AtomNode::Kind;
 
-/// tan x = sin x/cos x; cos(x + π/4) = (cos x − sin x)/√2 and the like for thirds of a right angle: what the zero test
-/// has to know, and a reader would rather not see.
+/// tan x = sin x/cos x; cos(x + π/4) = (cos x − sin x)/√2 and the like for thirds of a right angle: what the zero
+/// test has to know, and a reader would rather not see.
 Fourier resolve(const Factor& factor, Budget& budget) {
     const AtomNode& atom = *factor.atom;
     if (atom.kind == Kind::function && atom.name == "tan" && is_integer(factor.exponent)) {
         const Fourier arg = Fourier::collect(atom.args[0].terms());
-        return multiply(power(sine(arg), factor.exponent, budget), power(cosine(arg), -factor.exponent, budget), budget);
+        return multiply(power(sine(arg), factor.exponent, budget), power(cosine(arg), -factor.exponent, budget),
+                        budget);
     }
     const Rational turns = atom.is_circular() ? coefficient_of_pi(atom.args[0]) : Rational(0);
     if (atom.is_circular() && (cln::abs(6 * turns) == 1 || 4 * turns == 1)) {

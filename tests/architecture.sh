@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The layers of architecture.md, held by grep: who may include what.
+set -u
+cd "$(dirname "$0")/.."
+failed=0
+forbid() { # REASON PATTERN FILES...
+    local reason=$1 pattern=$2
+    shift 2
+    local found
+    found=$(grep -nE "$pattern" "$@" 2>/dev/null)
+    [ -z "$found" ] && return
+    printf '%s:\n%s\n' "$reason" "$found"
+    failed=1
+}
+files() { find "$@" -name '*.?pp' | sort; }
+ginac='#include.*(ginac|cln/)'
+mapfile -t runtime < <(files lib)
+mapfile -t scene < <(files generator/scene)
+mapfile -t below_model < <(files generator/scene generator/symbolic)
+mapfile -t emit < <(files generator/emit)
+mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
+mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
+mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
+mapfile -t formalism < <(files generator/formalism generator/model)
+
+forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|lower|emit|analysis|report|commands)/' "${runtime[@]}"
+forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
+forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
+forbid 'a lower layer includes a higher one' '#include "(model|formalism|lower|emit|analysis|commands)/' "${below_model[@]}"
+forbid 'model or formalism includes what comes later' '#include "(lower|emit|analysis|commands)/' "${formalism[@]}"
+forbid 'GiNaC beyond lower' '#include.*ginac' "${emit[@]}" generator/lower/program.hpp generator/lower/program.cpp \
+    generator/lower/solve.cpp generator/lower/solve.hpp generator/lower/share.cpp generator/lower/share.hpp \
+    generator/lower/interpret.hpp
+forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
+forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
+forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"
+forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
+forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
+forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
+
+# The emitted file's copy of the ABI's struct, word for word.
+words() { sed -n '/^struct alembert_solver_table {/,/^};/p' "$1" | sed 's|///.*||' | tr -s ' \n' ' '; }
+[ "$(words lib/alembert/abi.hpp)" = "$(words templates/solver.cpp.mustache)" ] ||
+    { echo 'templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about alembert_solver_table'; failed=1; }
+missing=$(files lib generator tests | grep -v '^tests/stranger' | xargs grep -L 'SPDX-License-Identifier')
+[ -z "$missing" ] || { printf 'no licence line in:\n%s\n' "$missing"; failed=1; }
+[ "$failed" = 0 ] && echo 'the layers hold'
+exit "$failed"

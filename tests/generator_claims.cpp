@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// The second route: the equations and integrals that the scenes' authors derived by hand, which the scenes carry as
+// claims, hold with the accelerations that the program derives, at random states.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include "formalism/lagrange.hpp"
+#include "lower/choose.hpp"
+#include "scenes.hpp"
+
+using namespace alembert;
+
+namespace {
+
+/// The largest |lhs − rhs| over the sum of the sizes of its terms, at 32 random states, for each claim that speaks of
+/// motion: each becomes an output of the scene.
+std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
+    std::string text = scene.text;
+    std::string outputs;
+    std::vector<std::string> claims;
+    for (const Claim& claim : scene.claims) {
+        if (claim.at != "motion" || !claim.unknowns.empty() || !claim.constants.empty()) continue;
+        outputs += fmt::format("claim{} = \"({}) - ({})\"\n", claims.size(), claim.equation.lhs.text, claim.equation.rhs.text);
+        claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
+    }
+    if (const std::size_t table = text.find("[outputs]\n"); table != std::string::npos)
+        text.insert(table + 10, outputs);
+    else
+        text += "\n[outputs]\n" + outputs;
+    const Mechanism mechanism = build(parse_scene(text, scene.file));
+    const Equations equations = lagrange(mechanism);
+    const Program program = lower(mechanism, equations, energy_of(mechanism));
+
+    const unsigned seed = 1788;
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    std::vector<std::pair<std::string, double>> result;
+    for (const std::string& claim : claims) result.emplace_back(claim, 0);
+    for (int k = 0; k < 32; ++k) {
+        State<double> state = test::random_state(start_of(mechanism), random);
+        std::vector<double> value = interpret(program, state);
+        for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+        value = interpret(program, state);
+        std::size_t claim = 0;
+        for (const Root& root : program.roots) {
+            if (root.group != "output" || !root.name.starts_with("claim")) continue;
+            const Node* node = &program[root.node];
+            while (node->is_scaled()) node = &program[node->args[0]];
+            double size = 0;
+            for (const int arg : node->args) size += std::abs(value[arg]);
+            if (std::isfinite(value[root.node]))
+                result[claim].second = std::max(result[claim].second, std::abs(value[root.node]) / std::max(size, 1e-300));
+            ++claim;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("generator: the hand derivations that textbook scenes carry hold") {
+    int claims = 0;
+    for (const std::string& file : test::scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        for (const auto& [claim, misfit] : misfits(read_scene(file))) {
+            CAPTURE(claim);
+            // A few dozen roundings in each term; accelerations from a solve with a condition below 10³.
+            CHECK(misfit < 1e-11);
+            ++claims;
+        }
+    }
+    CHECK(claims >= 30);
+}
+
+TEST_CASE("generator: a wrong hand derivation does not hold") {
+    Scene scene = read_scene(test::source_path("scenes/textbook/cart_rod.toml"));
+    std::string text = scene.text;
+    const std::string right = "4*l*phi'' + 3*x''*cos(phi) + 3*g*sin(phi) = 0";
+    REQUIRE(text.find(right) != std::string::npos);
+    text.replace(text.find(right), right.size(), "4*l*phi'' + 3*x''*cos(phi) - 3*g*sin(phi) = 0");
+    const auto result = misfits(parse_scene(text, "wrong.toml"));
+    CHECK(result[0].second < 1e-11);
+    CHECK(result[1].second > 1e-3);
+}
