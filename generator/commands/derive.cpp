@@ -145,10 +145,12 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     }
     blocks.push_back({shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
                       statements(energies)});
-    blocks.push_back({shown.forces.empty() ? "3. All forces have a potential: no virtual work beside that of V."
-                                           : "3. Generalized forces, from the virtual work of the forces that are not in V:",
+    blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
+                                           : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
                       statements(shown.forces)});
-    blocks.push_back({"4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q, with L = T - V:", statements(shown.derivatives)});
+    blocks.push_back({shown.lagrangian ? "4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:"
+                                       : "4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:",
+                      statements(shown.derivatives)});
     return blocks;
 }
 

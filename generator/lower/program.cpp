@@ -259,7 +259,7 @@ std::vector<int> Program::needed(std::span<const int> roots) const {
     return result;
 }
 
-Program Program::canonical() const {
+Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;
     result.name = name;
@@ -267,6 +267,11 @@ Program Program::canonical() const {
     result.coordinates = coordinates;
     result.formulation = formulation;
     result.singular = singular;
+    return result;
+}
+
+Program Program::canonical() const {
+    Program result = shell();
     std::vector<int> image(nodes_.size(), -1);
     std::vector<std::pair<int, std::size_t>> stack;  // a node, and how many of its arguments are done
     for (const Root& root : roots) {

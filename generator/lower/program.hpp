@@ -111,6 +111,9 @@ public:
     /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
     Operations count(std::span<const int> roots) const;
 
+    /// Names and labels without any node or root: where a copy begins.
+    Program shell() const;
+
     /// The same program with its nodes in the order in which the roots meet them, and without those that no root needs.
     /// Numbers of nodes are then the same in every run, whatever order they were made in.
     Program canonical() const;

@@ -14,13 +14,7 @@ namespace {
 /// Copies a program node by node; `rebuilt` decides what becomes of each.
 class Rewriting {
 public:
-    explicit Rewriting(const Program& old) : old_(old), image_(old.size(), -1) {
-        made_.source_labels = old.source_labels;
-        made_.name = old.name;
-        made_.parameters = old.parameters;
-        made_.coordinates = old.coordinates;
-        made_.formulation = old.formulation;
-        made_.singular = old.singular;
+    explicit Rewriting(const Program& old) : old_(old), made_(old.shell()), image_(old.size(), -1) {
         std::vector<int> roots;
         for (const Root& root : old.roots) roots.push_back(root.node);
         needed = old.needed(roots);

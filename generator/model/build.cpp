@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "model/parameter_values.hpp"
+#include "model/places.hpp"
 #include "model/translate.hpp"
 
 namespace alembert {
@@ -18,11 +20,13 @@ namespace {
 class Builder {
 public:
     explicit Builder(const Scene& scene)
-        : scene_(scene), translator_(m_, {.position = [this](const std::string& p) { return position(p); },
-                                          .velocity = [this](const std::string& p) { return velocity(p); },
-                                          .orientation = [this](const std::string& f) -> const Orientation& {
-                                              return orientation(f);
-                                          }}) {}
+        : scene_(scene),
+          translator_(m_, {.position = [this](const std::string& p) { return places_.position(p); },
+                           .velocity = [this](const std::string& p) { return places_.velocity(p); },
+                           .orientation = [this](const std::string& f) -> const Orientation& {
+                               return places_.orientation(f);
+                           }}),
+          places_(scene, m_, translator_) {}
 
     Mechanism build() {
         m_.name = std::filesystem::path(scene_.file).stem().string();
@@ -36,7 +40,7 @@ public:
         declare_coordinates();
         define();
         if (!mistakes_.empty()) fail(scene_, mistakes_);
-        evaluate_parameters();
+        values_.emplace(m_);
         check_values();
         add_masses();
         add_links();
@@ -122,99 +126,11 @@ private:
             });
     }
 
-    // Geometry, made when first asked for
-
-    const Orientation& orientation(const std::string& name) {
-        if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
-        if (name == "N") return orientations_["N"];
-        for (const Frame& frame : scene_.frames)
-            if (frame.name.text == name) return orientations_[name] = turn(frame);
-        for (const Body& body : scene_.bodies)
-            if (body.name.text == name) return orientation(body.frame.text);
-        throw std::out_of_range("frame '" + name + "'");
-    }
-
-    Orientation turn(const Frame& frame) {
-        SourceScope source(*m_.z, "frame " + frame.name.text);
-        Orientation o = orientation(frame.parent.text);
-        for (const Rotation& r : frame.rotations) {
-            const ex angle = m_.z->name(translator_.scalar(r.angle));
-            o = o.turned(unit_axis(r), angle, m_.time_derivative({angle})[0], *m_.z);
-        }
-        return o;
-    }
-
-    Vector3 unit_axis(const Rotation& r) {
-        if (r.letter == 'x') return {1, 0, 0};
-        if (r.letter == 'y') return {0, 1, 0};
-        if (r.letter == 'z') return {0, 0, 1};
-        const Vector3 a = vector(r.axis);
-        const ex square = m_.z->expand(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-        if (number(square) == 0.0)
-            throw SceneMistake{{r.axis.place, "this axis is the zero vector; expected a direction"}};
-        return scale(1 / sqrt(square), a, *m_.z);
-    }
-
-    Vector3 vector(const Vector& v) {
-        return {m_.z->name(translator_.scalar(v.component[0])), m_.z->name(translator_.scalar(v.component[1])),
-                m_.z->name(translator_.scalar(v.component[2]))};
-    }
-
-    Vector3 along(const Vector& v, const Name& axes) {
-        const Vector3 components = vector(v);
-        return axes.text == "N" ? components : orientation(axes.text).to_inertial(components, *m_.z);
-    }
-
-    Vector3 place(const Position& p) { return add(position(p.from.text), along(p.offset, p.axes), *m_.z); }
-
-    const Position* find_position(const std::string& name) const {
-        for (const Point& p : scene_.points)
-            if (p.name.text == name) return &p.position;
-        for (const Particle& p : scene_.particles)
-            if (p.name.text == name) return &p.position;
-        for (const Body& b : scene_.bodies)
-            if (b.name.text == name) return &b.position;
-        return nullptr;
-    }
-
-    Vector3 position(const std::string& name) {
-        if (name == "O") return {0, 0, 0};
-        if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
-        const Position* where = find_position(name);
-        if (where == nullptr) throw std::out_of_range("point '" + name + "'");
-        SourceScope source(*m_.z, "point " + name);
-        return positions_[name] = place(*where);
-    }
-
-    Vector3 velocity(const std::string& name) {
-        if (const auto found = velocities_.find(name); found != velocities_.end()) return found->second;
-        const Vector3 r = position(name);
-        SourceScope source(*m_.z, "point " + name);
-        const std::vector<ex> v = m_.time_derivative({r[0], r[1], r[2]});
-        return velocities_[name] = {v[0], v[1], v[2]};
-    }
-
     // Values at the scene's own parameters
-
-    // Parameters as floating-point numbers, each made once: exact values of chained powers would grow without bound.
-    void evaluate_parameters() {
-        for (std::size_t round = 0; round <= m_.parameters.size(); ++round)
-            for (const Mechanism::Parameter& p : m_.parameters)
-                if (!numbers_.contains(p.symbol))
-                    if (const ex value = p.value.subs(numbers_, GiNaC::subs_options::no_pattern).evalf();
-                        GiNaC::is_a<numeric>(value))
-                        numbers_[p.symbol] = value;
-    }
-
-    double number(const ex& e) const {
-        const ex result = e.subs(numbers_, GiNaC::subs_options::no_pattern).evalf();
-        if (!GiNaC::is_a<numeric>(result) || !ex_to<numeric>(result).is_real()) return std::nan("");
-        return ex_to<numeric>(result).to_double();
-    }
 
     double number_at(const Expression& e) {
         try {
-            return number(m_.z->expand(translator_.scalar(e)));
+            return values_->number(m_.z->expand(translator_.scalar(e)));
         } catch (const SceneMistake&) {
             throw;
         } catch (const std::exception&) {  // a pole, or beyond CLN's range
@@ -268,10 +184,10 @@ private:
 
     // ½ m v², and −m g·r
     void add_translation(const std::string& label, const std::string& point, const ex& mass) {
-        const Vector3 v = velocity(point);
+        const Vector3 v = places_.velocity(point);
         m_.kinetic.push_back({label, m_.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
         if (!scene_.gravity) return;
-        const Vector3 g = vector(*scene_.gravity), r = position(point);
+        const Vector3 g = places_.vector(*scene_.gravity), r = places_.position(point);
         const ex weight = m_.z->name(-mass * (g[0] * r[0] + g[1] * r[1] + g[2] * r[2]));
         if (!weight.is_zero()) m_.potential.push_back({"gravity on " + label, weight});
     }
@@ -279,7 +195,7 @@ private:
     // ½ ω·I ω with I about the mass centre; if I is about P, less ½ m (v − v_P)², what the transport adds.
     void add_rotation(const Body& b, const ex& mass) {
         if (!b.inertia) return;
-        const Vector3 w = orientation(b.frame.text).angular_velocity();
+        const Vector3 w = places_.orientation(b.frame.text).angular_velocity();
         ex energy;
         if (b.inertia->planar) {
             if (!w[0].is_zero() || !w[1].is_zero())
@@ -295,7 +211,7 @@ private:
                      I[4] * w[1] * w[2] + I[5] * w[2] * w[0];
         }
         if (b.about) {
-            const Vector3 d = add(velocity(b.name.text), scale(-1, velocity(b.about->text), *m_.z), *m_.z);
+            const Vector3 d = add(places_.velocity(b.name.text), scale(-1, places_.velocity(b.about->text), *m_.z), *m_.z);
             energy -= mass / 2 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
         m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});
@@ -304,7 +220,7 @@ private:
     /// The length of a spring or damper, or the expression along which it acts.
     ex length_of(const Link& link) {
         if (!link.between) return m_.z->name(translator_.scalar(link.along));
-        return norm(add(position(link.between->second.text), scale(-1, position(link.between->first.text), *m_.z),
+        return norm(add(places_.position(link.between->second.text), scale(-1, places_.position(link.between->first.text), *m_.z),
                         *m_.z),
                     *m_.z);
     }
@@ -319,8 +235,8 @@ private:
                 const ex k = translator_.scalar(s.constant), free_length = translator_.scalar(s.length);
                 ex square;
                 if (s.between && free_length.is_zero()) {
-                    const Vector3 d = add(position(s.between->second.text),
-                                          scale(-1, position(s.between->first.text), *m_.z), *m_.z);
+                    const Vector3 d = add(places_.position(s.between->second.text),
+                                          scale(-1, places_.position(s.between->first.text), *m_.z), *m_.z);
                     square = dot(d, d, *m_.z);
                 } else {
                     square = pow(length_of(s) - free_length, 2);
@@ -348,9 +264,9 @@ private:
                 const Force& f = scene_.forces[i];
                 Load load{.label = fmt::format("force {} at {}", i + 1, f.at.text), .pairs = {}};
                 SourceScope source(*m_.z, load.label);
-                const Vector3 F = along(f.vector, f.axes);
-                add_pairs(load, velocity(f.at.text), F, 1);
-                if (f.reaction) add_pairs(load, velocity(f.reaction->text), F, -1);
+                const Vector3 F = places_.along(f.vector, f.axes);
+                add_pairs(load, places_.velocity(f.at.text), F, 1);
+                if (f.reaction) add_pairs(load, places_.velocity(f.reaction->text), F, -1);
                 m_.loads.push_back(std::move(load));
             });
         for (std::size_t i = 0; i < scene_.torques.size(); ++i)
@@ -358,9 +274,9 @@ private:
                 const Torque& tau = scene_.torques[i];
                 Load load{.label = fmt::format("torque {} on {}", i + 1, tau.on.text), .pairs = {}};
                 SourceScope source(*m_.z, load.label);
-                const Vector3 M = along(tau.vector, tau.axes);
+                const Vector3 M = places_.along(tau.vector, tau.axes);
                 const auto spin = [&](const std::string& frame) {
-                    const Orientation& o = orientation(frame);
+                    const Orientation& o = places_.orientation(frame);
                     return o.to_inertial(o.angular_velocity(), *m_.z);
                 };
                 add_pairs(load, spin(tau.on.text), M, 1);
@@ -435,9 +351,8 @@ private:
     const Scene& scene_;
     Mechanism m_;
     Translator translator_;
-    std::map<std::string, Orientation> orientations_;
-    std::map<std::string, Vector3> positions_, velocities_;
-    GiNaC::exmap numbers_;  // of the parameters
+    Places places_;
+    std::optional<ParameterValues> values_;  // once the parameters are known
     std::vector<Diagnostic> mistakes_;
 };
 

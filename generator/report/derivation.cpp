@@ -77,28 +77,38 @@ private:
         return true;
     }
 
+    /// Q of everything that does work: of V as −∂V/∂q, of loads by their virtual work; then in all.
     void forces() {
         using Kind = Statement::Kind;
+        GiNaC::exvector total(m_.size(), 0);
+        const auto add_all = [&](const std::string& label, const std::vector<ex>& Q) {
+            for (int i = 0; i < m_.size(); ++i) {
+                if (Q[i].is_zero()) continue;
+                add(result_.forces, {Kind::work, "Q", label, symbol_of(m_.q[i]), {}}, Q[i]);
+                total[i] += Q[i];
+            }
+        };
+        for (const Part& part : m_.potential) add_all(part.label, m_.z->pull_back({{part.value, -1}}, m_.q));
         for (const Load& load : m_.loads) {
             std::vector<std::pair<ex, ex>> targets;
             for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
-            const std::vector<ex> Q = m_.z->pull_back(targets, m_.qdot);
-            for (int i = 0; i < m_.size(); ++i)
-                if (!Q[i].is_zero())
-                    add(result_.forces, {Kind::work, "Q", load.label, symbol_of(m_.q[i]), {}}, Q[i]);
+            add_all(load.label, m_.z->pull_back(targets, m_.qdot));
         }
-        for (int i = 0; i < m_.size(); ++i)
-            add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, e_.applied[i] + e_.dissipative[i]);
+        if (result_.forces.empty()) return;
+        for (int i = 0; i < m_.size(); ++i) add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
     }
 
+    /// ∂T/∂q' and ∂T/∂q, or those of L where the scene gives it.
     void derivatives() {
         using Kind = Statement::Kind;
+        const std::string letter = m_.given_lagrangian ? "L" : "T";
         std::vector<GiNaC::symbol> state = m_.q;
         state.insert(state.end(), m_.qdot.begin(), m_.qdot.end());
-        const std::vector<ex> gradient = m_.z->pull_back({{m_.lagrangian(), 1}}, state);
+        const ex energy = m_.given_lagrangian ? m_.lagrangian() : m_.kinetic_energy();
+        const std::vector<ex> gradient = m_.z->pull_back({{energy, 1}}, state);
         for (int i = 0; i < m_.size(); ++i) {
-            add(result_.derivatives, {Kind::partial, "L", "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
-            add(result_.derivatives, {Kind::partial, "L", "", symbol_of(m_.q[i]), {}}, gradient[i]);
+            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
+            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
         }
     }
 

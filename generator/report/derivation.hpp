@@ -36,8 +36,8 @@ struct Derivation {
     std::vector<Statement> energies;       ///< T and V of each body and spring
     Phrase kinetic, potential;
     std::optional<Phrase> lagrangian;      ///< where the scene gives it
-    std::vector<Statement> forces;         ///< generalized forces of each load, then in all
-    std::vector<Statement> derivatives;    ///< ∂L/∂q', ∂L/∂q
+    std::vector<Statement> forces;         ///< generalized forces of each part of V and each load, then in all
+    std::vector<Statement> derivatives;    ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
 };
 

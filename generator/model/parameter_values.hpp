@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Numbers for expressions in parameters, at the scene's own values.
+///
+/// In floating point, each parameter made once from those that it uses: exact values of chained powers would grow
+/// without bound.
+
+#include <cmath>
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+class ParameterValues {
+public:
+    explicit ParameterValues(const Mechanism& m) {
+        for (std::size_t round = 0; round <= m.parameters.size(); ++round)
+            for (const Mechanism::Parameter& p : m.parameters)
+                if (!known_.contains(p.symbol))
+                    if (const GiNaC::ex value = in_numbers(p.value); GiNaC::is_a<GiNaC::numeric>(value))
+                        known_[p.symbol] = value;
+    }
+
+    /// NaN for what is not a real number or depends on more than parameters.
+    double number(const GiNaC::ex& e) const {
+        const GiNaC::ex value = in_numbers(e);
+        if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) return std::nan("");
+        return GiNaC::ex_to<GiNaC::numeric>(value).to_double();
+    }
+
+private:
+    GiNaC::ex in_numbers(const GiNaC::ex& e) const { return e.subs(known_, GiNaC::subs_options::no_pattern).evalf(); }
+
+    GiNaC::exmap known_;
+};
+
+}  // namespace alembert

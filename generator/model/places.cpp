@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/places.hpp"
+
+#include "model/parameter_values.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+const Orientation& Places::orientation(const std::string& name) {
+    if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
+    if (name == "N") return orientations_["N"];
+    for (const Frame& frame : scene_.frames)
+        if (frame.name.text == name) return orientations_[name] = turn(frame);
+    for (const Body& body : scene_.bodies)
+        if (body.name.text == name) return orientation(body.frame.text);
+    throw std::out_of_range("frame '" + name + "'");
+}
+
+Orientation Places::turn(const Frame& frame) {
+    SourceScope source(*m_.z, "frame " + frame.name.text);
+    Orientation o = orientation(frame.parent.text);
+    for (const Rotation& r : frame.rotations) {
+        const ex angle = m_.z->name(translator_.scalar(r.angle));
+        o = o.turned(unit_axis(r), angle, m_.time_derivative({angle})[0], *m_.z);
+    }
+    return o;
+}
+
+Vector3 Places::unit_axis(const Rotation& r) {
+    if (r.letter == 'x') return {1, 0, 0};
+    if (r.letter == 'y') return {0, 1, 0};
+    if (r.letter == 'z') return {0, 0, 1};
+    const Vector3 a = vector(r.axis);
+    const ex square = m_.z->expand(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    if (ParameterValues(m_).number(square) == 0.0)
+        throw SceneMistake{{r.axis.place, "this axis is the zero vector; expected a direction"}};
+    return scale(1 / sqrt(square), a, *m_.z);
+}
+
+Vector3 Places::vector(const Vector& v) {
+    return {m_.z->name(translator_.scalar(v.component[0])), m_.z->name(translator_.scalar(v.component[1])),
+            m_.z->name(translator_.scalar(v.component[2]))};
+}
+
+Vector3 Places::along(const Vector& v, const Name& axes) {
+    const Vector3 components = vector(v);
+    return axes.text == "N" ? components : orientation(axes.text).to_inertial(components, *m_.z);
+}
+
+const Position* Places::find(const std::string& name) const {
+    for (const Point& p : scene_.points)
+        if (p.name.text == name) return &p.position;
+    for (const Particle& p : scene_.particles)
+        if (p.name.text == name) return &p.position;
+    for (const Body& b : scene_.bodies)
+        if (b.name.text == name) return &b.position;
+    return nullptr;
+}
+
+Vector3 Places::position(const std::string& name) {
+    if (name == "O") return {0, 0, 0};
+    if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
+    const Position* where = find(name);
+    if (where == nullptr) throw std::out_of_range("point '" + name + "'");
+    SourceScope source(*m_.z, "point " + name);
+    return positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
+}
+
+Vector3 Places::velocity(const std::string& name) {
+    if (const auto found = velocities_.find(name); found != velocities_.end()) return found->second;
+    const Vector3 r = position(name);
+    SourceScope source(*m_.z, "point " + name);
+    const std::vector<ex> v = m_.time_derivative({r[0], r[1], r[2]});
+    return velocities_[name] = {v[0], v[1], v[2]};
+}
+
+}  // namespace alembert

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The frames and points of a scene, made when first asked for, in any order of declaration.
+///
+///     places.position("P")          // from O, along N
+///     places.orientation("B")       // of a frame, or of a body's frame by the body's name
+///
+/// Throws std::out_of_range for a name that the scene does not have (the reader has checked them all).
+
+#include <map>
+
+#include "model/translate.hpp"
+
+namespace alembert {
+
+class Places {
+public:
+    Places(const Scene& scene, const Mechanism& mechanism, Translator& translator)
+        : scene_(scene), m_(mechanism), translator_(translator) {}
+
+    const Orientation& orientation(const std::string& frame);
+    Vector3 position(const std::string& point);
+    Vector3 velocity(const std::string& point);
+
+    /// Components as written.
+    Vector3 vector(const Vector& v);
+    /// Components along N of a vector written along `axes`.
+    Vector3 along(const Vector& v, const Name& axes);
+
+private:
+    Orientation turn(const Frame& frame);
+    Vector3 unit_axis(const Rotation& rotation);
+    const Position* find(const std::string& point) const;
+
+    const Scene& scene_;
+    const Mechanism& m_;
+    Translator& translator_;
+    std::map<std::string, Orientation> orientations_;
+    std::map<std::string, Vector3> positions_, velocities_;
+};
+
+}  // namespace alembert
