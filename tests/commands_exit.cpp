@@ -198,7 +198,8 @@ TEST_CASE("commands: the text of a derived equation is a valid claim, in every t
         REQUIRE(derived.exit == 0);
         std::ifstream in(file);
         std::string text((std::istreambuf_iterator<char>(in)), {});
-        for (const Json& equation : Json::parse(derived.out)["equations"])
+        const Json json = Json::parse(derived.out);
+        for (const Json& equation : json["equations"])
             text += "\n[[claim]]\nequation = \"" + equation["text"].get<std::string>() + "\"\n";
         const auto again = run({"derive", temporary("claimed.toml", text)});
         CHECK(again.exit == 0);
