@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "model/energy.hpp"
 #include "model/parameter_values.hpp"
 #include "model/places.hpp"
 #include "model/translate.hpp"
@@ -211,7 +212,19 @@ private:
                      I[4] * w[1] * w[2] + I[5] * w[2] * w[0];
         }
         if (b.about) {
-            const Vector3 d = add(places_.velocity(b.name.text), scale(-1, places_.velocity(b.about->text), *m_.z), *m_.z);
+            const auto from_about = [&](const Vector3& centre, const Vector3& about) {
+                return add(centre, scale(-1, about, *m_.z), *m_.z);
+            };
+            const Vector3 r = from_about(places_.position(b.name.text), places_.position(b.about->text));
+            const Vector3 d = from_about(places_.velocity(b.name.text), places_.velocity(b.about->text));
+            const Orientation& frame = places_.orientation(b.frame.text);
+            const Vector3 turning = cross(frame.to_inertial(w, *m_.z), r, *m_.z);
+            for (int k = 0; k < 3; ++k)
+                if (vanishes(d[k] - turning[k], m_) == false)
+                    throw SceneMistake{{b.about->place,
+                                        fmt::format("point '{}' is not fixed in body '{}'; its moments of inertia can "
+                                                    "only be given about a point that moves with it",
+                                                    b.about->text, b.name.text)}};
             energy -= mass / 2 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         }
         m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});

@@ -24,12 +24,15 @@ std::vector<GiNaC::symbol> clock(const Mechanism& m) {
 
 }  // namespace
 
-bool is_identically_zero(const ex& e, const Mechanism& mechanism) {
+std::optional<bool> vanishes(const ex& e, const Mechanism& mechanism) {
     if (e.is_zero()) return true;
-    if (mechanism.z->tree_size(e) > 20000) return false;
+    if (mechanism.z->tree_size(e) > 20000) return std::nullopt;
     const auto normal = fourier(mechanism.z->expand(e), *mechanism.symbols);
-    return normal && is_zero(*normal);
+    if (!normal) return std::nullopt;
+    return is_zero(*normal);
 }
+
+bool is_identically_zero(const ex& e, const Mechanism& mechanism) { return vanishes(e, mechanism).value_or(false); }
 
 Energy energy_of(const Mechanism& m) {
     Intermediates& z = *m.z;

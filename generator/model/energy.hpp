@@ -26,8 +26,10 @@ struct Energy {
 /// t occur at all, are there loads at all) beyond.
 Energy energy_of(const Mechanism& mechanism);
 
-/// Is `e` zero for all values of its symbols? Decided exactly by the Fourier normal form up to a size; beyond
-/// that, only a structural zero counts, so "no" may then mean "not seen to be".
+/// Is `e` zero for all values of its symbols? Decided by the Fourier normal form up to a size; nothing beyond that.
+std::optional<bool> vanishes(const GiNaC::ex& e, const Mechanism& mechanism);
+
+/// The same, where "not seen to be" counts as no.
 bool is_identically_zero(const GiNaC::ex& e, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -35,7 +35,7 @@ std::vector<Coefficient> coefficients(const Fourier& f) {
 void intersect(std::vector<std::pair<Polynomial, int>>& sums, const Factorization& factors) {
     for (auto& [sum, exponent] : sums) {
         const auto found = std::find_if(factors.sums.begin(), factors.sums.end(),
-                                        [&](const auto& other) { return other.first == sum; });
+                                        [&sum = sum](const auto& other) { return other.first == sum; });
         exponent = found == factors.sums.end() ? 0 : std::min(exponent, found->second);
     }
     std::erase_if(sums, [](const auto& entry) { return entry.second == 0; });

@@ -271,7 +271,8 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
         for (const Factor& factor : term.monomial) ++occurrences[factor.atom];
     for (const auto& [chosen, count] : occurrences)
         if (count > 1)
-            offer(partition(polynomial, [&](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
+            offer(partition(polynomial,
+                            [&chosen = chosen](const AtomNode& atom) { return compare(atom, *chosen) == 0; }));
     return best;
 }
 
