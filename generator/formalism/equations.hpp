@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What every formalism gives: q' = h(q,u,t), M u' = f.
+/// What every formalism gives: q' = h(q,u,t), M u' = f + Aᵀλ, A u' = γ (no A without constraints).
 ///
 ///     const Equations equations = lagrange(mechanism);
 ///     equations.M(0, 1); equations.f[0];
 ///
 /// For the readable form f is kept in three parts, as a textbook writes the equation:
-/// M u' − own − dissipative = applied.
+/// M u' − own − dissipative = applied + Aᵀλ.
 
 #include <string>
 #include <vector>
@@ -24,6 +24,9 @@ struct Equations {
     std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
     std::vector<GiNaC::ex> dissipative;   ///< generalized forces of dampers
     std::vector<GiNaC::ex> applied;       ///< all other generalized forces
+    std::vector<std::vector<GiNaC::ex>> A;  ///< m rows of n
+    std::vector<GiNaC::ex> gamma;         ///< m
+    std::vector<GiNaC::symbol> lambda;    ///< m
     std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
 
     int size() const { return static_cast<int>(u.size()); }

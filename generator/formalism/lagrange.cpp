@@ -27,6 +27,9 @@ Equations lagrange(const Mechanism& mechanism) {
                         .own = {},
                         .dissipative = mechanism.generalized_forces(true),
                         .applied = mechanism.generalized_forces(false),
+                        .A = {},
+                        .gamma = {},
+                        .lambda = {},
                         .z = mechanism.z};
     for (int j = 0; j < n; ++j) {
         // M is symmetric: only the rows from j on.

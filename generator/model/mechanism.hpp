@@ -56,6 +56,18 @@ struct Mechanism {
         GiNaC::ex value;
     };
 
+    /// A constraint as a row: row·q' + drift = 0, and once more differentiated row·q'' = acceleration.
+    struct Constraint {
+        std::string name;
+        bool holonomic = true;                ///< as the scene declares it
+        std::optional<GiNaC::ex> position;    ///< f(q,t), holonomic ones
+        std::vector<GiNaC::ex> row;           ///< ∂f/∂q, or the coefficients of q'
+        GiNaC::ex drift;                      ///< ∂f/∂t, or what stands beside the rates
+        GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
+        GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
+        Place place;
+    };
+
     std::string name;   ///< of the scene's file, without folder and ending
     std::string title;
     std::shared_ptr<Symbols> symbols;
@@ -70,6 +82,7 @@ struct Mechanism {
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;
+    std::vector<Constraint> constraints;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;
 
