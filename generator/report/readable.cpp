@@ -154,8 +154,8 @@ private:
                 if (std::all_of(option.begin(), option.end(), may_stand)) options.push_back(std::move(option));
             };
             offer({group});
-            options.push_back(by_state(group));
             offer(partition(group, is_circular));
+            options.push_back(by_state(group));
             offer(partition(group, [](const AtomNode& atom) { return atom.steady; }));
         } else {
             options.push_back(partition(group, is_circular));
