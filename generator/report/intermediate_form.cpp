@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/intermediate_form.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <set>
 
@@ -48,7 +50,7 @@ public:
 private:
     Phrase fresh() {
         SymbolInfo info;
-        do info.name = "z" + std::to_string(++count_);
+        do info.name = fmt::format("z{}", ++count_);
         while (taken_.contains(info.name));
         return symbol(GiNaC::symbol(info.name), info);
     }
