@@ -34,15 +34,14 @@ template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &m = par[0], &k = par[1], &l0 = par[2], &g = par[3];
+    const Real &m = par[0], &k = par[1], &g = par[3];
 
     // Constants
-    const Real k0 = k * l0;
-    const Real k1 = m * g;
-    const Real k2 = Real(2) * m;
-    const Real k3 = Real(1) / m;
-    const Real k4 = Real(0.5) * m;
-    const Real k5 = Real(0.5) * k;
+    const Real k0 = m * g;
+    const Real k1 = Real(2) * m;
+    const Real k2 = Real(1) / m;
+    const Real k3 = Real(0.5) * m;
+    const Real k4 = Real(0.5) * k;
 
     // Result
     par[4] = k0;
@@ -50,30 +49,31 @@ void prepare(Real* par) {
     par[6] = k2;
     par[7] = k3;
     par[8] = k4;
-    par[9] = k5;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &m = par[0], &k = par[1], &k0 = par[4], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5], &k2 = par[6];
 
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
 
+    // Shared terms
+    const Real z0 = m * r;
+
     // Mass matrix M(q), lower triangle
-    const Real M11 = m * r * r;
+    const Real M11 = r * z0;
 
     // Forcing f
-    const Real z0 = r * (k - m * theta_dot * theta_dot);
-    const Real z1 = z0 - (k0 + k1 * cos_theta);
-    const Real f0 = -z1;
-    const Real z2 = r * (k2 * r_dot * theta_dot + k1 * sin_theta);
+    const Real z1 = k * (l0 - r);
+    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
+    const Real z2 = r * (k1 * r_dot * theta_dot + k0 * sin_theta);
     const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
-    const Real r_ddot = -k3 * z1;
+    const Real r_ddot = k2 * f0;
     const Real theta_ddot = -z2 / M11;
 
     // Result
@@ -87,18 +87,19 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
     const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &m = par[0], &k = par[1], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5];
 
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
 
     // Mass matrix M(q), lower triangle
-    const Real M11 = m * r * r;
+    const Real z0 = m * r;
+    const Real M11 = r * z0;
 
     // Forcing f
-    const Real z0 = r * (k - m * theta_dot * theta_dot);
-    const Real f0 = (k0 + k1 * cos_theta) - z0;
-    const Real f1 = -r * (k2 * r_dot * theta_dot + k1 * sin_theta);
+    const Real z1 = k * (l0 - r);
+    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
+    const Real f1 = -r * (k1 * r_dot * theta_dot + k0 * sin_theta);
 
     // Result
     mass[0] = m;
@@ -112,15 +113,15 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &l0 = par[2], &k1 = par[5], &k4 = par[8], &k5 = par[9];
+    const Real &l0 = par[2], &k0 = par[4], &k3 = par[7], &k4 = par[8];
 
     // Trigonometry
     const Real cos_theta = cos(theta);
 
     // Energy
-    const Real T = k4 * (r * r * theta_dot * theta_dot + r_dot * r_dot);
     const Real z0 = l0 - r;
-    const Real z1 = k1 * r * cos_theta - k5 * z0 * z0;
+    const Real T = k3 * (r * r * theta_dot * theta_dot + r_dot * r_dot);
+    const Real z1 = r * k0 * cos_theta - k4 * z0 * z0;
     const Real V = -z1;
     const Real E = T - z1;
 
@@ -188,7 +189,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 40, 0.8, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    1, 2, 4, 6, 2, 0, "elastic_pendulum", "lagrange, textbook form",
+    1, 2, 4, 5, 2, 0, "elastic_pendulum", "lagrange, textbook form",
     coordinate_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
