@@ -134,6 +134,20 @@ void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* stat
 
 }
 
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+
+
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+
+
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -143,6 +157,7 @@ struct alembert_solver_table {
     int constants;
     int outputs;
     int events;
+    int constraints;
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
@@ -157,6 +172,9 @@ struct alembert_solver_table {
                    double* jacobi);
     void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
     void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "z", nullptr};
@@ -166,7 +184,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 2, 0.6, 0};
 
 constexpr alembert_solver_table table{
-    1, 3, 4, 4, 1, 0, "magnetic_field", "lagrange, textbook form",
+    2, 3, 4, 4, 1, 0, 0, "magnetic_field", "lagrange, textbook form",
     coordinate_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -182,6 +200,10 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         events_at(t, state, rate, par, out);
     },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
 };
 
 }  // namespace

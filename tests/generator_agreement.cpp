@@ -6,7 +6,7 @@
 #include "alembert/compile.hpp"
 #include "alembert/rhs.hpp"
 #include "emit/emit.hpp"
-#include "formalism/lagrange.hpp"
+#include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
@@ -35,12 +35,17 @@ public:
             for (const Load& load : m.loads)
                 for (const Load::Pair& pair : load.pairs)
                     Q += m.z->expand(pair.force) * m.z->expand(pair.velocity).diff(m.qdot[i]);
+            for (const Mechanism::Constraint& c : m.constraints) {
+                const ex f = c.position ? m.z->expand(*c.position) : ex(0);
+                Q += c.multiplier * (c.position ? f.diff(m.q[i]) : m.z->expand(c.row[i]));
+            }
             residual_.push_back({dot(L.diff(m.qdot[i])), L.diff(m.q[i]), Q});
         }
     }
 
     /// The residual of equation i over the size of its largest part, at numbers in 30 digits.
-    double relative_residual(int i, const State<double>& s, const std::vector<double>& acceleration) const {
+    double relative_residual(int i, const State<double>& s, const std::vector<double>& acceleration,
+                             const std::vector<double>& multipliers) const {
         GiNaC::Digits = 30;
         GiNaC::exmap at{{m_.t, s.t}};
         for (int k = 0; k < m_.size(); ++k) {
@@ -48,6 +53,7 @@ public:
             at[m_.qdot[k]] = s.qdot[k];
             at[m_.qddot[k]] = acceleration[k];
         }
+        for (std::size_t k = 0; k < multipliers.size(); ++k) at[m_.constraints[k].multiplier] = multipliers[k];
         GiNaC::exmap inputs, parameters;
         for (const Mechanism::Input& f : m_.inputs) {
             ex value = m_.z->expand(f.value);
@@ -106,7 +112,7 @@ void check_energy(const Module& module, const Program& program, State<double> st
 void agrees(const std::string& file, bool with_plain_derivatives) {
     CAPTURE(file);
     const Mechanism mechanism = build(read_scene(file));
-    const Equations equations = lagrange(mechanism);
+    const Equations equations = routh(mechanism);  // Lagrange's where there are no constraints
     const Choice choice = choose(mechanism, equations);
     const Program& program = choice.program;
     const Program other = lower(mechanism, equations, energy_of(mechanism));
@@ -139,12 +145,14 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
             continue;
         }
         check_energy(module, program, state, y, rate);
+        std::vector<double> multipliers;
+        for (const int id : program.nodes_of("multiplier")) multipliers.push_back(interpret(program, state)[id]);
         double largest = 1e-300;
         for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i]));
         for (int i = 0; i < n; ++i) {
             emitted_error = std::max(emitted_error, std::abs(rate[n + i] - a[i]) / largest);
             form_error = std::max(form_error, std::abs(b[i] - a[i]) / largest);
-            if (plain && k < 8) plain_error = std::max(plain_error, plain->relative_residual(i, state, a));
+            if (plain && k < 8) plain_error = std::max(plain_error, plain->relative_residual(i, state, a, multipliers));
         }
     }
     CAPTURE(program.formulation);

@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "formalism/lagrange.hpp"
+#include "analysis/assemble.hpp"
+#include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
@@ -28,8 +29,10 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
         text.insert(table + 10, outputs);
     else
         text += "\n[outputs]\n" + outputs;
-    const Mechanism mechanism = build(parse_scene(text, scene.file));
-    const Equations equations = lagrange(mechanism);
+    Mechanism mechanism = build(parse_scene(text, scene.file));
+    mechanism.q_is_guess.assign(mechanism.q.size(), true);  // random states move to the constraints
+    mechanism.qdot_is_guess.assign(mechanism.q.size(), true);
+    const Equations equations = routh(mechanism);
     const Program program = lower(mechanism, equations, energy_of(mechanism));
 
     const unsigned seed = 1788;
@@ -38,7 +41,17 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::vector<std::pair<std::string, double>> result;
     for (const std::string& claim : claims) result.emplace_back(claim, 0);
     for (int k = 0; k < 32; ++k) {
-        State<double> state = test::random_state(start_of(mechanism), random);
+        Start start = start_of(mechanism);
+        State<double> state = test::random_state(start, random);
+        start.t = state.t;
+        start.q = state.q;
+        start.qdot = state.qdot;
+        try {
+            assemble(start, mechanism, program, {});
+        } catch (const IntegrationError&) {
+            continue;  // no such state near this one
+        }
+        state = start.state();
         std::vector<double> value = interpret(program, state);
         for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
         value = interpret(program, state);

@@ -34,7 +34,7 @@ extern "C" {
 double sin(double);
 double cos(double);
 struct alembert_solver_table {
-    int abi, coordinates, parameters, constants, outputs, events;
+    int abi, coordinates, parameters, constants, outputs, events, constraints;
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
@@ -48,6 +48,8 @@ struct alembert_solver_table {
     void (*energy)(double, const double*, const double*, const double*, double*, double*);
     void (*outputs_at)(double, const double*, const double*, const double*, double*);
     void (*events_at)(double, const double*, const double*, const double*, double*);
+    void (*constraints_at)(double, const double*, const double*, double*, double*, double*);
+    void (*multipliers_at)(double, const double*, const double*, double*);
 };
 }
 namespace {
@@ -78,8 +80,8 @@ const char* const events[] = {"bottom"};
 const double values[] = {1.0, 9.81, 0.0};
 const alembert_solver_table table = {
     )" + std::to_string(abi) +
-           R"(, 1, 3, 1, 1, 1, "pendulum", "by hand", coordinates, parameters, outputs, events, values,
-    prepare, rhs, mass_forcing, energy, outputs_at, events_at};
+           R"(, 1, 3, 1, 1, 1, 0, "pendulum", "by hand", coordinates, parameters, outputs, events, values,
+    prepare, rhs, mass_forcing, energy, outputs_at, events_at, nullptr, nullptr};
 }
 extern "C" const alembert_solver_table* alembert_solver() { return &table; }
 )";

@@ -64,6 +64,9 @@ TEST_CASE_FIXTURE(Plane, "fourier: roots and quotients combine and cancel") {
     CHECK(vanishes(GiNaC::tan(x) * cos(x) - sin(x)));
     CHECK(vanishes(1 + pow(GiNaC::tan(x), 2) - 1 / pow(cos(x), 2)));
     CHECK(is_empty(sqrt(4 * x * x + 4 * y * y) - 2 * r));
+    CHECK(is_empty(pow(1 / sqrt(4 + 2 * x * x), 2) - 1 / (4 + 2 * x * x)));
+    CHECK(is_empty(sqrt(1 / ex(2)) - 1 / sqrt(ex(2))));
+    CHECK(is_empty(sqrt(2 + pow(1 / sqrt(2 + pow(cos(x), 2)), 2)) - sqrt(2 + 1 / (2 + pow(cos(x), 2)))));
     CHECK_FALSE(vanishes(sqrt(x * x) - x));
 }
 

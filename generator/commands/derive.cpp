@@ -130,7 +130,7 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + text(q);
     const int freedom = shown.degrees_of_freedom;
     std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
-                                           freedom == 1 ? "" : "s", freedom == 1 ? "" : "s", names),
+                                           freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
                                {}}};
 
     std::vector<Statement> energies = shown.energies;
@@ -165,6 +165,7 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
         result["speeds"].push_back(q.get_name() + "'");
     }
     result["multipliers"] = Json::array();
+    for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
     result["kinetic"] = text(shown.kinetic);
     result["potential"] = text(shown.potential);
     if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
@@ -201,10 +202,19 @@ int derive(const Request& request) {
     } else if (request.steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
-    blocks.push_back({fmt::format("Equations of motion (Lagrange's equations of the second kind{}):",
-                                  request.by.empty() ? "; the coordinates are independent" : ""),
+    const bool free = d.mechanism.constraints.empty();
+    blocks.push_back({fmt::format("Equations of motion ({}{}):",
+                                  shown.formalism == "routh" ? "Routh's equations with multipliers"
+                                                             : "Lagrange's equations of the second kind",
+                                  !request.by.empty() ? ""
+                                  : free              ? "; the coordinates are independent"
+                                                      : "; the coordinates are not independent"),
                       {}});
     for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (!shown.constraints.empty()) {
+        blocks.push_back({"with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
+        for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
             blocks.push_back({fmt::format("The equation of {} has been divided by {}.", text(shown.coordinates[i]),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "analysis/assemble.hpp"
 #include "analysis/diagnose.hpp"
 #include "commands/pipeline.hpp"
 
@@ -13,7 +14,9 @@ namespace alembert {
 int eval(const Request& request) {
     const Derived d = derived(request);
     const Program program = lowered(d, request).program;
-    const Start start = start_of(d.mechanism, overrides_of(request));
+    const Overrides overrides = overrides_of(request);
+    Start start = start_of(d.mechanism, overrides);
+    const std::vector<std::string> moved = assemble(start, d.mechanism, program, overrides);
     State<double> state = start.state();
 
     const auto fails = [&](const Program& p) {
@@ -39,10 +42,16 @@ int eval(const Request& request) {
     result["speeds"] = result["rates"];
     result["speed_rates"] = result["accelerations"];
     result["multipliers"] = Json::object();
+    for (const Root& root : program.roots)
+        if (root.group == "multiplier") result["multipliers"][root.name] = value[root.node];
     result["kinetic"] = single("kinetic");
     result["potential"] = single("potential");
     result["energy"] = single("energy");
     result["residuals"] = Json::object();
+    const std::vector<int> position = program.nodes_of("position"), velocity = program.nodes_of("velocity");
+    for (std::size_t k = 0; k < position.size(); ++k)
+        result["residuals"][d.mechanism.constraints[k].name] = {value[position[k]], value[velocity[k]]};
+    if (!moved.empty()) result["adjusted"] = moved;
     result["outputs"] = Json::object();
     for (const Root& root : program.roots)
         if (root.group == "output") result["outputs"][root.name] = value[root.node];
@@ -54,6 +63,9 @@ int eval(const Request& request) {
     for (int i = 0; i < d.mechanism.size(); ++i)
         fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, state.q[i], state.qdot[i],
                    state.qddot[i]);
+    for (const auto& [name, multiplier] : result["multipliers"].items())
+        fmt::print("{:<16}{:>24.16g}\n", name, multiplier.get<double>());
+    for (const std::string& line : moved) fmt::print("adjusted {}\n", line);
     fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single("kinetic"), single("potential"), single("energy"));
     for (const auto& [name, output] : result["outputs"].items()) fmt::print("{} = {:.16g}\n", name, output.get<double>());
     return 0;

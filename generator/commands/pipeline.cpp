@@ -13,6 +13,7 @@
 
 #include "analysis/diagnose.hpp"
 #include "formalism/lagrange.hpp"
+#include "formalism/routh.hpp"
 
 namespace alembert {
 
@@ -27,14 +28,29 @@ double process_seconds() {
     return seconds;
 }
 
+namespace {
+
+/// The formalism of that name; without one, the one a teacher would choose.
+Equations equations_by(const std::string& name, const Mechanism& mechanism) {
+    using Formalism = Equations (*)(const Mechanism&);
+    static const std::vector<std::pair<std::string, Formalism>> formalisms{{"lagrange", lagrange}, {"routh", routh}};
+    const std::string wanted = !name.empty() ? name : mechanism.constraints.empty() ? "lagrange" : "routh";
+    std::string known;
+    for (const auto& [known_name, derive] : formalisms) {
+        if (known_name == wanted) return derive(mechanism);
+        known += (known.empty() ? "" : ", ") + known_name;
+    }
+    throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected one of: {}", name, known));
+}
+
+}  // namespace
+
 Derived derived(const Request& request) {
     const double start = process_seconds();
     Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
-    if (!request.by.empty() && request.by != "lagrange")
-        throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected lagrange", request.by));
-    Equations equations = lagrange(mechanism);
+    Equations equations = equations_by(request.by, mechanism);
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }
 

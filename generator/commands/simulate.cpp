@@ -7,6 +7,8 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/integrate.hpp"
+#include "alembert/project.hpp"
+#include "analysis/assemble.hpp"
 #include "analysis/diagnose.hpp"
 #include "commands/pipeline.hpp"
 #include "commands/progress.hpp"
@@ -64,6 +66,12 @@ std::string csv(const Trajectory& motion, const Program& program, const Module& 
     std::string text = "t";
     for (const Quantity& q : program.coordinates) text += "," + q.name;
     for (const Quantity& q : program.coordinates) text += "," + q.name + "'";
+    std::vector<double> lambda;
+    for (const Root& root : program.roots)
+        if (root.group == "multiplier") {
+            text += "," + root.name;
+            lambda.push_back(0);
+        }
     text += ",energy";
     for (const std::string& name : outputs) text += "," + name;
     text += "\n";
@@ -77,6 +85,8 @@ std::string csv(const Trajectory& motion, const Program& program, const Module& 
         module.table().outputs_at(t, state.data(), rate.data(), par.data(), out.data());
         text += fmt::format("{:.17g}", t);
         for (std::size_t i = 0; i < 2 * n; ++i) text += fmt::format(",{:.17g}", state[i]);
+        module.table().multipliers_at(t, state.data(), par.data(), lambda.data());
+        for (const double value : lambda) text += fmt::format(",{:.17g}", value);
         text += fmt::format(",{:.17g}", energy[2]);
         for (const double value : out) text += fmt::format(",{:.17g}", value);
         text += "\n";
@@ -122,7 +132,8 @@ int simulate(const Request& request) {
     };
     const Energy energy = energy_of(d.mechanism);
     const Program program = lowered(d, request).program;
-    const Start start = start_of(d.mechanism);
+    Start start = start_of(d.mechanism);
+    const std::vector<std::string> moved = assemble(start, d.mechanism, program, {});
     const Options wishes = options_of(request, d.mechanism, start);
     if (program.singular || massless_combination(program, start.state()))
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
@@ -143,9 +154,16 @@ int simulate(const Request& request) {
     if (balance) initial.push_back(0);
     Drift drift(module, par, n, balance);
     Options options = wishes;
+    Projection projection(module, start.parameters);
+    double constraint_drift = 0;
+    if (!d.mechanism.constraints.empty()) {
+        projection(start.t, initial.data());
+        options.project = std::ref(projection);
+    }
     Progress progress("integrating");
     options.on_step = [&](double t, std::span<const double> state, std::span<const double> rate) {
         drift(t, state, rate);
+        if (options.project) constraint_drift = std::max(constraint_drift, projection.residual(t, state.data()));
         progress.at((t - options.start) / options.duration);
     };
     const Trajectory motion = integrate(rhs, initial, options, make_events(module, start.parameters, d.mechanism.event_stops));
@@ -165,7 +183,8 @@ int simulate(const Request& request) {
     result["energy_drift"] = energy.conserved ? Json(drift.energy()) : Json(nullptr);
     if (balance) result["work_balance"] = drift.balance();
     if (balance && energy.jacobi_conserved) result["jacobi_drift"] = drift.jacobi();
-    result["constraint_drift"] = 0.0;
+    result["constraint_drift"] = constraint_drift;
+    if (!moved.empty()) result["adjusted"] = moved;
     result["events"] = Json::array();
     for (const EventRecord& event : motion.events)
         result["events"].push_back({{"name", d.mechanism.events[event.index].label}, {"time", event.time}});
@@ -185,6 +204,8 @@ int simulate(const Request& request) {
         if (energy.conserved) fmt::print("\nenergy drift {:.2e}\n", drift.energy());
         if (balance) fmt::print("\nenergy is not conserved; work balance {:.2e}\n", drift.balance());
         if (balance && energy.jacobi_conserved) fmt::print("T2 - T0 + V is; its drift {:.2e}\n", drift.jacobi());
+        if (options.project) fmt::print("constraint drift {:.2e}\n", constraint_drift);
+        for (const std::string& line : moved) fmt::print("adjusted at the start: {}\n", line);
         fmt::print("seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", d.seconds, emit_seconds,
                    compile_seconds, compiled.from_cache ? " (cached)" : "", integrate_seconds);
         if (!request.output.empty()) fmt::print("wrote {}\n", request.output);

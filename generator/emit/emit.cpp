@@ -53,7 +53,8 @@ public:
         const std::vector<int> rhs = p_.nodes_of("acceleration");
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
-        functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event");
+        functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()
+                  << multipliers();
 
         mustache::data file;
         file.set("scene", ascii_identifier(p_.name));
@@ -80,6 +81,8 @@ public:
         number("k", constants_.size());
         number("outputs", p_.nodes_of("output").size());
         number("events", p_.nodes_of("event").size());
+        number("constraints", p_.nodes_of("gamma").size());
+        file.set("reaction", p_.nodes_of("gamma").empty() ? "" : " + A^T lambda with A q'' = gamma");
         mustache::mustache shape{std::string(template_solver)};
         return {.file = ascii_identifier(p_.name) + ".cpp",
                 .text = shape.render(file),
@@ -247,8 +250,12 @@ private:
     }
 
     mustache::data right_hand_side() {
-        std::vector<Goal> all = joined(joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f")),
-                                       goals("acceleration", "Solve M q'' = f with M = L D L^T"));
+        const bool is_free = p_.nodes_of("gamma").empty();
+        std::vector<Goal> all = joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f"));
+        if (!is_free)
+            all = joined(all, joined(goals("row", "Constraints A q'' = gamma"), goals("gamma", "Constraints A q'' = gamma")));
+        all = joined(all, goals("acceleration", is_free ? "Solve M q'' = f with M = L D L^T"
+                                                        : "Solve M q'' = f + A^T lambda, A q'' = gamma"));
         std::vector<std::string> first;
         std::vector<Result> results;
         for (int i = 0; i < n_; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
@@ -290,6 +297,31 @@ private:
         return function("energy", "T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.",
                         "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
                         "Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi",
+                        all, results);
+    }
+
+    mustache::data constraints() {
+        const std::vector<int> position = p_.nodes_of("position"), velocity = p_.nodes_of("velocity");
+        std::vector<Result> results;
+        for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
+        for (std::size_t k = 0; k < velocity.size(); ++k) results.push_back({fmt::format("velocity[{}]", k), velocity[k]});
+        for (std::size_t k = 0; const int node : p_.nodes_of("row"))
+            results.push_back({fmt::format("rows[{}]", k++), node});
+        std::vector<Goal> all;
+        for (const Result& result : results) all.push_back({"Constraints", "", result.node});
+        return function("constraints_at", "f(q,t) of holonomic constraints, A q' + b of all, and A.",
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
+                        "[[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows",
+                        all, results);
+    }
+
+    mustache::data multipliers() {
+        const std::vector<Goal> all = goals("multiplier", "Multipliers");
+        std::vector<Result> results;
+        for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("lambda[{}]", i), all[i].node});
+        return function("multipliers_at", "The multipliers lambda of M q'' = f + A^T lambda.",
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
+                        "[[maybe_unused]] Real* lambda",
                         all, results);
     }
 

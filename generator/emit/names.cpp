@@ -34,7 +34,8 @@ constexpr std::array own{"Real",   "t",       "state",  "par",  "rate",  "mass",
                          "jacobi", "prepare", "rhs",    "pair", "sincos", "sin", "cos",     "tan",    "asin",
                          "acos",   "atan",    "sinh",   "cosh", "tanh",  "exp",  "log",     "sqrt",   "abs",
                          "sign",   "pow",     "atan2",  "min",  "max",   "pi",   "std",     "main",   "mass_forcing",
-                         "outputs_at", "events_at", "table", "solver"};
+                         "outputs_at", "events_at", "constraints_at", "multipliers_at", "position", "velocity",
+                         "rows", "lambda", "table", "solver"};
 
 constexpr std::array<std::string_view, 25> greek{
     "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta",     "theta", "iota",

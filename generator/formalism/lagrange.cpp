@@ -9,6 +9,13 @@ namespace alembert {
 using GiNaC::ex;
 
 Equations lagrange(const Mechanism& mechanism) {
+    if (!mechanism.constraints.empty())
+        throw ModelError("Lagrange's equations of the second kind need independent coordinates, and the scene has "
+                         "constraints; use --by routh, which carries multipliers");
+    return lagrange_operator(mechanism);
+}
+
+Equations lagrange_operator(const Mechanism& mechanism) {
     const int n = mechanism.size();
     if (n == 0) throw ModelError("Lagrange's equations need at least one coordinate; the scene has none");
     Intermediates& z = *mechanism.z;

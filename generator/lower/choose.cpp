@@ -39,6 +39,11 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
     }
+    for (std::size_t k = 0; k < equations.A.size(); ++k) {
+        for (ex& entry : equations.A[k])
+            if (!make_readable({&entry}, m)) return std::nullopt;
+        if (!make_readable({&equations.gamma[k]}, m)) return std::nullopt;
+    }
     equations.formalism += ", textbook form";
     return equations;
 }

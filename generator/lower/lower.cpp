@@ -39,6 +39,12 @@ public:
         return node;
     }
 
+    /// The value of a symbol that is none of the scene's.
+    int define(const GiNaC::symbol& symbol, int node) {
+        known_[symbol] = node;
+        return node;
+    }
+
     /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
     void lower_definitions(const std::vector<ex>& roots) {
         std::vector<char> wanted(m_.z->entries().size(), 0);
@@ -174,13 +180,17 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     Lowering lowering(program, m, options.fold);
 
     const int n = equations.size();
-    std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.power, energy.jacobi};
+    std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.jacobi};
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j <= i; ++j) wanted.push_back(equations.M(i, j));
         wanted.push_back(equations.forcing(i));
     }
-    for (const auto* parts : {&m.outputs, &m.events})
-        for (const Part& part : *parts) wanted.push_back(part.value);
+    for (std::size_t k = 0; k < equations.A.size(); ++k) {
+        wanted.insert(wanted.end(), equations.A[k].begin(), equations.A[k].end());
+        wanted.push_back(equations.gamma[k]);
+        if (m.constraints[k].position) wanted.push_back(*m.constraints[k].position);
+        wanted.push_back(m.constraints[k].drift);
+    }
     lowering.lower_definitions(wanted);
 
     std::vector<int> mass, forcing;
@@ -193,12 +203,35 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         forcing.push_back(lowering(equations.forcing(i)));
         program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
     }
-    if (const auto accelerations = solve_symmetric(program, mass, forcing)) {
+    // [M Aᵀ; A 0] (q'', −λ) = (f, γ)
+    const int constraints = static_cast<int>(equations.A.size());
+    for (int k = 0; k < constraints; ++k) {
+        std::vector<Program::Term> velocity{{1, lowering(m.constraints[k].drift)}};
+        for (int i = 0; i < n; ++i) {
+            mass.push_back(lowering(equations.A[k][i]));
+            program.roots.push_back({"row", fmt::format("A{}_{}", k, i), mass.back()});
+            velocity.emplace_back(1, program.product(1, {{mass.back(), 1}, {lowering(m.qdot[i]), 1}}));
+        }
+        for (int j = 0; j <= k; ++j) mass.push_back(program.number(0));
+        forcing.push_back(lowering(equations.gamma[k]));
+        program.roots.push_back({"gamma", fmt::format("gamma{}", k), forcing.back()});
+        const auto& position = m.constraints[k].position;
+        program.roots.push_back({"position", m.constraints[k].name, position ? lowering(*position) : program.number(0)});
+        program.roots.push_back({"velocity", m.constraints[k].name, program.sum(0, velocity)});
+    }
+    if (const auto accelerations = solve_symmetric(program, mass, forcing, n)) {
         for (int i = 0; i < n; ++i)
             program.roots.push_back({"acceleration", fmt::format("a{}", i), (*accelerations)[i]});
+        for (int k = 0; k < constraints; ++k)
+            program.roots.push_back({"multiplier", equations.lambda[k].get_name(),
+                                     lowering.define(equations.lambda[k], program.sum(0, {{-1, (*accelerations)[n + k]}}))});
     } else {
         program.singular = true;
     }
+    wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
+    for (const auto* parts : {&m.outputs, &m.events})
+        for (const Part& part : *parts) wanted.push_back(part.value);
+    lowering.lower_definitions(wanted);
     const int T = lowering(energy.kinetic), V = lowering(energy.potential);
     const int E = m.given_lagrangian ? lowering(energy.energy) : program.sum(0, {{1, T}, {1, V}});
     program.roots.push_back({"kinetic", "T", T});

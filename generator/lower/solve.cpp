@@ -11,8 +11,8 @@ namespace {
 
 class Elimination {
 public:
-    Elimination(Program& program, const std::vector<int>& lower, std::vector<int> f)
-        : p_(program), n_(static_cast<int>(f.size())), b_(std::move(f)), rows_(n_, std::vector<int>(n_)) {
+    Elimination(Program& program, const std::vector<int>& lower, std::vector<int> f, int preferred)
+        : p_(program), preferred_(preferred), n_(static_cast<int>(f.size())), b_(std::move(f)), rows_(n_, std::vector<int>(n_)) {
         for (int i = 0, k = 0; i < n_; ++i)
             for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
     }
@@ -45,7 +45,9 @@ private:
             if (zero(k, k)) continue;
             int neighbours = 0;
             for (const int i : left) neighbours += i != k && !zero(i, k) ? 1 : 0;
-            if (best < 0 || neighbours <= fewest) best = static_cast<int>(place), fewest = neighbours;
+            const bool is_first = k < preferred_, best_is_first = best >= 0 && left[best] < preferred_;
+            if (best >= 0 && best_is_first && !is_first) continue;
+            if (best < 0 || neighbours <= fewest || (is_first && !best_is_first)) best = static_cast<int>(place), fewest = neighbours;
         }
         return best;
     }
@@ -104,6 +106,7 @@ private:
     }
 
     Program& p_;
+    int preferred_;
     int n_;
     std::vector<int> b_;
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
@@ -113,8 +116,8 @@ private:
 }  // namespace
 
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
-                                                const std::vector<int>& f) {
-    return Elimination(program, lower, f).solve();
+                                                const std::vector<int>& f, int preferred) {
+    return Elimination(program, lower, f, preferred).solve();
 }
 
 }  // namespace alembert

@@ -14,7 +14,9 @@ namespace alembert {
 /// Positive Definite Systems (1981), chapter 5). Where no diagonal entry can be a pivot (an indefinite matrix from
 /// a given Lagrangian) the rest is eliminated with row exchanges. Nothing if the matrix is structurally singular.
 /// Pivots that vanish at some state only show there, as infinities.
+/// The first `preferred` unknowns are eliminated before the others where they can be: with constraints these are the
+/// coordinates, whose pivots are positive at every state, so that what is left is A M⁻¹Aᵀ.
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
-                                                const std::vector<int>& f);
+                                                const std::vector<int>& f, int preferred = 0);
 
 }  // namespace alembert

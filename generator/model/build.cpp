@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -47,6 +48,7 @@ public:
         add_links();
         add_forces();
         add_energy();
+        add_constraints();
         add_outputs();
         add_run();
         if (!mistakes_.empty()) fail(scene_, mistakes_);
@@ -102,6 +104,8 @@ private:
             m_.qdot.push_back(m_.symbols->declare(c.name.text, Kind::coordinate, index, 1));
             m_.qddot.push_back(m_.symbols->declare(c.name.text, Kind::coordinate, index, 2));
             m_.units.push_back(c.unit);
+            m_.q_is_guess.push_back(c.initial_is_guess);
+            m_.qdot_is_guess.push_back(c.rate_is_guess);
         }
         for (const Coordinate& c : scene_.coordinates) {
             m_.q_start.emplace_back(0);
@@ -330,6 +334,60 @@ private:
                     if (m_.q[i].get_name() == f.coordinate.text)
                         m_.loads.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value))}}});
             });
+    }
+
+    // f(q,t) = 0 or a·q' + b = 0, as rows (mechanism.hpp).
+    void add_constraints() {
+        for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
+            attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
+    }
+
+    void add_constraint(const ConstraintRule& rule, int index) {
+        Intermediates& z = *m_.z;
+        SourceScope source(z, "constraint " + rule.name.text);
+        const std::string multiplier = rule.multiplier ? rule.multiplier->text : "lambda_" + rule.name.text;
+        const ex value = z.name(translator_.scalar(rule.equation.lhs) - translator_.scalar(rule.equation.rhs));
+        Mechanism::Constraint made{.name = rule.name.text,
+                                   .holonomic = rule.holonomic,
+                                   .position = {},
+                                   .row = {},
+                                   .drift = 0,
+                                   .acceleration = 0,
+                                   .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
+                                   .place = rule.name.place};
+        ex velocity = value;
+        if (rule.holonomic) {
+            made.position = value;
+            made.row = z.pull_back({{value, 1}}, m_.q);
+            made.drift = m_.explicit_time_derivative({value})[0];
+            velocity = m_.time_derivative({value})[0];
+        } else {
+            made.row = z.pull_back({{value, 1}}, m_.qdot);
+            GiNaC::exvector rest{value};
+            for (int i = 0; i < m_.size(); ++i) {
+                if (z.depends(made.row[i], m_.qdot) && is_nonlinear(made.row[i]))
+                    throw SceneMistake{{rule.equation.lhs.place(),
+                                        fmt::format("constraint '{}' is not linear in the rates; expected a sum of "
+                                                    "coefficients times rates",
+                                                    rule.name.text)}};
+                rest.push_back(-made.row[i] * m_.qdot[i]);
+            }
+            made.drift = z.name(GiNaC::add(std::move(rest)));
+            if (is_identically_zero(made.drift, m_)) made.drift = 0;
+        }
+        if (std::all_of(made.row.begin(), made.row.end(), [](const ex& e) { return e.is_zero(); }))
+            throw SceneMistake{{rule.equation.lhs.place(),
+                                fmt::format("constraint '{}' contains no {}", rule.name.text,
+                                            rule.holonomic ? "coordinate" : "rate")}};
+        made.acceleration = z.name(-m_.time_derivative_without_acceleration({velocity})[0]);
+        translator_.know(multiplier, made.multiplier);
+        m_.constraints.push_back(std::move(made));
+    }
+
+    bool is_nonlinear(const ex& coefficient) {
+        for (const ex& slope : m_.z->pull_back({{coefficient, 1}}, m_.qdot))
+            if (!is_identically_zero(slope, m_)) return true;
+        return false;
     }
 
     void add_outputs() {

@@ -70,6 +70,9 @@ Energy energy_of(const Mechanism& m) {
     for (int i = 0; i < n; ++i) work.push_back((damping[i] + applied[i]) * m.qdot[i]);
     ex jacobi_power = z.name(GiNaC::add(std::move(work)) - m.explicit_time_derivative({L})[0]);
     if (is_identically_zero(jacobi_power, m)) jacobi_power = 0;
+    // Constraint forces do work where the constraints move: λ·A q' = −λ·b.
+    for (const Mechanism::Constraint& c : m.constraints) jacobi_power -= c.multiplier * c.drift;
+    jacobi_power = z.name(jacobi_power);
     result.jacobi_conserved = jacobi_power.is_zero();
     result.power = z.name(jacobi_power + (extra.is_zero() ? ex(0) : m.time_derivative({extra})[0]));
     result.conserved = result.power.is_zero() || (extra.is_zero() && result.jacobi_conserved);

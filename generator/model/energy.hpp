@@ -7,7 +7,7 @@
 /// h = q'·∂L/∂q' − L = T₂ − T₀ + V, T₂ and T₀ being the parts of T of second and no degree in the rates.
 /// Along every motion
 ///     dh/dt = Q·q' − ∂L/∂t,      dE/dt = dh/dt + d(T₁ + 2T₀)/dt
-/// (from Lagrange's equations; Zhang & Qin, §1.5). The right-hand side of the second is `power`: what loads
+/// and − λ·b beside each for constraints A q' + b = 0 that move (from Lagrange's equations; Zhang & Qin, §1.5). The right-hand side of the second is `power`: what loads
 /// outside V and prescribed motions do. It is integrated beside the motion, so that E − E₀ − ∫power dt measures
 /// the run.
 

@@ -79,6 +79,7 @@ struct Mechanism {
     std::vector<GiNaC::symbol> q, qdot, qddot;
     std::vector<std::string> units;            ///< of the coordinates
     std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
+    std::vector<bool> q_is_guess, qdot_is_guess;  ///< may move so that the constraints hold at the start
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;

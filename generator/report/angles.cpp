@@ -18,6 +18,10 @@ namespace {
 using Kind = AtomNode::Kind;
 using Cost = std::function<int(const Polynomial&)>;
 
+/// The search tries some 4ⁿ forms of n angles, each as often as it has terms: beyond this it would take seconds.
+constexpr std::size_t most_angles = 3;
+constexpr std::size_t most_terms = 64;
+
 /// An angle that others are whole multiples or sums of, with its functions as variables.
 struct Angle {
     explicit Angle(const Polynomial& angle)
@@ -304,20 +308,23 @@ Polynomial unfold(const Polynomial& normal_form, const Cost& cost) {
     const bool compound = may_be_product(args);
     if (!own.expands && !compound) return normal_form;
     best.cost = cost(normal_form);
-    if (own.expands && own.angles.size() <= 3) {
+    const auto is_small = [](const Polynomial& expanded) { return expanded.size() <= most_terms; };
+    if (own.expands && own.angles.size() <= most_angles) {
         const Polynomial expanded = expand(normal_form, own.args, own.angles);
-        const Polynomial level = reduce(expanded, own.angles, Forms::level, cost);
-        const int offered = cost(level);
-        if (offered <= best.cost) best = {level, offered};
-        best.offer(reduce(expanded, own.angles, Forms::all, cost), cost);
+        if (is_small(expanded)) {
+            const Polynomial level = reduce(expanded, own.angles, Forms::level, cost);
+            const int offered = cost(level);
+            if (offered <= best.cost) best = {level, offered};
+            best.offer(reduce(expanded, own.angles, Forms::all, cost), cost);
+        }
     }
     if (!compound) return best.value;
     std::vector<Basis> bases = pairs(args);
     if (auto basis = singles(args)) bases.push_back(std::move(*basis));
     for (const Basis& basis : bases) {
-        if (!basis.expands || basis.angles.size() > 3) continue;
+        if (!basis.expands || basis.angles.size() > most_angles) continue;
         const Polynomial expanded = expand(normal_form, basis.args, basis.angles);
-        if (expanded.size() > 64) continue;
+        if (!is_small(expanded)) continue;
         best.offer(reduce(expanded, basis.angles, Forms::level, cost), cost);
         best.offer(reduce(expanded, basis.angles, Forms::all, cost), cost);
     }

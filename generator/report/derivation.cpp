@@ -19,11 +19,12 @@ public:
 
     Derivation make() {
         result_.formalism = e_.formalism;
-        result_.degrees_of_freedom = m_.size();
+        result_.degrees_of_freedom = m_.size() - static_cast<int>(m_.constraints.size());
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         if (!readable_equations() || !energies()) return with_definitions();
         forces();
         derivatives();
+        constraints();
         return std::move(result_);
     }
 
@@ -47,7 +48,9 @@ private:
         for (int i = 0; i < e_.size(); ++i) {
             GiNaC::exvector terms{-e_.own[i], -e_.dissipative[i]};
             for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
-            const auto left = normal(GiNaC::add(std::move(terms))), right = normal(e_.applied[i]);
+            GiNaC::exvector forces{e_.applied[i]};
+            for (std::size_t k = 0; k < e_.A.size(); ++k) forces.push_back(e_.A[k][i] * e_.lambda[k]);
+            const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right));
         }
@@ -109,6 +112,15 @@ private:
         for (int i = 0; i < m_.size(); ++i) {
             add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
             add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
+        }
+    }
+
+    void constraints() {
+        for (const Mechanism::Constraint& c : m_.constraints) {
+            GiNaC::exvector terms{c.drift};
+            for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
+            if (const auto f = normal(c.position ? *c.position : ex(GiNaC::add(std::move(terms)))))
+                result_.constraints.emplace_back(c.name, readable(*f));
         }
     }
 

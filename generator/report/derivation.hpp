@@ -39,6 +39,7 @@ struct Derivation {
     std::vector<Statement> forces;         ///< generalized forces of each part of V and each load, then in all
     std::vector<Statement> derivatives;    ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
+    std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
 };
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);

@@ -123,6 +123,8 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m) {
     const int kinetic = program.nodes_of("kinetic")[0], potential = program.nodes_of("potential")[0];
     std::vector<int> roots = mass;
     roots.insert(roots.end(), forcing.begin(), forcing.end());
+    const std::vector<int> rows = program.nodes_of("row");
+    roots.insert(roots.end(), rows.begin(), rows.end());
     roots.push_back(kinetic);
     roots.push_back(potential);
     Unfolding unfolding(program, m);
@@ -142,6 +144,13 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m) {
             terms.push_back(is_one ? acceleration : phrases::product({unfolding.of(entry), acceleration}));
         }
         if (!program.is_zero(forcing[i])) terms.push_back(phrases::negative(unfolding.of(forcing[i])));
+        for (std::size_t k = 0; k < m.constraints.size(); ++k) {
+            const int entry = rows[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)];
+            const GiNaC::symbol& lambda = m.constraints[k].multiplier;
+            if (!program.is_zero(entry))
+                terms.push_back(phrases::negative(
+                    phrases::product({unfolding.of(entry), phrases::symbol(lambda, m.symbols->info(lambda))})));
+        }
         form.equations.push_back({.lhs = phrases::sum(std::move(terms)), .rhs = phrases::number(0), .divided_by = {}});
     }
     form.kinetic = unfolding.of(kinetic);

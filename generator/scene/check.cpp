@@ -27,6 +27,7 @@ public:
         check_masses();
         check_loads();
         check_energy();
+        check_constraints();
         check_runs();
         for (const Claim& claim : scene_.claims) check(claim);
     }
@@ -164,8 +165,24 @@ private:
         if (!scene_.springs.empty()) refuse("a [[spring]]", scene_.springs.front().place);
     }
 
+    void check_constraints() {
+        std::unordered_map<std::string, Place> known;
+        for (const ConstraintRule& rule : scene_.constraints) {
+            const Legal position{.subject = "a holonomic constraint", .order = 0, .input_order = 0, .time = true,
+                                 .advice = "; a relation between rates is 'nonholonomic'"};
+            const Legal rates{.subject = "a constraint", .order = 1, .input_order = 1, .time = true};
+            quantities_.check(rule.equation.lhs, rule.holonomic ? position : rates);
+            quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
+            if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
+            const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
+            if (!is_new)
+                complain(rule.name.place, fmt::format("the name {} is taken: a constraint has it on line {}",
+                                                      in_quotes(rule.name.text), first->second.line));
+        }
+    }
+
     void check_runs() {
-        Legal anything{.subject = "an output", .order = 2, .input_order = 2, .time = true};
+        Legal anything{.subject = "an output", .order = 2, .input_order = 2, .time = true, .multipliers = true};
         for (const Output& output : scene_.outputs) {
             check_name(output.name);
             quantities_.check(output.value, anything);
@@ -208,6 +225,7 @@ private:
                              .time = true,
                              .advice = {},
                              .more = &more,
+                             .multipliers = true,
                              .claim = true};
         quantities_.check(claim.equation.lhs, anything);
         quantities_.check(claim.equation.rhs, anything);

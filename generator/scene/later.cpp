@@ -13,7 +13,6 @@ namespace alembert {
 namespace {
 
 void allow(const Table& table, const std::string& name) {
-    if (name == "constraint") table.allow({"name", "holonomic", "nonholonomic", "multiplier"});
     if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
     if (name == "unilateral") table.allow({"name", "gap", "restitution"});
     if (name == "impulse") table.allow({"at", "vector", "axes"});
@@ -47,7 +46,7 @@ bool is_list(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"speeds", "constraint", "rolling", "unilateral", "impulse", "impulses", "joint", "polynomial"};
+    return {"speeds", "rolling", "unilateral", "impulse", "impulses", "joint", "polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {

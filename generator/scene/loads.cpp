@@ -74,4 +74,26 @@ void read_damper(Table table, Scene& scene) {
     scene.dampers.push_back(read_link(table, "damping"));
 }
 
+void read_constraint(Table table, Scene& scene) {
+    table.allow({"name", "holonomic", "nonholonomic", "multiplier"});
+    ConstraintRule rule;
+    rule.name = table.needed_name("name");
+    table.entitle(rule.name);
+    rule.multiplier = table.name("multiplier");
+    if (table.has("holonomic") == table.has("nonholonomic"))
+        return table.reading().complain(
+            table.place(), fmt::format("{} needs one of 'holonomic' and 'nonholonomic'", table.title()));
+    rule.holonomic = table.has("holonomic");
+    const std::string_view key = rule.holonomic ? "holonomic" : "nonholonomic";
+    const toml::node& node = *table.find(key)->node;
+    const auto* const text = node.as_string();
+    if (text != nullptr && text->get().find('=') != std::string::npos) {
+        rule.equation = read_equality(table.reading(), node, false);
+    } else {
+        rule.equation.lhs = table.expression(key);
+        rule.equation.rhs = zero(table.place());
+    }
+    scene.constraints.push_back(std::move(rule));
+}
+
 }  // namespace alembert

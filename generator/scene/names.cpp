@@ -97,6 +97,8 @@ std::string described(Kind kind) {
             return "a particle";
         case Kind::body:
             return "a body";
+        case Kind::multiplier:
+            return "a multiplier";
         default:
             return "a table that is not supported yet";
     }
@@ -109,6 +111,11 @@ NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
     add(values, scene.parameters, Kind::parameter);
     add(values, scene.inputs, Kind::input);
     add(values, scene.definitions, Kind::definition);
+    std::vector<Name> multipliers;
+    for (const ConstraintRule& rule : scene.constraints)
+        multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
+    for (std::size_t i = 0; i < multipliers.size(); ++i)
+        if (multipliers[i].place.line > 0) values.push_back({&multipliers[i], Kind::multiplier, i});
     add(frames, scene.frames, Kind::frame);
     add(points, scene.points, Kind::point);
     add(points, scene.particles, Kind::particle);

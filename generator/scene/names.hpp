@@ -13,7 +13,7 @@
 namespace alembert {
 
 struct Declared {
-    enum class Kind { coordinate, parameter, input, definition, frame, point, particle, body, other };
+    enum class Kind { coordinate, parameter, input, definition, frame, point, particle, body, multiplier, other };
     Kind kind;
     std::size_t index;  ///< in the scene's list of its kind
     Place place;

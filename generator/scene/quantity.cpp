@@ -175,6 +175,11 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
                                 fmt::format("{} may not refer to a definition: {}", context.legal.subject,
                                             in_quotes(tree.text)));
             return meet(context, tree, definitions_[tree.text], raised + tree.primes);
+        case Declared::Kind::multiplier:
+            if (!context.legal.multipliers)
+                complain(context, tree, fmt::format("{} may not depend on a multiplier: {}", context.legal.subject,
+                                                    in_quotes(tree.text)));
+            return constant("is a multiplier, whose derivative mechanics does not give");
         default:
             return;
     }

@@ -22,6 +22,7 @@ struct Legal {
     bool definitions = true;
     std::string advice = {};                                ///< what to do instead, where a rate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
+    bool multipliers = false;  ///< of the scene's constraints
     bool claim = false;  ///< momenta p_…, multipliers lambda… are legal, known or not
 };
 

@@ -52,6 +52,7 @@ constexpr Section sections[] = {
     {"torque", true, each<read_torque>},
     {"spring", true, each<read_spring>},
     {"damper", true, each<read_damper>},
+    {"constraint", true, each<read_constraint>},
     {"energy", false, one<read_energy>},
     {"dissipation", false, one<read_dissipation>},
     {"forces", false, one<read_forces>},

@@ -45,6 +45,7 @@ struct Input {
 struct Coordinate {
     Name name;
     Expression initial, rate;  ///< in parameters; never null after reading (missing: 0)
+    bool initial_is_guess = false, rate_is_guess = false;  ///< may move so that the constraints hold at the start
     std::string unit, about;
 };
 
@@ -130,6 +131,14 @@ struct GeneralizedForce {
     Expression value;
 };
 
+/// lhs − rhs = 0
+struct ConstraintRule {
+    Name name;
+    bool holonomic = true;
+    Equality equation;                ///< rhs is the number 0 where there is no `=`
+    std::optional<Name> multiplier;   ///< lambda_<name> when missing
+};
+
 struct Output {
     Name name;
     Expression value;
@@ -173,6 +182,7 @@ struct Scene {
     Expression kinetic, potential, lagrangian;  ///< [energy]; null where missing
     Expression rayleigh;
     std::vector<GeneralizedForce> generalized_forces;
+    std::vector<ConstraintRule> constraints;
     std::vector<Output> outputs;
     std::vector<EventRule> events;
     Simulation simulation;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "scene/tables.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "scene/text.hpp"
@@ -43,13 +45,18 @@ void read_inputs(const Table& table, Scene& scene) {
 void read_coordinates(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries()) {
         const std::string what = labelled("coordinate", entry.key);
-        Coordinate coordinate{{entry.key, entry.place}, {}, zero(entry.place), {}, {}};
+        Coordinate coordinate{.name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
         if (const toml::table* const inner = entry.node->as_table()) {
             const Table keys(table.reading(), *inner, what, entry.place);
-            keys.allow({"initial", "rate", "unit", "about"}, {"guess", "rate_guess"});
-            coordinate.initial =
-                keys.has("initial") || keys.has("guess") ? keys.expression("initial") : zero(entry.place);
-            if (keys.has("rate")) coordinate.rate = keys.expression("rate");
+            keys.allow({"initial", "rate", "guess", "rate_guess", "unit", "about"});
+            const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
+                is_guess = keys.has(guess);
+                if (is_guess && keys.has(key))
+                    keys.complain(guess, fmt::format("{} has both '{}' and '{}'; give one", what, key, guess));
+                value = is_guess || keys.has(key) ? keys.expression(is_guess ? guess : key) : zero(entry.place);
+            };
+            start("initial", "guess", coordinate.initial, coordinate.initial_is_guess);
+            start("rate", "rate_guess", coordinate.rate, coordinate.rate_is_guess);
             coordinate.unit = keys.text("unit");
             coordinate.about = keys.text("about");
         } else {

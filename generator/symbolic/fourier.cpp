@@ -20,7 +20,7 @@ namespace {
 
 using Kind = AtomNode::Kind;
 
-/// A term that may still hold bases with whole positive exponents, which have to be multiplied out.
+/// A term, and powers of polynomials that were taken out of it to be multiplied out.
 struct Product {
     Term term;
     std::vector<std::pair<Polynomial, int>> powers;
@@ -30,18 +30,24 @@ bool is_absolute(const Factor& factor) {
     return factor.atom->kind == Kind::function && factor.atom->name == "abs";
 }
 
-/// Takes whole powers out of bases: P^(3/2) = P·P^(1/2), |a|³ = a²·|a|.
+/// The whole power of a factor that has to be multiplied out: P^(3/2) = P·P^(1/2), |a|³ = a²·|a|, 2^(−1/2) =
+/// ½·2^(1/2); and (2P)^(−1/2) squared is ½·P^(−1). 0 for none.
+cln::cl_I whole_power(const Factor& factor) {
+    const AtomNode& atom = *factor.atom;
+    const cln::cl_I whole = cln::floor1(factor.exponent);
+    if (is_absolute(factor)) return whole >= 2 ? whole - cln::mod(whole, 2) : cln::cl_I(0);
+    if (atom.kind != Kind::base) return 0;
+    if (whole >= 1 || atom.args[0].is_constant()) return whole;
+    return whole == factor.exponent && !atom.primitive ? whole : cln::cl_I(0);
+}
+
 void take_powers(Product& product) {
     Monomial rest;
     for (Factor& factor : product.term.monomial) {
-        const cln::cl_I whole = cln::floor1(factor.exponent);
-        if (factor.atom->kind == Kind::base && whole >= 1) {
+        const cln::cl_I whole = whole_power(factor);
+        if (!cln::zerop(whole)) {
             product.powers.emplace_back(factor.atom->args[0], cln::cl_I_to_int(whole));
             factor.exponent = factor.exponent - whole;
-        } else if (is_absolute(factor) && whole >= 2) {
-            const cln::cl_I even = whole - cln::mod(whole, 2);
-            product.powers.emplace_back(factor.atom->args[0], cln::cl_I_to_int(even));
-            factor.exponent = factor.exponent - even;
         }
         if (!cln::zerop(factor.exponent)) rest.push_back(std::move(factor));
     }
@@ -49,11 +55,8 @@ void take_powers(Product& product) {
 }
 
 bool has_powers(const Monomial& monomial) {
-    for (const Factor& factor : monomial)
-        if ((factor.atom->kind == Kind::base && factor.exponent >= 1) ||
-            (is_absolute(factor) && factor.exponent >= 2))
-            return true;
-    return false;
+    return std::any_of(monomial.begin(), monomial.end(),
+                       [](const Factor& factor) { return !cln::zerop(whole_power(factor)); });
 }
 
 bool has_negative_lead(const Polynomial& arg) {
@@ -254,7 +257,7 @@ Fourier multiply(const Fourier& a, const Fourier& b, Budget& budget) {
         take_powers(product);
         Fourier value = Fourier::collect({product.term});
         for (const auto& [base, exponent] : product.powers)
-            value = multiply(value, raise(Fourier::collect(base.terms()), exponent, budget), budget);
+            value = multiply(value, power(Fourier::collect(base.terms()), exponent, budget), budget);
         terms.insert(terms.end(), value.terms().begin(), value.terms().end());
     };
     for (std::size_t i = 0; i < left.size(); ++i) {

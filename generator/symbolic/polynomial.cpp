@@ -19,6 +19,14 @@ bool steady(const Polynomial& polynomial) {
     return true;
 }
 
+bool is_primitive(const Polynomial& polynomial) {
+    const Monomial common = common_monomial(polynomial);
+    const bool has_common = std::any_of(common.begin(), common.end(),
+                                        [](const Factor& factor) { return !factor.atom->is_circular(); });
+    return !polynomial.is_zero() && !has_common && content(polynomial) == 1 &&
+           polynomial.terms()[0].coefficient > 0;
+}
+
 int sign(int value) {
     return value < 0 ? -1 : value > 0 ? 1 : 0;
 }
@@ -83,6 +91,7 @@ Atom compound_atom(AtomNode::Kind kind, std::vector<Polynomial> args, std::strin
     node->name = std::move(name);
     node->args = std::move(args);
     node->steady = std::all_of(node->args.begin(), node->args.end(), steady);
+    if (kind == AtomNode::Kind::base) node->primitive = is_primitive(node->args.at(0));
     return node;
 }
 

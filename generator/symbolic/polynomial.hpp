@@ -65,6 +65,7 @@ struct AtomNode {
     std::string name;              ///< of a function, as GiNaC calls it
     std::vector<Polynomial> args;  ///< of a function, sine, cosine; the one polynomial of a base
     bool steady = true;            ///< made of numbers and parameters only
+    bool primitive = true;         ///< a base: without content, sign or monomial to be taken out of whole powers
 
     bool is_circular() const { return kind == Kind::cosine || kind == Kind::sine; }
 };

@@ -27,6 +27,7 @@ struct alembert_solver_table {
     int constants;     ///< k, the numbers `prepare` adds
     int outputs;       ///< length of what `outputs` writes
     int events;        ///< length of what `events` writes
+    int constraints;   ///< m
     const char* scene;        ///< title or file name of the scene
     const char* formulation;  ///< formalism and form, e.g. "lagrange, textbook form"
     const char* const* coordinate_names;
@@ -36,17 +37,22 @@ struct alembert_solver_table {
     const double* parameter_values;  ///< the scene's own values, p of them
     void (*prepare)(double* par);
     void (*rhs)(double t, const double* state, const double* par, double* rate);
-    /// mass: n×n symmetric, forcing: n; M q'' = f.
+    /// mass: n×n symmetric, forcing: n; M q'' = f + Aᵀλ.
     void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
     /// `rate` as from `rhs` at the same t and state; energy: T, V, E, power; jacobi: one number.
     void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
                    double* jacobi);
     void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
     void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    /// position: m, f(q,t) of holonomic constraints, 0 for others; velocity: m, A q' + b; rows: A, m×n row-major.
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    /// λ, m of them: M q'' = f + Aᵀλ.
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
 }  // extern "C"
 
 namespace alembert {
-inline constexpr int abi_version = 1;
+inline constexpr int abi_version = 2;
 }

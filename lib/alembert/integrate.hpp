@@ -53,6 +53,8 @@ struct Options {
     double sample = 0;         ///< time between rows; 0: duration/200
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
     OnStep on_step = {};       ///< may be empty
+    /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
+    std::function<void(double t, double* state)> project = {};
 };
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,

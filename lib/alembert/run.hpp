@@ -84,7 +84,7 @@ private:
         for (long i = 1; i <= count && !ended(); ++i) {
             if (is_over_budget()) return;
             step_.attempt(i == count ? end_ : options_.start + static_cast<double>(i) * options_.step);
-            if (!step_.finish()) return fail_fixed();
+            if (!finish()) return fail_fixed();
             accept();
         }
     }
@@ -107,7 +107,7 @@ private:
                 return fail_underflow(misfit, h);
             step_.attempt(step_.time() + 1.01 * h < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
-            if (misfit <= options_.tolerance && !step_.finish()) misfit = HUGE_VAL;
+            if (misfit <= options_.tolerance && !finish()) misfit = HUGE_VAL;
             if (misfit <= options_.tolerance) {
                 h = control.after_accepted(step_.length(), misfit / options_.tolerance);
                 accept();
@@ -116,6 +116,11 @@ private:
                 ++result_.statistics.rejected;
             }
         }
+    }
+
+    bool finish() {
+        if (options_.project) step_.correct(options_.project);
+        return step_.finish();
     }
 
     /// Rows and events of the step that has just been finished; then its end is the new start.

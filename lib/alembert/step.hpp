@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -94,6 +95,13 @@ public:
             zero += (square + end_state()[i]) * 0;
         }
         return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
+    }
+
+    /// Moves the end of an attempt back to where it belongs (to its constraints); the rate there is made anew.
+    void correct(const std::function<void(double t, double* state)>& project) {
+        project(end_, real(next_));
+        std::fill_n(lanes(next_rest_), blocks_, Lane{});
+        if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
     }
 
     /// The rate at the end, if the estimate did not need it already; false if it is not finite.

@@ -1,0 +1,228 @@
+// Equations of motion of 'cartesian_pendulum': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], then their rates
+//   par    m [kg], l [m], g [m/s^2]
+//   cost   18 operations a right-hand side: 4 additions, 13 multiplications, 1 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &g = par[2];
+
+    // Constants
+    const Real k0 = m * g;
+    const Real k1 = l * l;
+    const Real z0 = Real(1) / m;
+    const Real k2 = Real(2) * z0;
+    const Real k3 = z0 * k0;
+    const Real k4 = Real(0.5) * m;
+    const Real k5 = Real(0.5) * l;
+
+    // Result
+    par[3] = k0;
+    par[4] = k1;
+    par[5] = k2;
+    par[6] = k3;
+    par[7] = k4;
+    par[8] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &m = par[0], &k0 = par[3], &k2 = par[5], &k3 = par[6];
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = Real(2) * x;
+    const Real A0_1 = Real(2) * y;
+    const Real z0 = x_dot * x_dot + y_dot * y_dot;
+    const Real gamma0 = -Real(2) * z0;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z1 = k2 * x;
+    const Real z2 = k2 * y;
+    const Real z3 = Real(1) / (x * z1 + y * z2);
+    const Real z4 = (k0 * z2 - Real(2) * z0) * z3;
+    const Real x_ddot = Real(0.5) * z1 * z4;
+    const Real y_ddot = Real(0.5) * z2 * z4 - k3;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = x_ddot;
+    rate[3] = y_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &k0 = par[3];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = m;
+    forcing[0] = Real(0);
+    forcing[1] = -k0;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[3], &k4 = par[7];
+
+    // Energy
+    const Real T = k4 * (x_dot * x_dot + y_dot * y_dot);
+    const Real V = k0 * y;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[3], &k2 = par[5], &k5 = par[8];
+
+    // Outputs
+    const Real z0 = k2 * y;
+    const Real z1 = Real(1) / (x * k2 * x + y * z0);
+    const Real z2 = (k0 * z0 - Real(2) * (x_dot * x_dot + y_dot * y_dot)) * z1;
+    const Real tension = -Real(2) * k5 * z2;
+
+    // Result
+    out[0] = tension;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k1 = par[4];
+
+    // Result
+    position[0] = x * x - k1 + y * y;
+    velocity[0] = Real(2) * (x * x_dot + y * y_dot);
+    rows[0] = Real(2) * x;
+    rows[1] = Real(2) * y;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k0 = par[3], &k2 = par[5];
+
+    // Multipliers
+    const Real z0 = k2 * y;
+    const Real z1 = Real(1) / (x * k2 * x + y * z0);
+    const Real z2 = (k0 * z0 - Real(2) * (x_dot * x_dot + y_dot * y_dot)) * z1;
+    const Real lambda_rod = Real(0.5) * z2;
+
+    // Result
+    lambda[0] = lambda_rod;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", nullptr};
+constexpr const char* parameter_names[] = { "m", "l", "g", nullptr};
+constexpr const char* output_names[] = { "tension", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 2, 1, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    2, 2, 3, 6, 1, 0, 1, "cartesian_pendulum", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

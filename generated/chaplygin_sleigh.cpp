@@ -1,0 +1,287 @@
+// Equations of motion of 'chaplygin_sleigh': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], phi [rad], then their rates
+//   par    m [kg], J [kg*m^2], a [m]
+//   cost   49 operations a right-hand side: 13 additions, 31 multiplications, 3 divisions, 2 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &J = par[1], &a = par[2];
+
+    // Constants
+    const Real k0 = m * a;
+    const Real M22 = J + m * a * a;
+    const Real k1 = Real(1) / M22;
+    const Real k2 = Real(0.5) * m;
+    const Real k3 = Real(0.5) * M22;
+
+    // Result
+    par[3] = k0;
+    par[4] = M22;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &M22 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Shared terms
+    const Real z0 = k0 * sin_phi;
+
+    // Mass matrix M(q), lower triangle
+    const Real M20 = -z0;
+    const Real M21 = k0 * cos_phi;
+
+    // Forcing f
+    const Real z1 = phi_dot * phi_dot;
+    const Real f0 = M21 * z1;
+    const Real f1 = z0 * z1;
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = -sin_phi;
+    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z2 = k1 * M21;
+    const Real z3 = z0 * z2;
+    const Real z4 = Real(1) / (m - M21 * z2);
+    const Real z5 = z3 * z4;
+    const Real z6 = f0 - f1 * z5;
+    const Real z7 = k1 * z0;
+    const Real z8 = Real(1) / ((m - z0 * z7) - z3 * z5);
+    const Real z9 = z4 * cos_phi;
+    const Real z10 = z3 * z9 + sin_phi;
+    const Real z11 = z10 * z8;
+    const Real z12 = (f1 * z9 - gamma0) - z6 * z11;
+    const Real z13 = z12 / (z9 * cos_phi + z10 * z11);
+    const Real x_ddot = z6 * z8 + z11 * z13;
+    const Real y_ddot = f1 * z4 - z9 * z13 - z5 * x_ddot;
+    const Real phi_ddot = z7 * x_ddot - z2 * y_ddot;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = phi_dot;
+    rate[3] = x_ddot;
+    rate[4] = y_ddot;
+    rate[5] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[2], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &M22 = par[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = k0 * sin_phi;
+    const Real M20 = -z0;
+    const Real M21 = k0 * cos_phi;
+
+    // Forcing f
+    const Real z1 = phi_dot * phi_dot;
+    const Real f0 = M21 * z1;
+    const Real f1 = z0 * z1;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = M20;
+    mass[5] = mass[7] = M21;
+    mass[8] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &k0 = par[3], &k2 = par[6], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Energy
+    const Real z0 = k2 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z1 = k0 * (x_dot * sin_phi - y_dot * cos_phi);
+    const Real T = z0 + phi_dot * (k3 * phi_dot - z1);
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real v = x_dot * cos_phi + y_dot * sin_phi;
+
+    // Result
+    out[0] = v;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = y_dot * cos_phi - x_dot * sin_phi;
+    rows[0] = -sin_phi;
+    rows[1] = cos_phi;
+    rows[2] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = k0 * sin_phi;
+    const Real z1 = k0 * cos_phi;
+    const Real z2 = phi_dot * phi_dot;
+    const Real z3 = z0 * z2;
+    const Real z4 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+    const Real z5 = k1 * z1;
+    const Real z6 = z0 * z5;
+    const Real z7 = Real(1) / (m - z1 * z5);
+    const Real z8 = z6 * z7;
+    const Real z9 = (m - z0 * k1 * z0) - z6 * z8;
+    const Real z10 = z7 * cos_phi;
+    const Real z11 = z6 * z10 + sin_phi;
+    const Real z12 = z11 / z9;
+    const Real z13 = Real(1) / (z10 * cos_phi + z11 * z12);
+    const Real z14 = (z1 * z2 - z3 * z8) * z12;
+    const Real lambda_blade = -z13 * ((z3 * z10 - z4) - z14);
+
+    // Result
+    lambda[0] = lambda_blade;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "phi", nullptr};
+constexpr const char* parameter_names[] = { "m", "J", "a", nullptr};
+constexpr const char* output_names[] = { "v", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 1, 0.5, 0};
+
+constexpr alembert_solver_table table{
+    2, 3, 3, 5, 1, 0, 1, "chaplygin_sleigh", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,360 @@
+// Equations of motion of 'four_bar': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  alpha [rad], beta [rad], gamma [rad], then their rates
+//   par    a [m], b [m], c [m], d [m], m1 [kg], m2 [kg], m3 [kg]
+//   cost   97 operations a right-hand side: 28 additions, 58 multiplications, 3 divisions, 8 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &a = par[0], &b = par[1], &c = par[2], &m1 = par[4], &m2 = par[5], &m3 = par[6];
+
+    // Constants
+    const Real z0 = a * a * (m1 + Real(3) * m2);
+    const Real M00 = (Real(1) / Real(3)) * z0;
+    const Real k0 = Real(0.5) * a * b * m2;
+    const Real z1 = b * b * m2;
+    const Real M11 = (Real(1) / Real(3)) * z1;
+    const Real z2 = c * c * m3;
+    const Real M22 = (Real(1) / Real(3)) * z2;
+    const Real k1 = Real(3) * Real(1) / z1;
+    const Real k2 = Real(3) * Real(1) / z2;
+    const Real k3 = (Real(1) / Real(6)) * z0;
+    const Real k4 = (Real(1) / Real(6)) * z1;
+    const Real k5 = (Real(1) / Real(6)) * z2;
+
+    // Result
+    par[7] = M00;
+    par[8] = k0;
+    par[9] = M11;
+    par[10] = M22;
+    par[11] = k1;
+    par[12] = k2;
+    par[13] = k3;
+    par[14] = k4;
+    par[15] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &M11 = par[9], &M22 = par[10];
+    const Real &k1 = par[11], &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+    const auto [sin_gamma, cos_gamma] = sincos(gamma);
+
+    // Shared terms
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z2 = k0 * sin_phi0;
+    const Real z3 = z2 * z0;
+    const Real f0 = -z3;
+    const Real f1 = z2 * z1;
+
+    // Constraints A q'' = gamma
+    const Real z4 = a * sin_alpha;
+    const Real A0_0 = -z4;
+    const Real z5 = b * sin_beta;
+    const Real A0_1 = -z5;
+    const Real A0_2 = c * sin_gamma;
+    const Real A1_0 = a * cos_alpha;
+    const Real A1_1 = b * cos_beta;
+    const Real z6 = c * cos_gamma;
+    const Real z7 = gamma_dot * gamma_dot;
+    const Real gamma0 = A1_0 * z1 + A1_1 * z0 - z6 * z7;
+    const Real A1_2 = -z6;
+    const Real gamma1 = z4 * z1 + z5 * z0 - A0_2 * z7;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z8 = k1 * M10;
+    const Real z9 = Real(1) / (M00 - M10 * z8);
+    const Real z10 = z3 + f1 * z8;
+    const Real z11 = k1 * z5;
+    const Real z12 = z4 - M10 * z11;
+    const Real z13 = z12 * z9;
+    const Real z14 = k2 * A0_2;
+    const Real z15 = z12 * z13 + (z5 * z11 + A0_2 * z14);
+    const Real z16 = k1 * A1_1;
+    const Real z17 = A1_0 - M10 * z16;
+    const Real z18 = z17 * z9;
+    const Real z19 = k2 * z6;
+    const Real z20 = z12 * z18 + (z5 * z16 + A0_2 * z19);
+    const Real z21 = z17 * z18 + (A1_1 * z16 + z6 * z19);
+    const Real z22 = Real(1) / z21;
+    const Real z23 = z20 * z22;
+    const Real z24 = Real(1) / (z15 - z20 * z23);
+    const Real z25 = (gamma0 + f1 * z11) - z10 * z13;
+    const Real z26 = (gamma1 - f1 * z16) + z10 * z18;
+    const Real z27 = z24 * (z25 + z26 * z23);
+    const Real z28 = z22 * z26 + z23 * z27;
+    const Real z29 = z9 * z10 + z13 * z27 - z18 * z28;
+    const Real alpha_ddot = -z29;
+    const Real z30 = k1 * f1;
+    const Real beta_ddot = z30 - z27 * z11 + z28 * z16 + z8 * z29;
+    const Real gamma_ddot = z27 * z14 - z28 * z19;
+
+    // Result
+    rate[0] = alpha_dot;
+    rate[1] = beta_dot;
+    rate[2] = gamma_dot;
+    rate[3] = alpha_ddot;
+    rate[4] = beta_ddot;
+    rate[5] = gamma_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &M00 = par[7], &k0 = par[8], &M11 = par[9], &M22 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -z0 * beta_dot * beta_dot;
+    const Real f1 = z0 * alpha_dot * alpha_dot;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = M10;
+    mass[4] = M11;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &gamma_dot = state[5];
+    const Real &k0 = par[8], &k3 = par[13], &k4 = par[14], &k5 = par[15];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const Real cos_phi0 = cos(phi0);
+
+    // Energy
+    const Real z0 = k3 * alpha_dot * alpha_dot;
+    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
+    const Real T = z0 + z1 + k4 * beta_dot * beta_dot + k5 * gamma_dot * gamma_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3];
+
+    // Trigonometry
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+    const auto [sin_gamma, cos_gamma] = sincos(gamma);
+
+    // Constraints
+    const Real z0 = a * sin_alpha;
+    const Real z1 = b * sin_beta;
+    const Real z2 = c * sin_gamma;
+    const Real z3 = a * cos_alpha;
+    const Real z4 = b * cos_beta;
+    const Real z5 = c * cos_gamma;
+
+    // Result
+    position[0] = (z3 + z4) - (d + z5);
+    position[1] = (z0 + z1) - z2;
+    velocity[0] = gamma_dot * z2 - alpha_dot * z0 - beta_dot * z1;
+    velocity[1] = alpha_dot * z3 + beta_dot * z4 - gamma_dot * z5;
+    rows[0] = -z0;
+    rows[1] = -z1;
+    rows[2] = z2;
+    rows[3] = z3;
+    rows[4] = z4;
+    rows[5] = -z5;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+    const auto [sin_gamma, cos_gamma] = sincos(gamma);
+
+    // Multipliers
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = k0 * sin_phi0;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = alpha_dot * alpha_dot;
+    const Real z4 = z1 * z3;
+    const Real z5 = a * sin_alpha;
+    const Real z6 = b * sin_beta;
+    const Real z7 = c * sin_gamma;
+    const Real z8 = a * cos_alpha;
+    const Real z9 = b * cos_beta;
+    const Real z10 = c * cos_gamma;
+    const Real z11 = gamma_dot * gamma_dot;
+    const Real z12 = z8 * z3 + z9 * z2 - z10 * z11;
+    const Real z13 = z5 * z3 + z6 * z2 - z7 * z11;
+    const Real z14 = k1 * z0;
+    const Real z15 = Real(1) / (M00 - z0 * z14);
+    const Real z16 = z1 * z2 + z4 * z14;
+    const Real z17 = k1 * z6;
+    const Real z18 = z5 - z0 * z17;
+    const Real z19 = z18 * z15;
+    const Real z20 = z6 * z17 + z7 * k2 * z7;
+    const Real z21 = k1 * z9;
+    const Real z22 = z8 - z0 * z21;
+    const Real z23 = z22 * z15;
+    const Real z24 = k2 * z10;
+    const Real z25 = z18 * z23 + (z6 * z21 + z7 * z24);
+    const Real z26 = z22 * z23 + (z9 * z21 + z10 * z24);
+    const Real z27 = Real(1) / z26;
+    const Real z28 = z25 * z27;
+    const Real z29 = Real(1) / ((z18 * z19 + z20) - z25 * z28);
+    const Real z30 = (z12 + z4 * z17) - z16 * z19;
+    const Real z31 = (z13 - z4 * z21) + z16 * z23;
+    const Real lambda_x = z29 * (z30 + z31 * z28);
+    const Real lambda_y = z27 * z31 + z28 * lambda_x;
+
+    // Result
+    lambda[0] = lambda_x;
+    lambda[1] = lambda_y;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "alpha", "beta", "gamma", nullptr};
+constexpr const char* parameter_names[] = { "a", "b", "c", "d", "m1", "m2", "m3", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 4, 3.5, 3, 1, 2, 1.5, 0};
+
+constexpr alembert_solver_table table{
+    2, 3, 7, 9, 0, 0, 2, "four_bar", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// f(q) = 0 by q ← q − J⁺ f with J = ∂f/∂q over the guesses alone; J⁺ gives the least change (Golub & Van Loan, §5.5).
+#include "analysis/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+constexpr int most_rounds = 100;
+constexpr double allowed = 1e-9;  // of the sum of the sizes of a constraint's terms (scene-language.md)
+
+class Assembly {
+public:
+    Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
+        : start_(start), m_(m), p_(p), rows_(p.nodes_of("row")) {
+        const auto may_move = [&](const std::string& name, bool guess) {
+            return guess && std::none_of(held.begin(), held.end(), [&](const auto& h) { return h.first == name; });
+        };
+        for (int i = 0; i < m.size(); ++i) {
+            if (may_move(m.q[i].get_name(), m.q_is_guess[i])) q_free_.push_back(i);
+            if (may_move(m.q[i].get_name() + "'", m.qdot_is_guess[i])) u_free_.push_back(i);
+        }
+    }
+
+    std::vector<std::string> go() {
+        settle("position", start_.q, q_free_, "");
+        settle("velocity", start_.qdot, u_free_, "'");
+        return std::move(moved_);
+    }
+
+private:
+    /// Sum of the sizes of the terms of a node.
+    double size(int id, const std::vector<double>& value) const {
+        const Node* node = &p_[id];
+        double factor = 1;
+        while (node->is_scaled()) {
+            factor *= std::abs(real_of<double>(node->coefficients[0]));
+            node = &p_[node->args[0]];
+        }
+        double sum = std::abs(real_of<double>(node->number));
+        for (std::size_t k = 0; k < node->args.size(); ++k)
+            sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) * std::abs(value[node->args[k]]);
+        return factor * sum;
+    }
+
+    void settle(const char* group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
+        const std::vector<int> nodes = p_.nodes_of(group);
+        const std::vector<double> before = x;
+        const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(free.size());
+        double former = HUGE_VAL;
+        for (int round = 0; round < most_rounds && n > 0; ++round) {
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd f(m);
+            Eigen::MatrixXd J(m, n);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                f[k] = value[nodes[k]];
+                const bool counts = group[0] == 'v' || m_.constraints[k].position;
+                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = counts ? value[rows_[k * m_.size() + free[j]]] : 0;
+            }
+            const double misfit = f.lpNorm<Eigen::Infinity>();
+            if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
+            former = misfit;
+            Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(f);
+            // Far away a whole step may throw an angle round the circle.
+            if (const double length = step.lpNorm<Eigen::Infinity>(); group[0] == 'p' && length > 1) step /= length;
+            if (!step.allFinite()) break;
+            for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
+        }
+        check(nodes, n > 0);
+        for (const int i : free)
+            if (x[i] != before[i])
+                moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+    }
+
+    void check(const std::vector<int>& nodes, bool guessed) const {
+        const std::vector<double> value = interpret(p_, start_.state());
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const double misfit = std::abs(value[nodes[k]]);
+            if (misfit <= allowed * size(nodes[k], value)) continue;
+            const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
+            if (guessed)
+                throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "
+                                              "let more values move",
+                                       start_.t, start_.q);
+            throw ModelError(what + "; give initial values that obey it, or let some move: guess, rate_guess");
+        }
+    }
+
+    Start& start_;
+    const Mechanism& m_;
+    const Program& p_;
+    std::vector<int> rows_, q_free_, u_free_;
+    std::vector<std::string> moved_;
+};
+
+}  // namespace
+
+std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
+                                  const Overrides& held) {
+    if (mechanism.constraints.empty()) return {};
+    return Assembly(start, mechanism, program, held).go();
+}
+
+}  // namespace alembert

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// An initial state that obeys the constraints: guesses are moved, everything else is checked.
+///
+///     Start start = start_of(mechanism);
+///     const std::vector<std::string> moved = assemble(start, mechanism, program, {});
+
+#include <string>
+#include <vector>
+
+#include "lower/program.hpp"
+#include "lower/start.hpp"
+
+namespace alembert {
+
+/// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least change,
+/// then the guessed rates until all rates obey them; gives a line for each value that moved. Names in `held` stay.
+/// Throws IntegrationError if guesses do not converge, ModelError if a constraint is broken by more than 1e-9 of the
+/// sum of the sizes of its terms and nothing may move.
+std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
+                                  const Overrides& held);
+
+}  // namespace alembert

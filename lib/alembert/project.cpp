@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/project.hpp"
+
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+constexpr int most_rounds = 8;  // Newton's method from the end of an accepted step needs one or two
+
+}  // namespace
+
+Projection::Projection(const Module& module, const std::vector<double>& values)
+    : module_(module),
+      par_(prepared(module, values)),
+      n_(module.table().coordinates),
+      m_(module.table().constraints),
+      position_(m_),
+      velocity_(m_),
+      forcing_(n_),
+      rows_(m_, n_),
+      mass_(n_, n_) {}
+
+void Projection::evaluate(double t, const double* state) {
+    module_.table().constraints_at(t, state, par_.data(), position_.data(), velocity_.data(), rows_.data());
+    module_.table().mass_forcing(t, state, par_.data(), mass_.data(), forcing_.data());
+}
+
+/// M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ misfit
+Eigen::VectorXd Projection::correction(const Eigen::VectorXd& misfit) const {
+    const Eigen::MatrixXd weighted = mass_.ldlt().solve(rows_.transpose());
+    return weighted * (rows_ * weighted).completeOrthogonalDecomposition().solve(misfit);
+}
+
+void Projection::operator()(double t, double* state) {
+    Eigen::Map<Eigen::VectorXd> q(state, n_), u(state + n_, n_);
+    double former = HUGE_VAL;
+    for (int round = 0; round < most_rounds; ++round) {
+        evaluate(t, state);
+        const double size = position_.lpNorm<Eigen::Infinity>();
+        if (!(size > 0) || !(size < former / 2)) break;
+        former = size;
+        const Eigen::VectorXd change = correction(position_);
+        if (!change.allFinite()) return;
+        q -= change;
+    }
+    evaluate(t, state);
+    for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+        const Eigen::VectorXd change = correction(velocity_);
+        if (!change.allFinite()) return;
+        u -= change;
+        evaluate(t, state);
+    }
+}
+
+double Projection::residual(double t, const double* state) {
+    evaluate(t, state);
+    return m_ == 0 ? 0 : std::max(position_.lpNorm<Eigen::Infinity>(), velocity_.lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace alembert
