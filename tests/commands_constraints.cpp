@@ -112,3 +112,34 @@ TEST_CASE("commands: what is wrong with constraints has its message and exit cod
     CHECK(run({"eval", scene("holonomic = \"x^2 + y^2 = 1\""), "--by", "lagrange"}).exit == 3);
     CHECK(run({"eval", scene("holonomic = \"x^2 + y^2 = 1\"")}).exit == 0);
 }
+
+TEST_CASE("commands: redundant constraints are named and left out, and the run goes on") {
+    const std::string scene = temporary("redundant.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = 0.6
+y = 0.8
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[[constraint]]
+name = "circle"
+holonomic = "x^2 + y^2 = 1"
+[[constraint]]
+name = "twice"
+holonomic = "2*x^2 + 2*y^2 = 2"
+[[constraint]]
+name = "rate"
+nonholonomic = "x*x' + y*y'"
+[simulation]
+duration = 2
+)toml");
+    const auto result = run({"simulate", scene, "--json"});
+    CHECK(result.exit == 0);
+    CHECK(result.err.find("constraint 'twice' follows from the others") != std::string::npos);
+    CHECK(result.err.find("constraint 'rate' follows from the others") != std::string::npos);
+    CHECK(result.err.find("circle") == std::string::npos);
+    CHECK(Json::parse(result.out)["energy_drift"].get<double>() < 1e-8);
+    CHECK(run({"derive", source_path("scenes/textbook/four_bar.toml")}).err.empty());
+}

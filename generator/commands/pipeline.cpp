@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "analysis/diagnose.hpp"
+#include "analysis/redundancy.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/routh.hpp"
 
@@ -50,6 +51,14 @@ Derived derived(const Request& request) {
     Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
+    const std::vector<int> redundant = redundant_constraints(mechanism);
+    for (const int k : redundant)
+        std::cerr << describe(scene, {{mechanism.constraints[k].place,
+                                       fmt::format("constraint '{}' follows from the others; its equation is left "
+                                                   "out, and the reactions are those of the others alone",
+                                                   mechanism.constraints[k].name),
+                                       Severity::warning}});
+    mechanism = without_constraints(std::move(mechanism), redundant);
     Equations equations = equations_by(request.by, mechanism);
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }

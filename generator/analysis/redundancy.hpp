@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Constraints that follow from the others: found by the rank of A at states that obey them all.
+///
+///     const std::vector<int> extra = redundant_constraints(mechanism);
+
+#include <vector>
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+/// Positions (in Mechanism::constraints) of those whose row of A is a combination of earlier rows at the initial state
+/// and at eight further states of the constraint variety, sampled near it with a fixed seed. A sampled answer, in
+/// floating point: a row counts as dependent if less than 1e-9 of it is left beside the others. Nothing where the
+/// initial state cannot be assembled.
+std::vector<int> redundant_constraints(const Mechanism& mechanism);
+
+/// The mechanism without these; their multipliers are no unknowns of its equations.
+Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
+
+}  // namespace alembert
