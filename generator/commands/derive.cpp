@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <cctype>
 #include <iostream>
 
 #include "commands/pipeline.hpp"
@@ -22,6 +23,7 @@ struct Block {
 /// How one format writes formulas, left sides of statements, and blocks.
 struct Notation {
     std::string (*phrase)(const Phrase&);
+    std::string (*inline_phrase)(const Phrase&);  ///< for use among words
     std::string (*left)(const Statement&);
     std::string (*page)(const std::vector<Block>&);
 };
@@ -33,13 +35,28 @@ std::string mathml_row(const Phrase& phrase) {
     return whole.substr(begin, end - begin);
 }
 
+constexpr char formula_begins = '\x01', formula_ends = '\x02';  // around LaTeX among words
+
 std::string escaped(const std::string& words, bool xml) {
     std::string result;
+    bool in_formula = false;
     for (const char c : words) {
+        if (c == formula_begins || c == formula_ends) {
+            in_formula = c == formula_begins;
+            result += '$';
+            continue;
+        }
+        if (in_formula) {
+            result += c;
+            continue;
+        }
         if (xml && c == '&') result += "&amp;";
         else if (xml && c == '<') result += "&lt;";
         else if (xml && c == '>') result += "&gt;";
-        else if (!xml && std::string("_&%#$").find(c) != std::string::npos) result += std::string("\\") + c;
+        else if (!xml && std::string("_&%#${}").find(c) != std::string::npos) result += std::string("\\") + c;
+        else if (!xml && c == '^') result += "\\^{}";
+        else if (!xml && c == '~') result += "\\~{}";
+        else if (!xml && c == '\\') result += "\\textbackslash{}";
         else result += c;
     }
     return result;
@@ -87,14 +104,61 @@ std::string text_page(const std::vector<Block>& blocks) {
     return page;
 }
 
+constexpr int line_width = 75;  // letters of a formula that fit on a page
+
+/// Letters that a reader sees, roughly: a command is one, braces are none.
+int visible(const std::string& formula) {
+    int count = 0;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+        if (formula[i] == '\\')
+            while (i + 1 < formula.size() && std::isalpha(static_cast<unsigned char>(formula[i + 1])) != 0) ++i;
+        if (std::string("{}_ ").find(formula[i]) == std::string::npos) ++count;
+    }
+    return count;
+}
+
+/// A long sum over several lines, broken before its outermost signs.
+std::string broken(const std::string& formula) {
+    std::string lines, line;
+    int depth = 0;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+        const char c = formula[i];
+        if (c == '{' || c == '(') ++depth;
+        if (c == '}' || c == ')') --depth;
+        const bool is_sign = depth == 0 && c == ' ' && i + 2 < formula.size() &&
+                             (formula[i + 1] == '+' || formula[i + 1] == '-') && formula[i + 2] == ' ';
+        std::size_t next = i + 2;  // where the term that begins here ends
+        for (int inside = 0; is_sign && next < formula.size(); ++next) {
+            if (formula[next] == '{' || formula[next] == '(') ++inside;
+            if (formula[next] == '}' || formula[next] == ')') --inside;
+            if (inside == 0 && next > i + 3 && formula[next] == ' ' && next + 2 < formula.size() &&
+                (formula[next + 1] == '+' || formula[next + 1] == '-') && formula[next + 2] == ' ')
+                break;
+        }
+        if (is_sign && visible(line) + visible(formula.substr(i, next - i)) > line_width) {
+            lines += line + " \\\\\n  &\\quad ";
+            line.clear();
+            continue;
+        }
+        line += c;
+    }
+    return lines + line;
+}
+
+std::string latex_equality(const std::string& left, const std::string& right) {
+    if (visible(left) + visible(right) <= line_width) return "  " + left + " &= " + right;
+    if (visible(left) > line_width / 2) return "  &" + broken(left + " = " + right);
+    return "  " + left + " &= " + broken(right);
+}
+
 std::string latex_page(const std::vector<Block>& blocks) {
     std::string page;
     for (const Block& block : blocks) {
-        page += escaped(block.words, false) + "\n";
+        page += (page.empty() ? "" : "\n") + escaped(block.words, false) + "\n";
         if (block.equalities.empty()) continue;
         page += "\\begin{align*}\n";
         for (std::size_t i = 0; i < block.equalities.size(); ++i)
-            page += "  " + block.equalities[i].first + " &= " + block.equalities[i].second +
+            page += latex_equality(block.equalities[i].first, block.equalities[i].second) +
                     (i + 1 < block.equalities.size() ? " \\\\\n" : "\n");
         page += "\\end{align*}\n";
     }
@@ -114,9 +178,12 @@ std::string mathml_page(const std::vector<Block>& blocks) {
 }
 
 Notation notation_of(const std::string& format) {
-    if (format == "latex") return {[](const Phrase& p) { return latex(p); }, latex_left, latex_page};
-    if (format == "mathml") return {mathml_row, mathml_left, mathml_page};
-    return {[](const Phrase& p) { return text(p); }, text_left, text_page};
+    const auto plain = [](const Phrase& p) { return text(p); };
+    if (format == "latex")
+        return {[](const Phrase& p) { return latex(p); },
+                [](const Phrase& p) { return formula_begins + latex(p) + formula_ends; }, latex_left, latex_page};
+    if (format == "mathml") return {mathml_row, plain, mathml_left, mathml_page};
+    return {plain, plain, text_left, text_page};
 }
 
 /// The four steps of the book but for the equations themselves.
@@ -127,7 +194,7 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
         return result;
     };
     std::string names;
-    for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + text(q);
+    for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + n.inline_phrase(q);
     const int freedom = shown.degrees_of_freedom;
     std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
                                            freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
@@ -217,8 +284,9 @@ int derive(const Request& request) {
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
-            blocks.push_back({fmt::format("The equation of {} has been divided by {}.", text(shown.coordinates[i]),
-                                          text(*shown.equations[i].divided_by)),
+            blocks.push_back({fmt::format("The equation of {} has been divided by {}.",
+                                          n.inline_phrase(shown.coordinates[i]),
+                                          n.inline_phrase(*shown.equations[i].divided_by)),
                               {}});
     std::cout << n.page(blocks);
     return 0;
