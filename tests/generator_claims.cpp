@@ -76,7 +76,9 @@ TEST_CASE("generator: the hand derivations that textbook scenes carry hold") {
     int claims = 0;
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
-        for (const auto& [claim, misfit] : misfits(read_scene(file))) {
+        for (const auto& found : misfits(read_scene(file))) {
+            const std::string& claim = found.first;
+            const double misfit = found.second;
             CAPTURE(claim);
             // A few dozen roundings in each term; accelerations from a solve with a condition below 10³.
             CHECK(misfit < 1e-11);
