@@ -170,6 +170,18 @@ TEST_CASE("generator: emitted function, interpreter and plain derivatives agree 
     for (const std::string& file : test::scenes_in("scenes/textbook")) agrees(file, true);
 }
 
+TEST_CASE("generator: every node of a program says whose term it is") {
+    for (const std::string& file : test::scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        const Mechanism mechanism = build(read_scene(file));
+        const Program program = choose(mechanism, routh(mechanism)).program;
+        for (int id = 0; id < program.size(); ++id) CHECK_FALSE(program[id].sources.empty());
+        int named = 0;  // more than "the scene"
+        for (const int id : program.needed(program.nodes_of("forcing"))) named += program[id].sources[0] != 0 ? 1 : 0;
+        CHECK(named > 0);
+    }
+}
+
 TEST_CASE("generator: emitted function and interpreter agree on every benchmark scene and on odd ones") {
     for (const char* folder : {"scenes/benchmark", "tests/odd"})
         for (const std::string& file : test::scenes_in(folder)) agrees(file, true);

@@ -27,6 +27,8 @@ struct Equations {
     std::vector<std::vector<GiNaC::ex>> A;  ///< m rows of n
     std::vector<GiNaC::ex> gamma;         ///< m
     std::vector<GiNaC::symbol> lambda;    ///< m
+    /// Whose terms row i holds, as labels; only where no intermediate symbol is left to tell.
+    std::vector<std::vector<std::string>> row_sources;
     std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
 
     int size() const { return static_cast<int>(u.size()); }

@@ -37,6 +37,7 @@ Equations lagrange_operator(const Mechanism& mechanism) {
                         .A = {},
                         .gamma = {},
                         .lambda = {},
+                        .row_sources = {},
                         .z = mechanism.z};
     for (int j = 0; j < n; ++j) {
         // M is symmetric: only the rows from j on.

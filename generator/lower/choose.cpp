@@ -22,6 +22,20 @@ bool make_readable(std::vector<ex*> values, const Mechanism& m) {
     return true;
 }
 
+/// The bodies, springs and loads that depend on coordinate i or its rate.
+std::vector<std::string> sources_of_row(const Mechanism& m, int i) {
+    std::vector<std::string> labels;
+    const auto add = [&](const std::string& label, const ex& value) {
+        if (m.z->depends(value, {m.q[i], m.qdot[i]})) labels.push_back(label);
+    };
+    for (const auto* parts : {&m.kinetic, &m.potential})
+        for (const Part& part : *parts) add(part.label, part.value);
+    if (m.given_lagrangian) labels.emplace_back("[energy] lagrangian");
+    for (const Load& load : m.loads)
+        for (const Load::Pair& pair : load.pairs) add(load.label, pair.velocity);
+    return labels;
+}
+
 std::optional<Equations> textbook_equations(const Mechanism& m, Equations equations) {
     double size = 0;
     for (int i = 0; i < equations.size(); ++i) {
@@ -38,6 +52,7 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
+        equations.row_sources.push_back(sources_of_row(m, i));
     }
     for (std::size_t k = 0; k < equations.A.size(); ++k) {
         for (ex& entry : equations.A[k])

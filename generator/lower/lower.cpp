@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "lower/interpret.hpp"
@@ -114,9 +115,9 @@ private:
 
     int symbol(const GiNaC::symbol& s) {
         if (const Intermediates::Entry* entry = m_.z->find(s)) {
-            program_.set_sources(entry->sources);
+            const std::vector<int> former = program_.set_sources(entry->sources);
             const int node = (*this)(entry->definition);
-            program_.set_sources({});
+            program_.set_sources(former);
             return node;
         }
         const SymbolInfo& info = m_.symbols->info(s);
@@ -193,16 +194,29 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     }
     lowering.lower_definitions(wanted);
 
+    const auto blame_row = [&](int i) {
+        if (equations.row_sources.empty()) return;
+        std::vector<int> sources;
+        for (const std::string& label : equations.row_sources[i]) {
+            const auto found = std::find(program.source_labels.begin(), program.source_labels.end(), label);
+            sources.push_back(static_cast<int>(found - program.source_labels.begin()));
+            if (found == program.source_labels.end()) program.source_labels.push_back(label);
+        }
+        program.set_sources(sources);
+    };
     std::vector<int> mass, forcing;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j) {
+            blame_row(i);
             mass.push_back(lowering(equations.M(i, j)));
             program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
     for (int i = 0; i < n; ++i) {
+        blame_row(i);
         forcing.push_back(lowering(equations.forcing(i)));
         program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
     }
+    program.set_sources({0});
     // [M Aᵀ; A 0] (q'', −λ) = (f, γ)
     const int constraints = static_cast<int>(equations.A.size());
     for (int k = 0; k < constraints; ++k) {

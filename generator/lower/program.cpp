@@ -296,7 +296,7 @@ Program Program::canonical() const {
         }
         result.roots.push_back({root.group, root.name, image[root.node]});
     }
-    result.set_sources({});
+    result.set_sources({0});
     return result;
 }
 

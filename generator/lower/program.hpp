@@ -21,6 +21,7 @@
 #include <span>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace alembert {
@@ -118,8 +119,9 @@ public:
     /// Numbers of nodes are then the same in every run, whatever order they were made in.
     Program canonical() const;
 
-    /// New nodes get these sources from now on (indices into `source_labels`).
-    void set_sources(std::vector<int> sources) { sources_ = std::move(sources); }
+    /// New nodes get these sources from now on (indices into `source_labels`; 0 is the scene as a whole). Gives the
+    /// former ones.
+    std::vector<int> set_sources(std::vector<int> sources) { return std::exchange(sources_, std::move(sources)); }
 
     std::vector<Root> roots;
     std::vector<std::string> source_labels;
@@ -134,7 +136,7 @@ private:
 
     std::vector<Node> nodes_;
     std::unordered_map<std::uint64_t, std::vector<int>> known_;
-    std::vector<int> sources_;
+    std::vector<int> sources_{0};
 };
 
 }  // namespace alembert

@@ -51,7 +51,7 @@ public:
             made_.set_sources(old_[id].sources);
             image_[id] = rebuilt(id);
         }
-        made_.set_sources({});
+        made_.set_sources({0});
         for (const Root& root : old_.roots) made_.roots.push_back({root.group, root.name, image_[root.node]});
         return std::move(made_);
     }
