@@ -53,13 +53,15 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange");
+        sub->add_option("--by", request.by, "formalism: lagrange, routh, kane, dalembert, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
     CLI::App* derive = verb("derive", "print the equations of motion in textbook form", alembert::derive);
     derive->add_option("--format", request.format, "text, latex or mathml")->check(CLI::IsMember({"text", "latex", "mathml"}));
     derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
+
+    verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
 
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
     eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");

@@ -24,6 +24,7 @@ struct Request {
     long budget = 10'000'000;
 };
 
+int agree(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);

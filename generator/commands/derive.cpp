@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "commands/pipeline.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/own_steps.hpp"
 #include "report/derivation.hpp"
 #include "report/latex.hpp"
 #include "report/mathml.hpp"
@@ -215,6 +217,13 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
                                            : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
                       statements(shown.forces)});
+    for (std::size_t k = 0; k < shown.sections.size(); ++k) {
+        const Section& section = shown.sections[k];
+        blocks.push_back({(k == 0 ? "4. " : "") + section.words, statements(section.statements)});
+        for (const auto& [left, right] : section.equalities)
+            blocks.back().equalities.emplace_back(n.phrase(left), n.phrase(right));
+    }
+    if (!shown.sections.empty()) return blocks;
     blocks.push_back({shown.lagrangian ? "4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:"
                                        : "4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:",
                       statements(shown.derivatives)});
@@ -254,7 +263,11 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
 
 int derive(const Request& request) {
     const Derived d = derived(request);
-    const Derivation shown = derivation_of(d.mechanism, d.equations);
+    // First-order equations in momenta are shown beside the energies, not after their elimination.
+    const bool momenta = d.equations.formalism == "hamilton" || d.equations.formalism == "routhian";
+    Derivation shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
+    shown.formalism = d.equations.formalism;
+    show_own_steps(shown, d.mechanism, d.equations);
     if (request.json) {
         std::cout << as_json(shown, d.mechanism).dump(2) << "\n";
         return 0;
@@ -271,8 +284,7 @@ int derive(const Request& request) {
     }
     const bool free = d.mechanism.constraints.empty();
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
-                                  shown.formalism == "routh" ? "Routh's equations with multipliers"
-                                                             : "Lagrange's equations of the second kind",
+                                  shown.title,
                                   !request.by.empty() ? ""
                                   : free              ? "; the coordinates are independent"
                                                       : "; the coordinates are not independent"),

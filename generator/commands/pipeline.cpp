@@ -13,8 +13,7 @@
 
 #include "analysis/diagnose.hpp"
 #include "analysis/redundancy.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/routh.hpp"
+#include "formalism/formalisms.hpp"
 
 namespace alembert {
 
@@ -33,15 +32,8 @@ namespace {
 
 /// The formalism of that name; without one, the one a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
-    using Formalism = Equations (*)(const Mechanism&);
-    static const std::vector<std::pair<std::string, Formalism>> formalisms{{"lagrange", lagrange}, {"routh", routh}};
     const std::string wanted = !name.empty() ? name : mechanism.constraints.empty() ? "lagrange" : "routh";
-    std::string known;
-    for (const auto& [known_name, derive] : formalisms) {
-        if (known_name == wanted) return derive(mechanism);
-        known += (known.empty() ? "" : ", ") + known_name;
-    }
-    throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected one of: {}", name, known));
+    return formalism(wanted).derive(mechanism);
 }
 
 }  // namespace

@@ -191,8 +191,10 @@ private:
     void add_translation(const std::string& label, const std::string& point, const ex& mass) {
         const Vector3 v = places_.velocity(point);
         m_.kinetic.push_back({label, m_.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
+        m_.masses.push_back({.label = label, .mass = mass, .position = places_.position(point), .velocity = v});
         if (!scene_.gravity) return;
         const Vector3 g = places_.vector(*scene_.gravity), r = places_.position(point);
+        m_.gravity = g;
         const ex weight = m_.z->name(-mass * (g[0] * r[0] + g[1] * r[1] + g[2] * r[2]));
         if (!weight.is_zero()) m_.potential.push_back({"gravity on " + label, weight});
     }
@@ -200,7 +202,10 @@ private:
     // ½ ω·I ω with I about the mass centre; if I is about P, less ½ m (v − v_P)², what the transport adds.
     void add_rotation(const Body& b, const ex& mass) {
         if (!b.inertia) return;
-        const Vector3 w = places_.orientation(b.frame.text).angular_velocity();
+        const Orientation& orientation = places_.orientation(b.frame.text);
+        const Vector3 w = orientation.angular_velocity();
+        MassElement::Rotation rotation{
+            .axes = {orientation.axis(0), orientation.axis(1), orientation.axis(2)}, .w_NB_B = w, .inertia = {}};
         ex energy;
         if (b.inertia->planar) {
             if (!w[0].is_zero() || !w[1].is_zero())
@@ -208,9 +213,10 @@ private:
                                     fmt::format("body '{}' turns in space and has one moment of inertia; expected "
                                                 "three, [Ixx, Iyy, Izz], or a tensor",
                                                 b.name.text)}};
-            energy = translator_.scalar(*b.inertia->planar) * w[2] * w[2] / 2;
+            rotation.inertia[2] = translator_.scalar(*b.inertia->planar);
+            energy = rotation.inertia[2] * w[2] * w[2] / 2;
         } else {
-            std::array<ex, 6> I;
+            std::array<ex, 6>& I = rotation.inertia;
             for (int k = 0; k < 6; ++k) I[k] = translator_.scalar(b.inertia->tensor[k]);
             energy = (I[0] * w[0] * w[0] + I[1] * w[1] * w[1] + I[2] * w[2] * w[2]) / 2 + I[3] * w[0] * w[1] +
                      I[4] * w[1] * w[2] + I[5] * w[2] * w[0];
@@ -221,8 +227,7 @@ private:
             };
             const Vector3 r = from_about(places_.position(b.name.text), places_.position(b.about->text));
             const Vector3 d = from_about(places_.velocity(b.name.text), places_.velocity(b.about->text));
-            const Orientation& frame = places_.orientation(b.frame.text);
-            const Vector3 turning = cross(frame.to_inertial(w, *m_.z), r, *m_.z);
+            const Vector3 turning = cross(orientation.to_inertial(w, *m_.z), r, *m_.z);
             for (int k = 0; k < 3; ++k)
                 if (vanishes(d[k] - turning[k], m_) == false)
                     throw SceneMistake{{b.about->place,
@@ -230,7 +235,9 @@ private:
                                                     "only be given about a point that moves with it",
                                                     b.about->text, b.name.text)}};
             energy -= mass / 2 * (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            rotation.about = r;
         }
+        m_.masses.back().rotation = rotation;
         m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});
     }
 
@@ -259,22 +266,30 @@ private:
                     square = pow(length_of(s) - free_length, 2);
                 }
                 m_.potential.push_back({label, m_.z->name(k / 2 * square)});
+                SpringElement spring{.label = label, .stiffness = k, .free_length = free_length};
+                if (s.between)
+                    spring.between = {places_.position(s.between->first.text), places_.position(s.between->second.text)};
+                else
+                    spring.along = length_of(s);
+                m_.springs.push_back(std::move(spring));
             });
         for (std::size_t i = 0; i < scene_.dampers.size(); ++i)
             attempt([&] {
                 const std::string label = fmt::format("damper {}", i + 1);
                 SourceScope source(*m_.z, label);
-                const ex rate = m_.time_derivative({length_of(scene_.dampers[i])})[0];
+                const ex length = length_of(scene_.dampers[i]);
+                const ex rate = m_.time_derivative({length})[0];
                 const ex force = m_.z->name(-translator_.scalar(scene_.dampers[i].constant) * rate);
-                m_.loads.push_back({label, true, {{rate, force}}});
+                m_.loads.push_back({label, true, {{rate, force, length}}});
             });
     }
 
     void add_forces() {
-        const auto add_pairs = [](Load& load, const Vector3& velocity, const Vector3& force, int sign) {
+        const auto add_pairs = [](Load& load, const Vector3& velocity, const Vector3& force, int sign,
+                                  const std::optional<Vector3>& position = {}) {
             for (int k = 0; k < 3; ++k)
                 if (!force[k].is_zero() && !velocity[k].is_zero())
-                    load.pairs.push_back({velocity[k], sign * force[k]});
+                    load.pairs.push_back({velocity[k], sign * force[k], position ? std::optional((*position)[k]) : std::nullopt});
         };
         for (std::size_t i = 0; i < scene_.forces.size(); ++i)
             attempt([&] {
@@ -282,8 +297,9 @@ private:
                 Load load{.label = fmt::format("force {} at {}", i + 1, f.at.text), .pairs = {}};
                 SourceScope source(*m_.z, load.label);
                 const Vector3 F = places_.along(f.vector, f.axes);
-                add_pairs(load, places_.velocity(f.at.text), F, 1);
-                if (f.reaction) add_pairs(load, places_.velocity(f.reaction->text), F, -1);
+                add_pairs(load, places_.velocity(f.at.text), F, 1, places_.position(f.at.text));
+                if (f.reaction)
+                    add_pairs(load, places_.velocity(f.reaction->text), F, -1, places_.position(f.reaction->text));
                 m_.loads.push_back(std::move(load));
             });
         for (std::size_t i = 0; i < scene_.torques.size(); ++i)
@@ -323,7 +339,7 @@ private:
             const std::vector<ex> gradient = m_.z->pull_back({{R, 1}}, m_.qdot);
             Load load{.label = "[dissipation]", .dissipative = true, .pairs = {}};
             for (int i = 0; i < m_.size(); ++i)
-                if (!gradient[i].is_zero()) load.pairs.push_back({m_.qdot[i], -gradient[i]});
+                if (!gradient[i].is_zero()) load.pairs.push_back({m_.qdot[i], -gradient[i], m_.q[i]});
             m_.loads.push_back(std::move(load));
         });
         for (const GeneralizedForce& f : scene_.generalized_forces)
@@ -332,7 +348,7 @@ private:
                 SourceScope source(*m_.z, label);
                 for (int i = 0; i < m_.size(); ++i)
                     if (m_.q[i].get_name() == f.coordinate.text)
-                        m_.loads.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value))}}});
+                        m_.loads.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value)), m_.q[i]}}});
             });
     }
 

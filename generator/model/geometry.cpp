@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rotation by φ about a unit vector a (Rodrigues):  R = cos φ E + (1 − cos φ) a aᵀ + sin φ ã,
 // composition R_NC = R_NB R_BC, addition of angular velocities ω_NC = R_BCᵀ ω_NB + φ' a
-// (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), §1.2 and §2.4).
+// (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2).
 #include "model/geometry.hpp"
 
 namespace alembert {

@@ -35,8 +35,31 @@ struct Load {
     bool dissipative = false;  ///< a damper or Rayleigh's function: a textbook keeps it on the left
     struct Pair {
         GiNaC::ex velocity, force;
+        std::optional<GiNaC::ex> position = {};  ///< whose rate the velocity is, where it is one
     };
     std::vector<Pair> pairs;
+};
+
+/// A particle or a body as Newton and Euler see it, for the formalisms that do not start from T.
+struct MassElement {
+    std::string label;
+    GiNaC::ex mass;
+    Vector3 position, velocity;  ///< of the mass centre
+    struct Rotation {
+        std::array<Vector3, 3> axes;         ///< the body's unit axes, along N
+        Vector3 w_NB_B;                      ///< angular velocity along the body's axes
+        std::array<GiNaC::ex, 6> inertia;    ///< xx yy zz xy yz zx along the body's axes, about the mass centre
+        std::optional<Vector3> about = {};   ///< mass centre minus the point of the body that `inertia` is about, along N
+    };
+    std::optional<Rotation> rotation = {};
+};
+
+/// A spring as forces: between two points, or along an expression.
+struct SpringElement {
+    std::string label;
+    GiNaC::ex stiffness, free_length;
+    std::optional<std::pair<Vector3, Vector3>> between = {};  ///< positions of its ends
+    GiNaC::ex along = 0;
 };
 
 struct Mechanism {
@@ -83,6 +106,9 @@ struct Mechanism {
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;
+    std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
+    std::vector<SpringElement> springs;
+    Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;

@@ -28,8 +28,17 @@ struct Statement {
     Phrase value;
 };
 
+/// What a formalism shows on its own way: words, then equalities.
+struct Section {
+    std::string words;
+    std::vector<Statement> statements = {};
+    std::vector<std::pair<Phrase, Phrase>> equalities = {};
+};
+
 struct Derivation {
     std::string formalism;
+    std::string title;                     ///< "Kane's equations"
+    std::vector<Section> sections;         ///< partial velocities, virtual works, H, R …
     int degrees_of_freedom = 0;
     std::vector<Phrase> coordinates;
     std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Σ (F − m a)·δr = 0  (Zhang & Qin (1-22), (1-44)),   δr = Σ ∂r/∂q_i δq_i.
+// A rigid body's points are r = r_C + Σ ρ_k e_k with its axes e_k; with J_kl = ∫ ρ_k ρ_l dm = ½ tr(I) δ_kl − I_kl
+//   Σ dm a·δr = m r̈_C·δr_C + Σ J_kl ë_k·δe_l.
+#include "formalism/dalembert.hpp"
+
+#include "formalism/elements.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// What moves, and the inertia force on it: −Σ m r̈ in components.
+struct Moving {
+    std::vector<ex> places, accelerations;  ///< accelerations with q'' in them
+    std::vector<std::pair<ex, ex>> pairs;   ///< place, inertia force
+    std::vector<std::array<std::size_t, 2>> couples;
+    std::vector<ex> masses;                 ///< of couples of places: mass·a(first)·δ(second)
+};
+
+Moving moving(const Mechanism& m) {
+    Moving result;
+    Intermediates& z = *m.z;
+    const auto add_vector = [&](const Vector3& r) {
+        result.places.insert(result.places.end(), r.begin(), r.end());
+        return result.places.size() - 3;
+    };
+    const auto couple = [&](std::size_t a, std::size_t b, const ex& mass) {
+        if (mass.is_zero()) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            result.couples.push_back({a + k, b + k});
+            result.masses.push_back(mass);
+        }
+    };
+    for (const MassElement& body : m.masses) {
+        SourceScope source(z, body.label);
+        const std::size_t centre = add_vector(body.position);
+        couple(centre, centre, body.mass);
+        if (!body.rotation) continue;
+        const std::array<ex, 6> I = central_inertia(body, z);
+        const ex half_trace = (I[0] + I[1] + I[2]) / 2;
+        std::array<std::size_t, 3> e;
+        for (int k = 0; k < 3; ++k) e[k] = add_vector(body.rotation->axes[k]);
+        for (int k = 0; k < 3; ++k) {
+            couple(e[k], e[k], z.name(half_trace - I[k]));
+            const ex J = z.name(-I[3 + k]);
+            couple(e[k], e[(k + 1) % 3], J);
+            couple(e[(k + 1) % 3], e[k], J);
+        }
+    }
+    result.accelerations = m.time_derivative(m.time_derivative(result.places));
+    std::vector<GiNaC::exvector> force(result.places.size());
+    for (std::size_t c = 0; c < result.couples.size(); ++c)
+        force[result.couples[c][1]].push_back(-result.masses[c] * result.accelerations[result.couples[c][0]]);
+    for (std::size_t k = 0; k < force.size(); ++k)
+        result.pairs.emplace_back(result.places[k], z.name(GiNaC::add(std::move(force[k]))));
+    return result;
+}
+
+std::vector<ex> work_of_loads(const Mechanism& m, bool dissipative) {
+    std::vector<std::pair<ex, ex>> displaced, turned;
+    for (const Load& load : m.loads)
+        if (load.dissipative == dissipative)
+            for (const Load::Pair& pair : load.pairs)
+                (pair.position ? displaced : turned).emplace_back(pair.position.value_or(pair.velocity), pair.force);
+    const std::vector<ex> a = m.z->pull_back(displaced, m.q), b = m.z->pull_back(turned, m.qdot);
+    std::vector<ex> result;
+    for (int i = 0; i < m.size(); ++i) result.push_back(m.z->name(a[i] + b[i]));
+    return result;
+}
+
+}  // namespace
+
+VirtualWork virtual_work(const Mechanism& m) {
+    check_masses_known(m, "d'Alembert's equations");
+    std::vector<std::pair<ex, ex>> pairs;
+    for (const PlacedForce& force : conservative_forces(m)) pairs.emplace_back(force.place, force.force);
+    const std::vector<ex> known = m.z->pull_back(pairs, m.q), rest = potential_without_forces(m);
+    VirtualWork work{.conservative = {},
+                     .dissipative = work_of_loads(m, true),
+                     .applied = work_of_loads(m, false),
+                     .inertia = m.z->pull_back(moving(m).pairs, m.q)};
+    for (int i = 0; i < m.size(); ++i) work.conservative.push_back(m.z->name(known[i] + rest[i]));
+    return work;
+}
+
+Equations dalembert(const Mechanism& m) {
+    const VirtualWork work = virtual_work(m);
+    Intermediates& z = *m.z;
+    const int n = m.size();
+    Equations equations = equations_without_terms("dalembert", m);
+    equations.dissipative = work.dissipative;
+    equations.applied = work.applied;
+    // The work of inertia forces is linear in q'': its part with q'' is −M q'', the rest is what it is at q'' = 0.
+    GiNaC::exmap still;
+    for (const GiNaC::symbol& a : m.qddot) still[a] = 0;
+    for (int j = 0; j < n; ++j) {
+        const std::vector<ex> column = z.push_forward(work.inertia, {{m.qddot[j], -1}});
+        for (int i = 0; i < n; ++i) equations.M(i, j) = column[i];
+    }
+    const std::vector<ex> rest = substitute(z, work.inertia, still);
+    for (int i = 0; i < n; ++i) equations.own.push_back(z.name(work.conservative[i] + rest[i]));
+    attach_constraints(m, equations);
+    return equations;
+}
+
+std::vector<ex> rest_conditions(const Mechanism& m, const Equations& equations) {
+    GiNaC::exmap still;
+    for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+    std::vector<ex> conditions;
+    for (int i = 0; i < m.size(); ++i) conditions.push_back(equations.forcing(i));
+    return substitute(*m.z, conditions, still);
+}
+
+}  // namespace alembert

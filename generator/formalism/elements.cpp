@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Force of a spring on its end P₂:  −k (1 − d₀/|d|) d,   d = r₂ − r₁, and the opposite on P₁.
+// Steiner (Zhang & Qin, chapter 2):  I_C = I_P − m (d·d E − d dᵀ),   d from P to C along the body's axes.
+#include "formalism/elements.hpp"
+
+#include <fmt/format.h>
+
+#include "model/geometry.hpp"
+#include "report/readable.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
+    Intermediates& z = *m.z;
+    std::vector<PlacedForce> forces;
+    const auto push = [&](const std::string& label, const Vector3& place, const Vector3& force) {
+        for (int k = 0; k < 3; ++k)
+            if (!force[k].is_zero()) forces.push_back({label, place[k], force[k]});
+    };
+    for (const MassElement& body : m.masses)
+        push("gravity on " + body.label, body.position, scale(body.mass, m.gravity, z));
+    for (const SpringElement& spring : m.springs) {
+        if (!spring.between) {
+            forces.push_back({spring.label, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
+            continue;
+        }
+        const auto& [first, second] = *spring.between;
+        const Vector3 d = add(second, scale(-1, first, z), z);
+        const ex pull = spring.free_length.is_zero()
+                            ? spring.stiffness
+                            : z.name(spring.stiffness * (1 - spring.free_length / norm(d, z)));
+        push(spring.label, second, scale(-pull, d, z));
+        push(spring.label, first, scale(pull, d, z));
+    }
+    return forces;
+}
+
+std::vector<ex> potential_without_forces(const Mechanism& m) {
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Part& part : m.potential)
+        if (part.label == "[energy] potential") targets.emplace_back(part.value, -1);
+    return m.z->pull_back(targets, m.q);
+}
+
+std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
+    std::array<ex, 6> I = body.rotation->inertia;
+    if (!body.rotation->about) return I;
+    Vector3 d;
+    for (int k = 0; k < 3; ++k) d[k] = dot(body.rotation->axes[k], *body.rotation->about, z);
+    for (int k = 0; k < 3; ++k) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        I[k] = z.name(I[k] - body.mass * (d[next] * d[next] + d[last] * d[last]));
+        I[3 + k] = z.name(I[3 + k] + body.mass * d[k] * d[next]);
+    }
+    return I;
+}
+
+void check_masses_known(const Mechanism& m, const std::string& who) {
+    if (m.size() == 0) throw ModelError(who + " need at least one coordinate; the scene has none");
+    const bool kinetic = !m.kinetic.empty() && m.kinetic.back().label == "[energy] kinetic";
+    if (!kinetic && !m.given_lagrangian) return;
+    throw ModelError(fmt::format("{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
+                                 "use --by lagrange, or give the scene its particles and bodies",
+                                 who, kinetic ? "kinetic" : "lagrangian"));
+}
+
+std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, const GiNaC::exmap& by) {
+    GiNaC::exmap full = by;
+    const auto options = GiNaC::subs_options::no_pattern;
+    // Only what the values need; definitions refer to earlier ones only.
+    std::vector<char> needed(z.entries().size(), 0);
+    const auto mark = [&](const ex& e) {
+        std::vector<ex> stack{e};
+        while (!stack.empty()) {
+            const ex top = stack.back();
+            stack.pop_back();
+            for (const ex& part : top) stack.push_back(part);
+            if (!GiNaC::is_a<GiNaC::symbol>(top)) continue;
+            if (const auto* entry = z.find(GiNaC::ex_to<GiNaC::symbol>(top))) needed[entry - z.entries().data()] = 1;
+        }
+    };
+    for (const ex& value : values) mark(value);
+    for (std::size_t k = needed.size(); k-- > 0;)
+        if (needed[k] != 0) mark(z.entries()[k].definition);
+    for (std::size_t k = 0; k < needed.size(); ++k) {
+        if (needed[k] == 0) continue;
+        const ex symbol = z.entries()[k].symbol, definition = z.entries()[k].definition;
+        const ex replaced = definition.subs(full, options);
+        if (!replaced.is_equal(definition)) full[symbol] = z.name(replaced);
+    }
+    std::vector<ex> result;
+    for (const ex& value : values) result.push_back(z.name(value.subs(full, options)));
+    return result;
+}
+
+ex short_form(const ex& e, const Mechanism& m) {
+    if (m.z->tree_size(e) > 3000) return e;
+    const auto f = fourier(m.z->expand(e), *m.symbols, 200);
+    return f && f->size() <= 20 ? m.z->name(expression(readable(*f))) : e;
+}
+
+Equations equations_without_terms(const std::string& formalism, const Mechanism& m) {
+    Equations equations;
+    equations.formalism = formalism;
+    equations.q = m.q;
+    equations.u = m.qdot;
+    equations.udot = m.qddot;
+    equations.M = GiNaC::matrix(m.size(), m.size());
+    equations.z = m.z;
+    return equations;
+}
+
+void attach_constraints(const Mechanism& m, Equations& equations) {
+    for (const Mechanism::Constraint& constraint : m.constraints) {
+        equations.A.push_back(constraint.row);
+        equations.gamma.push_back(constraint.acceleration);
+        equations.lambda.push_back(constraint.multiplier);
+    }
+}
+
+}  // namespace alembert

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "formalism/formalisms.hpp"
+
+#include <fmt/format.h>
+
+#include "formalism/dalembert.hpp"
+#include "formalism/hamilton.hpp"
+#include "formalism/kane.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/routh.hpp"
+#include "formalism/routhian.hpp"
+
+namespace alembert {
+
+const std::vector<Formalism>& formalisms() {
+    static const std::vector<Formalism> all{
+        {"lagrange", "Lagrange's equations of the second kind", lagrange},
+        {"routh", "Routh's equations with multipliers", routh},
+        {"kane", "Kane's equations", kane},
+        {"dalembert", "the general equation of dynamics", dalembert},
+        {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
+        {"routhian", "Routh's procedure, the momenta eliminated", routhian},
+    };
+    return all;
+}
+
+const Formalism& formalism(const std::string& name) {
+    std::string known;
+    for (const Formalism& f : formalisms()) {
+        if (f.name == name) return f;
+        known += (known.empty() ? "" : ", ") + f.name;
+    }
+    throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected one of: {}", name, known));
+}
+
+}  // namespace alembert

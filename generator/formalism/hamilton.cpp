@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// q̇ = ∂H/∂p,   ṗ = −∂H/∂q + Q,   H(q,p,t) = Σ p q̇ − L  (Goldstein, Classical Mechanics (1980), chapter 8).
+// L = ½ q̇ᵀ M q̇ + bᵀ q̇ + L₀ gives  p = M q̇ + b,   H = ½ (p − b)ᵀ M⁻¹ (p − b) − L₀.
+// Elimination of p: M q̈ = −∂H/∂q |_{p = ∂L/∂q̇} + Q − (∂p/∂q) q̇ − ∂p/∂t.
+#include "formalism/hamilton.hpp"
+
+#include "formalism/elements.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+std::vector<ex> solve_named(const GiNaC::matrix& M, std::vector<ex> x, const Mechanism& m) {
+    Intermediates& z = *m.z;
+    const int n = static_cast<int>(x.size());
+    GiNaC::matrix L = M;
+    std::vector<ex> inverse(n);
+    for (int k = 0; k < n; ++k) {
+        if (is_identically_zero(L(k, k), m))
+            throw ModelError("the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
+                             "a mass, or use --by lagrange");
+        inverse[k] = z.name(1 / L(k, k));
+        for (int i = k + 1; i < n; ++i) {
+            if (L(i, k).is_zero()) continue;
+            const ex factor = z.name(L(i, k) * inverse[k]);
+            for (int j = k + 1; j <= i; ++j) L(i, j) = z.name(L(i, j) - factor * L(j, k));
+            x[i] = z.name(x[i] - factor * x[k]);
+        }
+    }
+    for (int k = n - 1; k >= 0; --k) {
+        GiNaC::exvector rest{x[k]};
+        for (int i = k + 1; i < n; ++i) rest.push_back(-L(i, k) * x[i]);
+        x[k] = z.name(GiNaC::add(std::move(rest)) * inverse[k]);
+    }
+    return x;
+}
+
+Canonical canonical(const Mechanism& m) {
+    const int n = m.size();
+    if (n == 0) throw ModelError("Hamilton's equations need at least one coordinate; the scene has none");
+    if (!m.constraints.empty())
+        throw ModelError("Hamilton's equations need independent coordinates, and the scene has constraints; use --by routh");
+    Intermediates& z = *m.z;
+    const ex L = m.lagrangian();
+    Canonical c{.p = {}, .momenta = z.pull_back({{L, 1}}, m.qdot), .M = GiNaC::matrix(n, n), .H = 0, .qdot = {}, .pdot = {}, .force = {}};
+    for (int j = 0; j < n; ++j) {
+        const std::vector<ex> column = z.push_forward(c.momenta, {{m.qdot[j], 1}});
+        for (int i = 0; i < n; ++i) {
+            c.M(i, j) = short_form(column[i], m);
+            for (const ex& third : z.push_forward({column[i]}, {{m.qdot[j], 1}}))
+                if (z.depends(column[i], m.qdot) && !is_identically_zero(third, m))
+                    throw ModelError("Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
+                                     "is not; use --by lagrange");
+        }
+    }
+    GiNaC::exmap still, rates;
+    for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+    for (int i = 0; i < n; ++i) {
+        const std::string name = "p_" + m.q[i].get_name();
+        GiNaC::symbol p;
+        for (const GiNaC::symbol& known : m.symbols->all())
+            if (m.symbols->info(known).kind == SymbolInfo::Kind::other && known.get_name() == name) p = known;
+        if (p.get_name() != name) p = m.symbols->declare(name, SymbolInfo::Kind::other, i);
+        c.p.push_back(p);
+    }
+    std::vector<ex> at_rest = c.momenta;
+    at_rest.push_back(L);
+    at_rest = substitute(z, at_rest, still);
+    for (ex& value : at_rest) value = short_form(value, m);
+    std::vector<ex> w;
+    for (int i = 0; i < n; ++i) w.push_back(z.name(c.p[i] - at_rest[i]));
+    const std::vector<ex> y = solve_named(c.M, w, m);
+    GiNaC::exvector H{-at_rest[n]};
+    for (int i = 0; i < n; ++i) H.push_back(w[i] * y[i] / 2);
+    c.H = short_form(z.name(GiNaC::add(std::move(H))), m);
+
+    c.qdot = z.pull_back({{c.H, 1}}, c.p);
+    c.force = z.pull_back({{c.H, -1}}, m.q);
+    for (int i = 0; i < n; ++i) rates[m.qdot[i]] = c.qdot[i];
+    const std::vector<ex> damping = m.generalized_forces(true), applied = m.generalized_forces(false);
+    for (int i = 0; i < n; ++i) c.pdot.push_back(z.name(c.force[i] + damping[i] + applied[i]));
+    c.pdot = substitute(z, c.pdot, rates);
+    return c;
+}
+
+Equations hamilton(const Mechanism& m) {
+    const Canonical c = canonical(m);
+    Intermediates& z = *m.z;
+    GiNaC::exmap momenta;
+    for (int i = 0; i < m.size(); ++i) momenta[c.p[i]] = c.momenta[i];
+    const std::vector<ex> force = substitute(z, c.force, momenta);
+    const std::vector<ex> pdot = m.time_derivative_without_acceleration(c.momenta);
+    Equations equations = equations_without_terms("hamilton", m);
+    equations.M = c.M;
+    equations.dissipative = m.generalized_forces(true);
+    equations.applied = m.generalized_forces(false);
+    for (int i = 0; i < m.size(); ++i) equations.own.push_back(z.name(force[i] - pdot[i]));
+    return equations;
+}
+
+
+}  // namespace alembert

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Kane's equations: partial velocities, generalized active and inertia forces.
+///
+///     const Equations equations = kane(build(scene));
+///
+/// A route of its own: neither T nor the gradient of V is used. ([energy] potential alone, of which no force is known,
+/// enters as −∂V/∂q.) The speeds are the rates, u = q'; constraints enter with their multipliers.
+
+#include "formalism/equations.hpp"
+
+namespace alembert {
+
+/// What Kane & Levinson's procedure shows on the way.
+struct PartialVelocities {
+    struct Of {
+        std::string label;
+        std::vector<Vector3> velocity, angular;  ///< for each speed: ∂v/∂u_r along N, ∂ω/∂u_r along the body's axes
+    };
+    std::vector<Of> bodies;
+};
+PartialVelocities partial_velocities(const Mechanism& mechanism);
+
+/// F_r + F*_r = 0 (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapter 6). Throws ModelError for a scene without
+/// coordinates and for one with [energy] kinetic or lagrangian: its velocities are not known.
+Equations kane(const Mechanism& mechanism);
+
+}  // namespace alembert

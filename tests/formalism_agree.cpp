@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Every formalism, by its own route, gives the same accelerations on every scene: numerically at random states, and exactly
+// modulo a prime. A formalism with one wrong entry is refuted.
+#include <doctest/doctest.h>
+
+#include <chrono>
+
+#include "analysis/agree.hpp"
+#include "formalism/dalembert.hpp"
+#include "formalism/kane.hpp"
+#include "formalism/lagrange.hpp"
+#include "lower/lower.hpp"
+#include "lower/modular.hpp"
+#include "scenes.hpp"
+
+using namespace alembert;
+using GiNaC::ex;
+
+namespace {
+
+std::vector<std::string> all_scenes() {
+    std::vector<std::string> files;
+    for (const char* folder : {"scenes/textbook", "tests/odd"})
+        for (const std::string& file : test::scenes_in(folder)) files.push_back(file);
+    return files;
+}
+
+/// The largest residual of b's rows M u' = f at a's accelerations and multipliers, over the row's largest term.
+void check_numerically(const Mechanism& m, const Equations& a, const Equations& b) {
+    CAPTURE(a.formalism);
+    CAPTURE(b.formalism);
+    const Energy energy = energy_of(m);
+    const Program first = lower(m, a, energy), second = lower(m, b, energy);
+    const Start start = start_of(m);
+    const unsigned seed = 20040108;
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    int compared = 0;
+    for (int k = 0; k < 32; ++k) {
+        const State<double> at = test::random_state(start, random);
+        const State<long double> state{.parameters = {at.parameters.begin(), at.parameters.end()},
+                                       .t = at.t,
+                                       .q = {at.q.begin(), at.q.end()},
+                                       .qdot = {at.qdot.begin(), at.qdot.end()},
+                                       .qddot = {}};
+        const auto x = interpret(first, state), y = interpret(second, state);
+        const auto group = [](const Program& p, const std::vector<long double>& value, const char* name) {
+            std::vector<long double> result;
+            for (const int id : p.nodes_of(name)) result.push_back(value[id]);
+            return result;
+        };
+        const auto u = group(first, x, "acceleration"), lambda = group(first, x, "multiplier");
+        const auto M = group(second, y, "mass"), f = group(second, y, "forcing"), A = group(second, y, "row");
+        if (u.empty() || !std::all_of(u.begin(), u.end(), [](long double v) { return std::isfinite(v); })) continue;
+        ++compared;
+        const std::size_t n = u.size();
+        // Terms inside f that cancel are as large as f elsewhere: the largest term of all rows.
+        long double largest = 1e-300L, worst = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            long double sum = -f[i];
+            largest = std::max(largest, std::abs(f[i]));
+            for (std::size_t j = 0; j < n; ++j) {
+                const long double term = M[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)] * u[j];
+                sum += term;
+                largest = std::max(largest, std::abs(term));
+            }
+            for (std::size_t r = 0; r < lambda.size(); ++r) {
+                sum -= A[r * n + i] * lambda[r];
+                largest = std::max(largest, std::abs(A[r * n + i] * lambda[r]));
+            }
+            worst = std::max(worst, std::abs(sum));
+        }
+        CHECK(worst <= 1e-11L * largest);
+    }
+    CHECK(compared > 0);
+}
+
+}  // namespace
+
+TEST_CASE("formalisms: all that apply give the same accelerations at random states") {
+    for (const std::string& file : all_scenes()) {
+        CAPTURE(file);
+        const Mechanism mechanism = build(read_scene(file));
+        const Derivations all = derive_all(mechanism);
+        REQUIRE(!all.equations.empty());
+        for (std::size_t k = 1; k < all.equations.size(); ++k)
+            check_numerically(mechanism, all.equations[0], all.equations[k]);
+    }
+}
+
+TEST_CASE("agree: every scene is proved, in less than a second") {
+    for (const std::string& file : all_scenes()) {
+        CAPTURE(file);
+        const auto start = std::chrono::steady_clock::now();
+        const Mechanism mechanism = build(read_scene(file));
+        const Derivations all = derive_all(mechanism);
+        if (all.equations.size() < 2) continue;
+        const Agreement result = agree(all.equations, mechanism);
+        CAPTURE(result.reason);
+        CHECK(result.verdict == Agreement::Verdict::proved);
+        CHECK(result.failure <= -60);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        // The promise is for a release build on a quiet machine; a sanitizer costs ten times as much.
+        WARN(seconds < 1);
+        CHECK(seconds < 20);
+    }
+}
+
+TEST_CASE("agree: a formalism with one wrong entry is refuted") {
+    for (const std::string& file : test::scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        const Mechanism m = build(read_scene(file));
+        const Derivations all = derive_all(m);
+        const Equations& right = all.equations[0];
+        for (int kind = 0; kind < 3; ++kind) {
+            CAPTURE(kind);
+            Equations wrong = right;
+            wrong.formalism = "wrong";
+            if (kind == 0) wrong.M(0, 0) = m.z->name(wrong.M(0, 0) * (1 + m.q[0] * m.q[0]));
+            if (kind == 1) wrong.own[0] = m.z->name(wrong.own[0] + m.qdot[0]);
+            if (kind == 2) wrong.applied.back() = m.z->name(wrong.applied.back() + sin(m.q.back()) / 1000);
+            CHECK(agree({right, wrong}, m).verdict == Agreement::Verdict::refuted);
+        }
+    }
+}
+
+TEST_CASE("kane and dalembert: refuse energies that belong to no body, and say why") {
+    const Mechanism m = build(read_scene(test::source_path("tests/odd/kinetic.toml")));
+    CHECK_THROWS_WITH_AS(kane(m), doctest::Contains("[energy] kinetic"), ModelError);
+    CHECK_THROWS_WITH_AS(dalembert(m), doctest::Contains("[energy] kinetic"), ModelError);
+}
+
+TEST_CASE("dalembert: the governor's condition of rest is equation (20)") {
+    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/watt_governor.toml")));
+    const ex condition = rest_conditions(m, dalembert(m))[0];
+    const auto parameter = [&](const char* name) -> ex {
+        for (const Mechanism::Parameter& p : m.parameters)
+            if (p.symbol.get_name() == name) return p.symbol;
+        throw std::out_of_range(name);
+    };
+    const ex alpha = m.q[0], mass = parameter("m"), l = parameter("l"), Omega = parameter("Omega");
+    const ex expected = 2 * l * sin(alpha) * (mass * l * Omega * Omega * cos(alpha) - (mass + parameter("M")) * parameter("g"));
+    CHECK(vanishes(condition - expected, m) == true);
+}
+
+TEST_CASE("modular: arithmetic modulo 2^61 - 1") {
+    const Prime a = 1234567890123456789, b = -42;
+    CHECK(a * a.inverse() == Prime(1));
+    CHECK(a + b - a == b);
+    CHECK((b * b).root() * (b * b).root() == b * b);
+    CHECK((b * b).root().is_square());
+    CHECK(*Prime::from(Rational(1) / 3) * 3 == Prime(1));
+    const Turn z = Turn::rational(17);
+    CHECK(z.cos * z.cos + z.sin * z.sin == Prime(1));
+    CHECK(z.power(std::uint64_t{1} << 61).cos == Prime(1));  // the order of the circle's group
+}
+
+TEST_CASE("modular: identities of angles, roots and exponentials hold, and false ones do not") {
+    Program p;
+    const int x = p.variable({Variable::Kind::coordinate, 0}), y = p.variable({Variable::Kind::coordinate, 1});
+    const auto of = [&](Op op, const Rational& c, int arg) { return p.call(op, {p.sum(0, {{c, arg}})}); };
+    const auto times = [&](int a, int b) { return p.product(1, {{a, 1}, {b, 1}}); };
+    const int sum = p.sum(0, {{1, x}, {1, y}});
+    const std::vector<std::pair<int, int>> equal{
+        {p.call(Op::sin, {sum}), p.sum(0, {{1, times(of(Op::sin, 1, x), of(Op::cos, 1, y))}, {1, times(of(Op::cos, 1, x), of(Op::sin, 1, y))}})},
+        {of(Op::sin, 1, x), p.sum(0, {{2, times(of(Op::sin, Rational(1) / 2, x), of(Op::cos, Rational(1) / 2, x))}})},
+        {of(Op::cos, 1, x), p.sum(0, {{4, p.product(1, {{of(Op::cos, Rational(1) / 3, x), 3}})}, {-3, of(Op::cos, Rational(1) / 3, x)}})},
+        {p.call(Op::sqrt, {p.product(1, {{x, 2}})}), p.call(Op::abs, {x})},
+        {p.call(Op::exp, {sum}), times(p.call(Op::exp, {x}), p.call(Op::exp, {y}))},
+        {p.call(Op::sin, {p.sum(0, {{1, x}, {Rational(1) / 2, p.pi()}})}), of(Op::cos, 1, x)},
+    };
+    const std::vector<std::pair<int, int>> different{
+        {p.call(Op::sin, {sum}), p.sum(0, {{1, of(Op::sin, 1, x)}, {1, of(Op::sin, 1, y)}})},
+        {p.call(Op::sqrt, {p.product(1, {{x, 2}})}), x},
+        {of(Op::sin, 1, x), x},
+    };
+    std::vector<int> roots;
+    for (const auto* list : {&equal, &different})
+        for (const auto& [a, b] : *list) roots.insert(roots.end(), {a, b});
+    std::vector<int> seen_different(different.size(), 0);
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        const ModularPoint point{.seed = seed};
+        const auto at = evaluate_mod(p, point, roots);
+        REQUIRE(at);
+        for (const auto& [a, b] : equal) CHECK(at->value[a] == at->value[b]);
+        for (std::size_t k = 0; k < different.size(); ++k)
+            seen_different[k] += at->value[different[k].first] != at->value[different[k].second];
+    }
+    for (const int count : seen_different) CHECK(count > 0);
+}
