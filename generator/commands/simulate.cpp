@@ -124,6 +124,8 @@ State<double> state_of(const Start& start, const Failure& failure) {
 
 int simulate(const Request& request) {
     const Derived d = derived(request);
+    if (!d.mechanism.unilateral.empty())
+        throw ModelError(fmt::format("simulate does not follow [[unilateral]] '{}' yet", d.mechanism.unilateral[0].gap.name));
     double clock = process_seconds();
     const auto lap = [&clock] {
         const double before = clock;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "model/constraint.hpp"
 #include "model/energy.hpp"
 #include "model/parameter_values.hpp"
 #include "model/places.hpp"
@@ -356,54 +357,43 @@ private:
     void add_constraints() {
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
+        for (std::size_t k = 0; k < scene_.unilateral.size(); ++k)
+            attempt([&] { add_unilateral(scene_.unilateral[k], static_cast<int>(scene_.constraints.size() + k)); });
     }
 
     void add_constraint(const ConstraintRule& rule, int index) {
-        Intermediates& z = *m_.z;
-        SourceScope source(z, "constraint " + rule.name.text);
+        SourceScope source(*m_.z, "constraint " + rule.name.text);
         const std::string multiplier = rule.multiplier ? rule.multiplier->text : "lambda_" + rule.name.text;
-        const ex value = z.name(translator_.scalar(rule.equation.lhs) - translator_.scalar(rule.equation.rhs));
-        Mechanism::Constraint made{.name = rule.name.text,
-                                   .holonomic = rule.holonomic,
-                                   .position = {},
-                                   .row = {},
-                                   .drift = 0,
-                                   .acceleration = 0,
-                                   .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
-                                   .place = rule.name.place};
-        ex velocity = value;
-        if (rule.holonomic) {
-            made.position = value;
-            made.row = z.pull_back({{value, 1}}, m_.q);
-            made.drift = m_.explicit_time_derivative({value})[0];
-            velocity = m_.time_derivative({value})[0];
-        } else {
-            made.row = z.pull_back({{value, 1}}, m_.qdot);
-            GiNaC::exvector rest{value};
-            for (int i = 0; i < m_.size(); ++i) {
-                if (z.depends(made.row[i], m_.qdot) && is_nonlinear(made.row[i]))
-                    throw SceneMistake{{rule.equation.lhs.place(),
-                                        fmt::format("constraint '{}' is not linear in the rates; expected a sum of "
-                                                    "coefficients times rates",
-                                                    rule.name.text)}};
-                rest.push_back(-made.row[i] * m_.qdot[i]);
-            }
-            made.drift = z.name(GiNaC::add(std::move(rest)));
-            if (is_identically_zero(made.drift, m_)) made.drift = 0;
-        }
-        if (std::all_of(made.row.begin(), made.row.end(), [](const ex& e) { return e.is_zero(); }))
-            throw SceneMistake{{rule.equation.lhs.place(),
-                                fmt::format("constraint '{}' contains no {}", rule.name.text,
-                                            rule.holonomic ? "coordinate" : "rate")}};
-        made.acceleration = z.name(-m_.time_derivative_without_acceleration({velocity})[0]);
-        translator_.know(multiplier, made.multiplier);
-        m_.constraints.push_back(std::move(made));
+        m_.constraints.push_back(
+            constraint_of({.name = rule.name.text,
+                           .holonomic = rule.holonomic,
+                           .value = translator_.scalar(rule.equation.lhs) - translator_.scalar(rule.equation.rhs),
+                           .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
+                           .place = rule.name.place,
+                           .at = rule.equation.lhs.place()},
+                          m_));
+        translator_.know(multiplier, m_.constraints.back().multiplier);
     }
 
-    bool is_nonlinear(const ex& coefficient) {
-        for (const ex& slope : m_.z->pull_back({{coefficient, 1}}, m_.qdot))
-            if (!is_identically_zero(slope, m_)) return true;
-        return false;
+    // gap(q,t) ≥ 0
+    void add_unilateral(const UnilateralRule& rule, int index) {
+        SourceScope source(*m_.z, "unilateral " + rule.name.text);
+        const std::string multiplier = "lambda_" + rule.name.text;
+        const double restitution = number_at(rule.restitution);
+        if (!(restitution >= 0 && restitution <= 1))
+            throw SceneMistake{{rule.restitution.place(),
+                                fmt::format("the restitution of '{}' is {}; expected a number from 0 (the bodies stay "
+                                            "together) to 1 (no energy is lost)",
+                                            rule.name.text, restitution)}};
+        m_.unilateral.push_back({.gap = constraint_of({.name = rule.name.text,
+                                                       .holonomic = true,
+                                                       .value = translator_.scalar(rule.gap),
+                                                       .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
+                                                       .place = rule.name.place,
+                                                       .at = rule.gap.place()},
+                                                      m_),
+                                 .restitution = m_.z->name(translator_.scalar(rule.restitution))});
+        translator_.know(multiplier, m_.unilateral.back().gap.multiplier);
     }
 
     void add_outputs() {

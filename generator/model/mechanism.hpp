@@ -91,6 +91,12 @@ struct Mechanism {
         Place place;
     };
 
+    /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
+    struct Unilateral {
+        Constraint gap;
+        GiNaC::ex restitution;  ///< relative speed after an impact over the one before, 0 to 1; in parameters
+    };
+
     std::string name;   ///< of the scene's file, without folder and ending
     std::string title;
     std::shared_ptr<Symbols> symbols;
@@ -110,6 +116,7 @@ struct Mechanism {
     std::vector<SpringElement> springs;
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
+    std::vector<Unilateral> unilateral;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;
 

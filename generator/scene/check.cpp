@@ -173,12 +173,21 @@ private:
             const Legal rates{.subject = "a constraint", .order = 1, .input_order = 1, .time = true};
             quantities_.check(rule.equation.lhs, rule.holonomic ? position : rates);
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
-            if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
-            const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
-            if (!is_new)
-                complain(rule.name.place, fmt::format("the name {} is taken: a constraint has it on line {}",
-                                                      in_quotes(rule.name.text), first->second.line));
+            check_constraint_name(rule.name, known);
         }
+        for (const UnilateralRule& rule : scene_.unilateral) {
+            quantities_.check(rule.gap, {.subject = "a gap", .order = 0, .input_order = 0, .time = true});
+            quantities_.check(rule.restitution, {.subject = "a restitution"});
+            check_constraint_name(rule.name, known);
+        }
+    }
+
+    void check_constraint_name(const Name& name, std::unordered_map<std::string, Place>& known) {
+        if (name.place.line == 0 || !check_name(name)) return;
+        const auto [first, is_new] = known.emplace(name.text, name.place);
+        if (!is_new)
+            complain(name.place, fmt::format("the name {} is taken: a constraint has it on line {}", in_quotes(name.text),
+                                             first->second.line));
     }
 
     void check_runs() {

@@ -14,7 +14,6 @@ namespace {
 
 void allow(const Table& table, const std::string& name) {
     if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
-    if (name == "unilateral") table.allow({"name", "gap", "restitution"});
     if (name == "impulse") table.allow({"at", "vector", "axes"});
     if (name == "polynomial") table.allow({"coefficients"});
     if (name == "joint")
@@ -46,7 +45,7 @@ bool is_list(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"speeds", "rolling", "unilateral", "impulse", "impulses", "joint", "polynomial"};
+    return {"speeds", "rolling", "impulse", "impulses", "joint", "polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {

@@ -96,4 +96,14 @@ void read_constraint(Table table, Scene& scene) {
     scene.constraints.push_back(std::move(rule));
 }
 
+void read_unilateral(Table table, Scene& scene) {
+    table.allow({"name", "gap", "restitution"});
+    UnilateralRule rule;
+    rule.name = table.needed_name("name");
+    table.entitle(rule.name);
+    rule.gap = table.needed_expression("gap");
+    rule.restitution = table.has("restitution") ? table.expression("restitution") : zero(table.place());
+    scene.unilateral.push_back(std::move(rule));
+}
+
 }  // namespace alembert

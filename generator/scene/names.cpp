@@ -114,6 +114,8 @@ NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
+    for (const UnilateralRule& rule : scene.unilateral)
+        multipliers.push_back({"lambda_" + rule.name.text, rule.name.place});
     for (std::size_t i = 0; i < multipliers.size(); ++i)
         if (multipliers[i].place.line > 0) values.push_back({&multipliers[i], Kind::multiplier, i});
     add(frames, scene.frames, Kind::frame);

@@ -53,6 +53,7 @@ constexpr Section sections[] = {
     {"spring", true, each<read_spring>},
     {"damper", true, each<read_damper>},
     {"constraint", true, each<read_constraint>},
+    {"unilateral", true, each<read_unilateral>},
     {"energy", false, one<read_energy>},
     {"dissipation", false, one<read_dissipation>},
     {"forces", false, one<read_forces>},

@@ -139,6 +139,13 @@ struct ConstraintRule {
     std::optional<Name> multiplier;   ///< lambda_<name> when missing
 };
 
+/// gap ≥ 0
+struct UnilateralRule {
+    Name name;
+    Expression gap;
+    Expression restitution;  ///< the number 0 when missing
+};
+
 struct Output {
     Name name;
     Expression value;
@@ -183,6 +190,7 @@ struct Scene {
     Expression rayleigh;
     std::vector<GeneralizedForce> generalized_forces;
     std::vector<ConstraintRule> constraints;
+    std::vector<UnilateralRule> unilateral;
     std::vector<Output> outputs;
     std::vector<EventRule> events;
     Simulation simulation;

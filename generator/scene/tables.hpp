@@ -29,6 +29,7 @@ void read_torque(Table table, Scene& scene);
 void read_spring(Table table, Scene& scene);
 void read_damper(Table table, Scene& scene);
 void read_constraint(Table table, Scene& scene);
+void read_unilateral(Table table, Scene& scene);
 
 // runs.cpp: what is to be done
 void read_simulation(const Table& table, Scene& scene);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A constraint, or the gap of a unilateral one, as a row of the equations of motion:
+/// f(q,t) = 0 gives ∂f/∂q·q' + ∂f/∂t = 0, a(q,t)·q' + b(q,t) = 0 is one already; differentiated once more,
+/// row·q'' = acceleration (Zhang & Qin, §1.6).
+
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+/// What is zero, by the name of the one who asks for it.
+struct Rule {
+    std::string name;
+    bool holonomic = true;
+    GiNaC::ex value;
+    GiNaC::symbol multiplier;
+    Place place;     ///< of the name
+    Place at;        ///< of the expression, for messages
+};
+
+/// Throws SceneMistake for a value that is not linear in the rates, or in which no coordinate (holonomic) or rate
+/// (nonholonomic) is left.
+Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& mechanism);
+
+}  // namespace alembert
