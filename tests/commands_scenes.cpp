@@ -115,6 +115,16 @@ TEST_CASE("commands: the double Atwood machine moves as if the lower machine wer
     CHECK(ropes["outputs"]["lower_tension"].get<double>() == doctest::Approx(pull).epsilon(1e-13));
     CHECK(ropes["outputs"]["upper_tension"].get<double>() == doctest::Approx(m1 * (g - heavy)).epsilon(1e-13));
 
+    // A pulley of no mass at all is resisted by its ropes.
+    std::ifstream file(scene("double_atwood_ropes"));
+    std::string text(std::istreambuf_iterator<char>(file), {});
+    text.replace(text.find("mass = \"mp\""), 11, "mass = 0");
+    const auto result = run({"simulate", temporary("light.toml", text), "--json", "--tolerance", "1e-12"});
+    REQUIRE(result.exit == 0);
+    const Json light = Json::parse(result.out)["final"]["coordinates"];
+    CHECK(light["y1"].get<double>() == doctest::Approx(5 + 9 * 0.5 * g * 0.04 / 7.96).epsilon(1e-12));
+    CHECK(light["z"].get<double>() == doctest::Approx(5 - 9 * 0.5 * g * 0.04 / 7.96).epsilon(1e-12));
+
     const Json end = simulated("double_atwood", "3")["final"]["coordinates"];
     CHECK(end["x"].get<double>() == doctest::Approx(9 * 0.5 * g * 0.04 / 7.96).epsilon(1e-12));
     CHECK(end["y"].get<double>() == doctest::Approx(9 * 0.5 * g * 0.8 / 7.96).epsilon(1e-12));
