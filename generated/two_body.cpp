@@ -1,7 +1,7 @@
 // Equations of motion of 'two_body': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
-//   state  X [AU], Y [AU], r [AU], phi [rad], then their rates
+//   state  r [AU], phi [rad], X [AU], Y [AU], then their rates
 //   par    m1 [Msun], m2 [Msun], a [AU], ecc
 //   cost   14 operations a right-hand side: 1 additions, 11 multiplications, 2 divisions, 0 functions
 //
@@ -37,21 +37,21 @@ void prepare(Real* par) {
     const Real &m1 = par[0], &m2 = par[1];
 
     // Constants
-    const Real M00 = m1 + m2;
-    const Real z0 = Real(1) / M00;
-    const Real M22 = m1 * m2 * z0;
+    const Real M22 = m1 + m2;
+    const Real z0 = Real(1) / M22;
+    const Real M00 = m1 * m2 * z0;
     const Real k0 = Real(4) * m1 * m2 * Real(3.14159265358979323846264338327950288L)
         * Real(3.14159265358979323846264338327950288L);
-    const Real k1 = Real(2) * M22;
-    const Real k2 = Real(1) / M22;
-    const Real k3 = Real(0.5) * M00;
-    const Real k4 = Real(0.5) * M22;
+    const Real k1 = Real(2) * M00;
+    const Real k2 = Real(1) / M00;
+    const Real k3 = Real(0.5) * M22;
+    const Real k4 = Real(0.5) * M00;
     const Real k5 = m2 * z0;
     const Real k6 = m1 * z0;
 
     // Result
-    par[4] = M00;
-    par[5] = M22;
+    par[4] = M22;
+    par[5] = M00;
     par[6] = k0;
     par[7] = k1;
     par[8] = k2;
@@ -64,72 +64,72 @@ void prepare(Real* par) {
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &r = state[2], &X_dot = state[4], &Y_dot = state[5], &r_dot = state[6], &phi_dot = state[7];
-    const Real &M00 = par[4], &M22 = par[5], &k0 = par[6], &k1 = par[7], &k2 = par[8];
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
+    const Real &M22 = par[4], &M00 = par[5], &k0 = par[6], &k1 = par[7], &k2 = par[8];
 
     // Mass matrix M(q), lower triangle
-    const Real M33 = M22 * r * r;
+    const Real M11 = M00 * r * r;
 
     // Forcing f
     const Real z0 = Real(1) / r;
     const Real z1 = r * phi_dot;
-    const Real z2 = k0 * z0 * z0 - M22 * phi_dot * z1;
-    const Real f2 = -z2;
+    const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
+    const Real f0 = -z2;
     const Real z3 = k1 * r_dot * z1;
-    const Real f3 = -z3;
+    const Real f1 = -z3;
 
     // Solve M q'' = f with M = L D L^T
     const Real r_ddot = -k2 * z2;
-    const Real phi_ddot = -z3 / M33;
+    const Real phi_ddot = -z3 / M11;
 
     // Result
-    rate[0] = X_dot;
-    rate[1] = Y_dot;
-    rate[2] = r_dot;
-    rate[3] = phi_dot;
-    rate[4] = Real(0);
-    rate[5] = Real(0);
-    rate[6] = r_ddot;
-    rate[7] = phi_ddot;
+    rate[0] = r_dot;
+    rate[1] = phi_dot;
+    rate[2] = X_dot;
+    rate[3] = Y_dot;
+    rate[4] = r_ddot;
+    rate[5] = phi_ddot;
+    rate[6] = Real(0);
+    rate[7] = Real(0);
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &r = state[2], &r_dot = state[6], &phi_dot = state[7];
-    const Real &M00 = par[4], &M22 = par[5], &k0 = par[6], &k1 = par[7];
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5];
+    const Real &M22 = par[4], &M00 = par[5], &k0 = par[6], &k1 = par[7];
 
     // Mass matrix M(q), lower triangle
-    const Real M33 = M22 * r * r;
+    const Real M11 = M00 * r * r;
 
     // Forcing f
     const Real z0 = Real(1) / r;
     const Real z1 = r * phi_dot;
-    const Real z2 = k0 * z0 * z0 - M22 * phi_dot * z1;
-    const Real f2 = -z2;
-    const Real f3 = -k1 * r_dot * z1;
+    const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
+    const Real f0 = -z2;
+    const Real f1 = -k1 * r_dot * z1;
 
     // Result
     mass[0] = M00;
     mass[1] = mass[4] = Real(0);
-    mass[5] = M00;
+    mass[5] = M11;
     mass[2] = mass[8] = Real(0);
     mass[6] = mass[9] = Real(0);
     mass[10] = M22;
     mass[3] = mass[12] = Real(0);
     mass[7] = mass[13] = Real(0);
     mass[11] = mass[14] = Real(0);
-    mass[15] = M33;
-    forcing[0] = Real(0);
-    forcing[1] = Real(0);
-    forcing[2] = f2;
-    forcing[3] = f3;
+    mass[15] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+    forcing[3] = Real(0);
 }
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &r = state[2], &X_dot = state[4], &Y_dot = state[5], &r_dot = state[6], &phi_dot = state[7];
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
     const Real &k0 = par[6], &k3 = par[9], &k4 = par[10];
 
     // Energy
@@ -150,7 +150,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 /// The scene's outputs.
 template <typename Real>
 void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &X = state[0], &Y = state[1], &r = state[2], &phi = state[3], &phi_dot = state[7];
+    const Real &r = state[0], &phi = state[1], &X = state[2], &Y = state[3], &phi_dot = state[5];
     const Real &k5 = par[11], &k6 = par[12];
 
     // Trigonometry
@@ -223,7 +223,7 @@ struct alembert_solver_table {
     void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
-constexpr const char* coordinate_names[] = { "X", "Y", "r", "phi", nullptr};
+constexpr const char* coordinate_names[] = { "r", "phi", "X", "Y", nullptr};
 constexpr const char* parameter_names[] = { "m1", "m2", "a", "ecc", nullptr};
 constexpr const char* output_names[] = { "areal", "x1", "y1", "x2", "y2", nullptr};
 constexpr const char* event_names[] = { nullptr};

@@ -129,7 +129,7 @@ mass = 1
 position = ["x", "0*z"]
 [[constraint]]
 name = "c"
-holonomic = "x = 0.1"
+holonomic = "x = 0.1 + t^2"
 )toml");
     const auto beside = run({"eval", free});
     CHECK(beside.exit == 4);
