@@ -2,8 +2,10 @@
 // Motions of textbook scenes that have closed forms, from the parameters in the scene files.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
