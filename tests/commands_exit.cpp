@@ -118,6 +118,22 @@ position = ["x", 0]
     const auto result = run({"eval", massless});
     CHECK(result.exit == 4);
     CHECK(result.err.find("no inertia resists x'") != std::string::npos);
+
+    const std::string free = temporary("free.toml", R"toml(
+[coordinates]
+x = 0.1
+z = 0
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "0*z"]
+[[constraint]]
+name = "c"
+holonomic = "x = 0.1 + t^2"
+)toml");
+    const auto beside = run({"eval", free});
+    CHECK(beside.exit == 4);
+    CHECK(beside.err.find("no inertia resists z'") != std::string::npos);  // the constraint does not either
 }
 
 TEST_CASE("commands: what is not a number is blamed on its term, and a run that fails keeps what it had") {

@@ -106,7 +106,12 @@ void check_energy(const Module& module, const Program& program, State<double> st
     for (const int id : program.nodes_of("forcing")) expected.push_back(value[id]);
     double size = 1;  // sums of terms of about this size
     for (const double x : expected) size = std::max(size, std::abs(x));
-    for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(found[i] - expected[i]) <= 1e-12 * size);
+    // The power may hold multipliers: they come with the accelerations from one solve, whose errors are in proportion to
+    // its largest result (near theta = 0 Euler's angles have accelerations that grow without bound).
+    double solved = size;
+    for (const double a : state.qddot) solved = std::max(solved, std::abs(a));
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        CHECK(std::abs(found[i] - expected[i]) <= 1e-12 * (i == 3 ? solved : size));
 }
 
 void agrees(const std::string& file, bool with_plain_derivatives) {

@@ -8,14 +8,40 @@
 
 namespace alembert {
 
+namespace {
+
+/// Which coordinates have kinetic energy, or all if the constraints do not determine the rates of those that have
+/// none from the rates of the others (their columns of A are dependent).
+std::vector<Eigen::Index> to_be_resisted(const Program& program, const std::vector<double>& value) {
+    const std::vector<int> mass = program.nodes_of("mass"), rows = program.nodes_of("row");
+    const auto n = static_cast<int>(program.coordinates.size());
+    std::vector<Eigen::Index> heavy, massless, all;
+    for (int i = 0; i < n; ++i) {
+        bool any = false;
+        for (int j = 0; j < n; ++j)
+            any = any || !program.is_zero(mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)]);
+        (any ? heavy : massless).push_back(i);
+        all.push_back(i);
+    }
+    if (massless.empty() || rows.empty()) return all;
+    Eigen::MatrixXd A(rows.size() / n, massless.size());
+    for (Eigen::Index k = 0; k < A.rows(); ++k)
+        for (Eigen::Index i = 0; i < A.cols(); ++i) A(k, i) = value[rows[k * n + massless[i]]];
+    for (Eigen::Index i = 0; i < A.cols(); ++i) A.col(i).normalize();  // their units
+    return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).rank() == A.cols() ? heavy : all;
+}
+
+}  // namespace
+
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
     const std::vector<double> value = interpret(program, state);
     const std::vector<int> lower = program.nodes_of("mass");
-    const auto n = static_cast<Eigen::Index>(program.coordinates.size());
+    const std::vector<Eigen::Index> of = to_be_resisted(program, value);
+    const auto n = static_cast<Eigen::Index>(of.size());
     Eigen::MatrixXd M(n, n);
-    for (Eigen::Index i = 0, k = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j <= i; ++j, ++k) M(i, j) = M(j, i) = value[lower[k]];
-    if (!M.allFinite()) return std::nullopt;
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[lower[of[i] * (of[i] + 1) / 2 + of[j]]];
+    if (n == 0 || !M.allFinite()) return std::nullopt;
     // An entry is small or large by its units alone; what counts is its size beside its row's and column's.
     Eigen::VectorXd scale(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -39,7 +65,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
         if (std::abs(c) < 1e-9) continue;
         const std::string number = std::abs(std::abs(c) - 1) < 1e-9 ? "" : fmt::format("{:.4g}*", std::abs(c));
         text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-        text += number + program.coordinates[i].name + "'";
+        text += number + program.coordinates[of[i]].name + "'";
     }
     return text;
 }

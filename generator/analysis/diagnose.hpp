@@ -13,6 +13,8 @@ namespace alembert {
 /// The combination of rates without kinetic energy, as "theta1' - theta2'", if the mass matrix is singular to
 /// working precision at this state: the smallest eigenvalue of the matrix, scaled to a unit diagonal, is below
 /// 1e-13 of the largest (Higham, Accuracy and Stability of Numerical Algorithms (2002), §7.3 on such scaling).
+/// Coordinates that appear in no kinetic energy are no matter where the constraints give their rates from the others':
+/// the matrix of the equations with their constraints is regular then (a pulley without mass on two ropes).
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state);
 
 /// The first value that is not finite on the way to `group`, and whose term it is: "a division by zero in spring 1".

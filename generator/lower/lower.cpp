@@ -241,6 +241,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
                                      lowering.define(equations.lambda[k], program.sum(0, {{-1, (*accelerations)[n + k]}}))});
     } else {
         program.singular = true;
+        // The power and outputs may name multipliers; their values are never read, as there is no motion.
+        for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
     }
     wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
     for (const auto* parts : {&m.outputs, &m.events})

@@ -1,0 +1,259 @@
+// Equations of motion of 'double_atwood_ropes': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  y1 [m], z [m], y2 [m], y3 [m], then their rates
+//   par    m1 [kg], m2 [kg], m3 [kg], mp [kg], L1 [m], L2 [m], g [m/s^2]
+//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &g = par[6];
+
+    // Constants
+    const Real f0 = m1 * g;
+    const Real f1 = mp * g;
+    const Real f2 = m2 * g;
+    const Real f3 = m3 * g;
+    const Real z0 = Real(1) / m1;
+    const Real z1 = z0 * f0;
+    const Real z2 = Real(1) / mp;
+    const Real z3 = Real(1) / m2;
+    const Real z4 = Real(1) / m3;
+    const Real z5 = Real(1) / ((z3 + z4) + Real(4) * z2);
+    const Real z6 = z5 * z2;
+    const Real z7 = Real(1) / ((z0 + z2) - Real(4) * z6 * z2);
+    const Real z8 = z2 * f1;
+    const Real z9 = z3 * f2;
+    const Real z10 = z4 * f3;
+    const Real z11 = (z9 + z10) - Real(2) * z8;
+    const Real k0 = z7 * ((z1 + z8) + Real(2) * z6 * z11);
+    const Real k1 = z1 - z0 * k0;
+    const Real k2 = Real(2) * k0 * z6 + z5 * z11;
+    const Real k3 = k0 * z2 - Real(2) * k2 * z2 - z8;
+    const Real k4 = k2 * z3 - z9;
+    const Real k5 = k2 * z4 - z10;
+    const Real k6 = Real(0.5) * m1;
+    const Real k7 = Real(0.5) * m2;
+    const Real k8 = Real(0.5) * m3;
+    const Real k9 = Real(0.5) * mp;
+
+    // Result
+    par[7] = f0;
+    par[8] = f1;
+    par[9] = f2;
+    par[10] = f3;
+    par[11] = k0;
+    par[12] = k1;
+    par[13] = k2;
+    par[14] = k3;
+    par[15] = k4;
+    par[16] = k5;
+    par[17] = k6;
+    par[18] = k7;
+    par[19] = k8;
+    par[20] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &y1_dot = state[4], &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
+    const Real &f3 = par[10], &k1 = par[12], &k3 = par[14], &k4 = par[15], &k5 = par[16];
+
+    // Result
+    rate[0] = y1_dot;
+    rate[1] = z_dot;
+    rate[2] = y2_dot;
+    rate[3] = y3_dot;
+    rate[4] = k1;
+    rate[5] = -k3;
+    rate[6] = -k4;
+    rate[7] = -k5;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
+    const Real &f3 = par[10];
+
+    // Result
+    mass[0] = m1;
+    mass[1] = mass[4] = Real(0);
+    mass[5] = mp;
+    mass[2] = mass[8] = Real(0);
+    mass[6] = mass[9] = Real(0);
+    mass[10] = m2;
+    mass[3] = mass[12] = Real(0);
+    mass[7] = mass[13] = Real(0);
+    mass[11] = mass[14] = Real(0);
+    mass[15] = m3;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = f2;
+    forcing[3] = f3;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
+    const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &g = par[6], &k6 = par[17], &k7 = par[18];
+    const Real &k8 = par[19], &k9 = par[20];
+
+    // Energy
+    const Real z0 = k6 * y1_dot * y1_dot;
+    const Real T = z0 + k7 * y2_dot * y2_dot + k8 * y3_dot * y3_dot + k9 * z_dot * z_dot;
+    const Real z1 = m1 * y1;
+    const Real z2 = z1 + m2 * y2 + m3 * y3 + mp * z;
+    const Real z3 = g * z2;
+    const Real V = -z3;
+    const Real E = T - z3;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &k0 = par[11], &k2 = par[13];
+
+    // Result
+    out[0] = k0;
+    out[1] = k2;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
+    const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
+    const Real &L1 = par[4], &L2 = par[5];
+
+    // Result
+    position[0] = y1 - L1 + z;
+    position[1] = y2 - L2 - Real(2) * z + y3;
+    velocity[0] = y1_dot + z_dot;
+    velocity[1] = y2_dot - Real(2) * z_dot + y3_dot;
+    rows[0] = Real(1);
+    rows[1] = Real(1);
+    rows[2] = Real(0);
+    rows[3] = Real(0);
+    rows[4] = Real(0);
+    rows[5] = Real(-2);
+    rows[6] = Real(1);
+    rows[7] = Real(1);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &k0 = par[11], &k2 = par[13];
+
+    // Result
+    lambda[0] = -k0;
+    lambda[1] = -k2;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "y1", "z", "y2", "y3", nullptr};
+constexpr const char* parameter_names[] = { "m1", "m2", "m3", "mp", "L1", "L2", "g", nullptr};
+constexpr const char* output_names[] = { "upper_tension", "lower_tension", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 2, 1.1, 0.9, 0.3, 10, 8, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    2, 4, 7, 14, 2, 0, 2, "double_atwood_ropes", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,223 @@
+// Equations of motion of 'sled': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  xC [m], yC [m], phi [rad], then their rates
+//   par    m [kg], J [kg*m^2]
+//   cost   12 operations a right-hand side: 2 additions, 8 multiplications, 1 divisions, 1 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &J = par[1];
+
+    // Constants
+    const Real k0 = Real(1) / m;
+    const Real k1 = Real(0.5) * m;
+    const Real k2 = Real(0.5) * J;
+
+    // Result
+    par[2] = k0;
+    par[3] = k1;
+    par[4] = k2;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
+    const Real &m = par[0], &J = par[1], &k0 = par[2];
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = tan(phi);
+    const Real z0 = xC_dot * phi_dot * (A0_0 * A0_0 + Real(1));
+    const Real gamma0 = -z0;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z1 = k0 * A0_0;
+    const Real z2 = z0 / (k0 + z1 * A0_0);
+    const Real xC_ddot = -z1 * z2;
+    const Real yC_ddot = k0 * z2;
+
+    // Result
+    rate[0] = xC_dot;
+    rate[1] = yC_dot;
+    rate[2] = phi_dot;
+    rate[3] = xC_ddot;
+    rate[4] = yC_ddot;
+    rate[5] = Real(0);
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &J = par[1];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = J;
+    forcing[0] = Real(0);
+    forcing[1] = Real(0);
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
+    const Real &k1 = par[3], &k2 = par[4];
+
+    // Energy
+    const Real T = k1 * (xC_dot * xC_dot + yC_dot * yC_dot) + k2 * phi_dot * phi_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real v = xC_dot * cos_phi + yC_dot * sin_phi;
+
+    // Result
+    out[0] = v;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+
+    // Constraints
+    const Real z0 = tan(phi);
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = xC_dot * z0 - yC_dot;
+    rows[0] = z0;
+    rows[1] = Real(-1);
+    rows[2] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
+    const Real &k0 = par[2];
+
+    // Multipliers
+    const Real z0 = tan(phi);
+    const Real z1 = Real(1) / (k0 + k0 * z0 * z0);
+    const Real lambda1 = -z1 * xC_dot * phi_dot * (z0 * z0 + Real(1));
+
+    // Result
+    lambda[0] = lambda1;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "xC", "yC", "phi", nullptr};
+constexpr const char* parameter_names[] = { "m", "J", nullptr};
+constexpr const char* output_names[] = { "v", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 4, 0.8, 0};
+
+constexpr alembert_solver_table table{
+    2, 3, 2, 3, 1, 0, 1, "sled", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,350 @@
+// Equations of motion of 'slider_crank': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  alpha [rad], beta [rad], x [m], then their rates
+//   par    m1 [kg], m2 [kg], m3 [kg], r [m], l [m], g [m/s^2]
+//   cost   83 operations a right-hand side: 25 additions, 49 multiplications, 3 divisions, 6 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &r = par[3], &l = par[4], &g = par[5];
+
+    // Constants
+    const Real z0 = r * r * (m1 + Real(3) * m2);
+    const Real M00 = (Real(1) / Real(3)) * z0;
+    const Real k0 = Real(0.5) * m2 * r * l;
+    const Real z1 = m2 * l * l;
+    const Real M11 = (Real(1) / Real(3)) * z1;
+    const Real k1 = Real(0.5) * r * g * (m1 + Real(2) * m2);
+    const Real k2 = Real(0.5) * m2 * l * g;
+    const Real k3 = Real(3) * Real(1) / z1;
+    const Real k4 = Real(1) / m3;
+    const Real k5 = (Real(1) / Real(6)) * z0;
+    const Real k6 = (Real(1) / Real(6)) * z1;
+    const Real k7 = Real(0.5) * m3;
+
+    // Result
+    par[6] = M00;
+    par[7] = k0;
+    par[8] = M11;
+    par[9] = k1;
+    par[10] = k2;
+    par[11] = k3;
+    par[12] = k4;
+    par[13] = k5;
+    par[14] = k6;
+    par[15] = k7;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &m3 = par[2], &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &M11 = par[8], &k1 = par[9];
+    const Real &k2 = par[10], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Shared terms
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+
+    // Mass matrix M(q), lower triangle
+    const Real z2 = k0 * cos_phi0;
+    const Real M10 = -z2;
+
+    // Forcing f
+    const Real z3 = k0 * sin_phi0;
+    const Real z4 = k1 * cos_alpha + z3 * z0;
+    const Real f0 = -z4;
+    const Real f1 = k2 * cos_beta - z3 * z1;
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = r * sin_alpha;
+    const Real A0_1 = l * sin_beta;
+    const Real A1_0 = r * cos_alpha;
+    const Real z5 = l * cos_beta;
+    const Real z6 = A1_0 * z1 + z5 * z0;
+    const Real gamma0 = -z6;
+    const Real A1_1 = -z5;
+    const Real gamma1 = A0_0 * z1 - A0_1 * z0;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z7 = k3 * z2;
+    const Real z8 = Real(1) / (M00 - z2 * z7);
+    const Real z9 = z4 - z7 * f1;
+    const Real z10 = k3 * A0_1;
+    const Real z11 = z10 * z2 + A0_0;
+    const Real z12 = z8 * z11;
+    const Real z13 = z12 * z11 + (k4 + z10 * A0_1);
+    const Real z14 = k3 * z5;
+    const Real z15 = z2 * z14 - A1_0;
+    const Real z16 = z8 * z15;
+    const Real z17 = z16 * z11 + z14 * A0_1;
+    const Real z18 = Real(1) / (z16 * z15 + z14 * z5);
+    const Real z19 = z17 * z18;
+    const Real z20 = Real(1) / (z13 - z17 * z19);
+    const Real z21 = z12 * z9 - (z10 * f1 + z6);
+    const Real z22 = z16 * z9 - (z14 * f1 + gamma1);
+    const Real z23 = z20 * (z21 - z22 * z19);
+    const Real z24 = z18 * z22 - z19 * z23;
+    const Real z25 = z8 * z9 - z12 * z23 - z16 * z24;
+    const Real alpha_ddot = -z25;
+    const Real z26 = z23 * z10;
+    const Real beta_ddot = z26 + z24 * z14 - z25 * z7 + k3 * f1;
+    const Real x_ddot = k4 * z23;
+
+    // Result
+    rate[0] = alpha_dot;
+    rate[1] = beta_dot;
+    rate[2] = x_dot;
+    rate[3] = alpha_ddot;
+    rate[4] = beta_ddot;
+    rate[5] = x_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &m3 = par[2], &M00 = par[6], &k0 = par[7], &M11 = par[8], &k1 = par[9], &k2 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const Real cos_alpha = cos(alpha);
+    const Real cos_beta = cos(beta);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = -k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -k1 * cos_alpha - z0 * beta_dot * beta_dot;
+    const Real f1 = k2 * cos_beta - z0 * alpha_dot * alpha_dot;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = M10;
+    mass[4] = M11;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = m3;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &k0 = par[7], &k1 = par[9], &k2 = par[10], &k5 = par[13], &k6 = par[14], &k7 = par[15];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const Real cos_phi0 = cos(phi0);
+    const Real sin_alpha = sin(alpha);
+    const Real sin_beta = sin(beta);
+
+    // Energy
+    const Real z0 = k5 * alpha_dot * alpha_dot;
+    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
+    const Real T = z0 + k6 * beta_dot * beta_dot - z1 + k7 * x_dot * x_dot;
+    const Real V = k1 * sin_alpha - k2 * sin_beta;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &r = par[3], &l = par[4];
+
+    // Trigonometry
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Constraints
+    const Real z0 = r * sin_alpha;
+    const Real z1 = l * sin_beta;
+    const Real z2 = r * cos_alpha;
+    const Real z3 = l * cos_beta;
+
+    // Result
+    position[0] = x - z2 - z3;
+    position[1] = z0 - z1;
+    velocity[0] = x_dot + alpha_dot * z0 + beta_dot * z1;
+    velocity[1] = alpha_dot * z2 - beta_dot * z3;
+    rows[0] = z0;
+    rows[1] = z1;
+    rows[2] = Real(1);
+    rows[3] = z2;
+    rows[4] = -z3;
+    rows[5] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k3 = par[11];
+    const Real &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const auto [sin_alpha, cos_alpha] = sincos(alpha);
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Multipliers
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = k0 * sin_phi0;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = alpha_dot * alpha_dot;
+    const Real z4 = k2 * cos_beta - z1 * z3;
+    const Real z5 = r * sin_alpha;
+    const Real z6 = l * sin_beta;
+    const Real z7 = r * cos_alpha;
+    const Real z8 = l * cos_beta;
+    const Real z9 = k3 * z0;
+    const Real z10 = Real(1) / (M00 - z0 * z9);
+    const Real z11 = (k1 * cos_alpha + z1 * z2) - z9 * z4;
+    const Real z12 = k3 * z6;
+    const Real z13 = z12 * z0 + z5;
+    const Real z14 = z10 * z13;
+    const Real z15 = z14 * z13 + (k4 + z12 * z6);
+    const Real z16 = k3 * z8;
+    const Real z17 = z0 * z16 - z7;
+    const Real z18 = z10 * z17;
+    const Real z19 = z18 * z13 + z16 * z6;
+    const Real z20 = Real(1) / (z18 * z17 + z16 * z8);
+    const Real z21 = z19 * z20;
+    const Real z22 = z12 * z4 + (z7 * z3 + z8 * z2);
+    const Real z23 = z16 * z4 + (z5 * z3 - z6 * z2);
+    const Real z24 = z18 * z11 - z23;
+    const Real z25 = (z14 * z11 - z22) - z24 * z21;
+    const Real lambda1 = z25 / (z15 - z19 * z21);
+    const Real lambda2 = z21 * lambda1 - z20 * z24;
+
+    // Result
+    lambda[0] = lambda1;
+    lambda[1] = lambda2;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "alpha", "beta", "x", nullptr};
+constexpr const char* parameter_names[] = { "m1", "m2", "m3", "r", "l", "g", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1.2, 0.8, 2, 0.15, 0.4, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    2, 3, 6, 10, 0, 0, 2, "slider_crank", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,368 @@
+// Equations of motion of 'snakeboard': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], theta [rad], psi [rad], phi [rad], then their rates
+//   par    m [kg], l [m], J [kg*m^2], Jr [kg*m^2], Jw [kg*m^2], A [rad], B [rad], w [rad/s]
+//   cost   75 operations a right-hand side: 24 additions, 42 multiplications, 2 divisions, 7 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &J = par[2], &Jr = par[3], &Jw = par[4], &A = par[5], &B = par[6];
+    const Real &w = par[7];
+
+    // Constants
+    const Real M22 = J + Jr + Real(2) * Jw;
+    const Real M44 = Real(2) * Jw;
+    const Real k0 = Jr * A * w * w;
+    const Real k1 = Jw * B * w * w;
+    const Real k2 = Real(1) / m;
+    const Real k3 = Real(1) / (Jr - M22);
+    const Real k4 = Real(1) / Jr;
+    const Real k5 = Real(1) / Jw;
+    const Real k6 = Real(0.5) * m;
+    const Real k7 = Real(0.5) * Jr;
+    const Real k8 = Real(0.5) * M22;
+    const Real k9 = m * l;
+
+    // Result
+    par[8] = M22;
+    par[9] = M44;
+    par[10] = k0;
+    par[11] = k1;
+    par[12] = k2;
+    par[13] = k3;
+    par[14] = k4;
+    par[15] = k5;
+    par[16] = k6;
+    par[17] = k7;
+    par[18] = k8;
+    par[19] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &psi_dot = state[8], &phi_dot = state[9];
+    const Real &m = par[0], &l = par[1], &Jr = par[3], &w = par[7], &M22 = par[8], &M44 = par[9], &k0 = par[10];
+    const Real &k1 = par[11], &k2 = par[12], &k3 = par[13], &k4 = par[14], &k5 = par[15];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+    const Real phi1 = theta + phi;
+    const auto [sin_phi1, cos_phi1] = sincos(phi1);
+    const auto [sin_phi, cos_phi] = sincos(phi);
+    const Real phi2 = theta - phi;
+    const auto [sin_phi2, cos_phi2] = sincos(phi2);
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f3 = -z0;
+    const Real z1 = k1 * sin_phi0;
+    const Real f4 = -Real(2) * z1;
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = -sin_phi1;
+    const Real A0_2 = l * cos_phi;
+    const Real z2 = l * theta_dot * phi_dot * sin_phi;
+    const Real z3 = theta_dot + phi_dot;
+    const Real z4 = z2 + cos_phi1 * x_dot * z3;
+    const Real gamma0 = z4 + sin_phi1 * y_dot * z3;
+    const Real A1_0 = -sin_phi2;
+    const Real A1_2 = -A0_2;
+    const Real z5 = y_dot * sin_phi2 + x_dot * cos_phi2;
+    const Real z6 = (z2 + phi_dot * z5) - theta_dot * z5;
+    const Real gamma1 = -z6;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z7 = k2 * sin_phi1;
+    const Real z8 = k2 * cos_phi1;
+    const Real z9 = k3 * A0_2;
+    const Real z10 = A0_2 * z9;
+    const Real z11 = z7 * sin_phi1 + (z8 * cos_phi1 - z10);
+    const Real z12 = k2 * sin_phi2;
+    const Real z13 = k2 * cos_phi2;
+    const Real z14 = z12 * sin_phi1 + (z13 * cos_phi1 + z10);
+    const Real z15 = Real(1) / (z12 * sin_phi2 + (z13 * cos_phi2 - z10));
+    const Real z16 = z14 * z15;
+    const Real z17 = z9 * z0;
+    const Real z18 = z17 + z6;
+    const Real z19 = z16 * z18 + (z17 + gamma0);
+    const Real z20 = z19 / (z11 - z14 * z16);
+    const Real z21 = z15 * z18 + z16 * z20;
+    const Real x_ddot = z12 * z21 - z7 * z20;
+    const Real y_ddot = z8 * z20 - z13 * z21;
+    const Real z22 = (z20 + z21) * z9 + k3 * z0;
+    const Real theta_ddot = -z22;
+    const Real psi_ddot = z22 - k4 * z0;
+    const Real phi_ddot = -k5 * z1;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = theta_dot;
+    rate[3] = psi_dot;
+    rate[4] = phi_dot;
+    rate[5] = x_ddot;
+    rate[6] = y_ddot;
+    rate[7] = theta_ddot;
+    rate[8] = psi_ddot;
+    rate[9] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &Jr = par[3], &w = par[7], &M22 = par[8], &M44 = par[9], &k0 = par[10], &k1 = par[11];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+
+    // Forcing f
+    const Real f3 = -k0 * sin_phi0;
+    const Real f4 = -Real(2) * k1 * sin_phi0;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[5] = Real(0);
+    mass[6] = m;
+    mass[2] = mass[10] = Real(0);
+    mass[7] = mass[11] = Real(0);
+    mass[12] = M22;
+    mass[3] = mass[15] = Real(0);
+    mass[8] = mass[16] = Real(0);
+    mass[13] = mass[17] = Jr;
+    mass[18] = Jr;
+    mass[4] = mass[20] = Real(0);
+    mass[9] = mass[21] = Real(0);
+    mass[14] = mass[22] = Real(0);
+    mass[19] = mass[23] = Real(0);
+    mass[24] = M44;
+    forcing[0] = Real(0);
+    forcing[1] = Real(0);
+    forcing[2] = Real(0);
+    forcing[3] = f3;
+    forcing[4] = f4;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &Jr = par[3], &Jw = par[4], &w = par[7], &k0 = par[10], &k1 = par[11], &k6 = par[16];
+    const Real &k7 = par[17], &k8 = par[18];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+
+    // Energy
+    const Real z0 = k6 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z1 = theta_dot * (k8 * theta_dot + Jr * psi_dot);
+    const Real T = (z0 + k7 * psi_dot * psi_dot + Jw * phi_dot * phi_dot) + z1;
+    const Real z2 = psi_dot * k0 * sin_phi0 + Real(2) * phi_dot * k1 * sin_phi0;
+    const Real P = -z2;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = P;
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &psi_dot = state[8];
+    const Real &Jr = par[3], &M22 = par[8], &k9 = par[19];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Outputs
+    const Real v = x_dot * cos_theta + y_dot * sin_theta;
+    const Real z0 = (M22 * theta_dot + Jr * psi_dot) * sin_phi;
+    const Real p = k9 * v * cos_phi + z0;
+
+    // Result
+    out[0] = v;
+    out[1] = p;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+    const Real cos_phi = cos(phi);
+    const Real phi1 = theta - phi;
+    const auto [sin_phi1, cos_phi1] = sincos(phi1);
+
+    // Constraints
+    const Real z0 = l * cos_phi;
+    const Real z1 = theta_dot * z0;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
+    velocity[1] = y_dot * cos_phi1 - z1 - x_dot * sin_phi1;
+    rows[0] = -sin_phi0;
+    rows[1] = cos_phi0;
+    rows[2] = z0;
+    rows[3] = Real(0);
+    rows[4] = Real(0);
+    rows[5] = -sin_phi1;
+    rows[6] = cos_phi1;
+    rows[7] = -z0;
+    rows[8] = Real(0);
+    rows[9] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1], &w = par[7], &k0 = par[10], &k2 = par[12], &k3 = par[13];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+    const Real phi1 = theta + phi;
+    const auto [sin_phi1, cos_phi1] = sincos(phi1);
+    const auto [sin_phi, cos_phi] = sincos(phi);
+    const Real phi2 = theta - phi;
+    const auto [sin_phi2, cos_phi2] = sincos(phi2);
+
+    // Multipliers
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * theta_dot * phi_dot * sin_phi;
+    const Real z2 = theta_dot + phi_dot;
+    const Real z3 = z1 + cos_phi1 * x_dot * z2;
+    const Real z4 = y_dot * sin_phi2 + x_dot * cos_phi2;
+    const Real z5 = k3 * z0;
+    const Real z6 = z0 * z5;
+    const Real z7 = k2 * cos_phi1 * cos_phi1 - z6;
+    const Real z8 = k2 * sin_phi2;
+    const Real z9 = k2 * cos_phi2;
+    const Real z10 = z8 * sin_phi1 + (z9 * cos_phi1 + z6);
+    const Real z11 = Real(1) / (z8 * sin_phi2 + (z9 * cos_phi2 - z6));
+    const Real z12 = z10 * z11;
+    const Real z13 = (k2 * sin_phi1 * sin_phi1 + z7) - z10 * z12;
+    const Real z14 = z5 * k0 * sin_phi0;
+    const Real z15 = z14 + ((z1 + phi_dot * z4) - theta_dot * z4);
+    const Real z16 = z14 + (z3 + sin_phi1 * y_dot * z2);
+    const Real lambda_front = (z12 * z15 + z16) / z13;
+    const Real lambda_rear = -z11 * z15 - z12 * lambda_front;
+
+    // Result
+    lambda[0] = lambda_front;
+    lambda[1] = lambda_rear;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "theta", "psi", "phi", nullptr};
+constexpr const char* parameter_names[] = { "m", "l", "J", "Jr", "Jw", "A", "B", "w", nullptr};
+constexpr const char* output_names[] = { "v", "p", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 6, 0.2, 0.016, 0.072, 0.0013, 0.7, 0.3, 1, 0};
+
+constexpr alembert_solver_table table{
+    2, 5, 8, 12, 2, 0, 2, "snakeboard", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

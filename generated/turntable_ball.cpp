@@ -1,0 +1,440 @@
+// Equations of motion of 'turntable_ball': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
+//   par    m [kg], a [m], Omega [rad/s]
+//   cost   93 operations a right-hand side: 25 additions, 61 multiplications, 3 divisions, 4 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &a = par[1], &Omega = par[2];
+
+    // Constants
+    const Real z0 = m * a * a;
+    const Real M22 = Real(0.4) * z0;
+    const Real k0 = Real(1) / m;
+    const Real k1 = Real(2.5) * Real(1) / z0;
+    const Real k2 = Real(0.5) * m;
+    const Real k3 = Real(0.2) * z0;
+    const Real k4 = Real(3.5) * Real(1) / Omega;
+
+    // Result
+    par[3] = M22;
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+    par[8] = k4;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &m = par[0], &a = par[1], &Omega = par[2], &M22 = par[3], &k0 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Shared terms
+    const Real z0 = psi_dot * sin_theta;
+
+    // Mass matrix M(q), lower triangle
+    const Real M42 = M22 * cos_theta;
+
+    // Forcing f
+    const Real z1 = M22 * phi_dot;
+    const Real f2 = theta_dot * z1 * sin_theta;
+    const Real z2 = z1 * z0;
+    const Real f3 = -z2;
+    const Real f4 = M22 * theta_dot * z0;
+
+    // Constraints A q'' = gamma
+    const Real z3 = a * sin_psi;
+    const Real A0_3 = -z3;
+    const Real A1_3 = a * cos_psi;
+    const Real A0_4 = A1_3 * sin_theta;
+    const Real z4 = theta_dot * cos_theta;
+    const Real z5 = sin_psi * sin_theta;
+    const Real z6 = psi_dot * (theta_dot * cos_psi + phi_dot * z5);
+    const Real z7 = a * (phi_dot * cos_psi * z4 - z6);
+    const Real z8 = z7 + Omega * y_dot;
+    const Real gamma0 = -z8;
+    const Real A1_4 = a * z5;
+    const Real z9 = phi_dot * (sin_psi * z4 + cos_psi * z0);
+    const Real z10 = a * (psi_dot * theta_dot * sin_psi - z9);
+    const Real gamma1 = z10 + Omega * x_dot;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z11 = k1 * z3;
+    const Real z12 = k1 * M42;
+    const Real z13 = Real(1) / (M22 - M42 * z12);
+    const Real z14 = z13 * A0_4;
+    const Real z15 = z11 * z3 + (k0 + z14 * A0_4);
+    const Real z16 = k1 * A1_3;
+    const Real z17 = z13 * A1_4;
+    const Real z18 = z16 * z3 - z17 * A0_4;
+    const Real z19 = Real(1) / (z16 * A1_3 + (k0 + z17 * A1_4));
+    const Real z20 = z18 * z19;
+    const Real z21 = Real(1) / (z15 - z18 * z20);
+    const Real z22 = f4 - f2 * z12;
+    const Real z23 = z11 * z2 + (z22 * z14 + z8);
+    const Real z24 = z16 * z2 - (z22 * z17 - gamma1);
+    const Real z25 = z21 * (z23 - z20 * z24);
+    const Real x_ddot = -k0 * z25;
+    const Real z26 = z19 * z24 - z20 * z25;
+    const Real y_ddot = k0 * z26;
+    const Real phi_ddot = z13 * z22 - z14 * z25 + z17 * z26;
+    const Real psi_ddot = k1 * f2 - z12 * phi_ddot;
+    const Real theta_ddot = z11 * z25 - k1 * z2 + z16 * z26;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = psi_dot;
+    rate[3] = theta_dot;
+    rate[4] = phi_dot;
+    rate[5] = x_ddot;
+    rate[6] = y_ddot;
+    rate[7] = psi_ddot;
+    rate[8] = theta_ddot;
+    rate[9] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &theta = state[3], &psi_dot = state[7], &theta_dot = state[8], &phi_dot = state[9];
+    const Real &m = par[0], &M22 = par[3];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    const Real M42 = M22 * cos_theta;
+
+    // Forcing f
+    const Real z0 = M22 * phi_dot;
+    const Real f2 = theta_dot * z0 * sin_theta;
+    const Real z1 = psi_dot * sin_theta;
+    const Real f3 = -z0 * z1;
+    const Real f4 = M22 * theta_dot * z1;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[5] = Real(0);
+    mass[6] = m;
+    mass[2] = mass[10] = Real(0);
+    mass[7] = mass[11] = Real(0);
+    mass[12] = M22;
+    mass[3] = mass[15] = Real(0);
+    mass[8] = mass[16] = Real(0);
+    mass[13] = mass[17] = Real(0);
+    mass[18] = M22;
+    mass[4] = mass[20] = Real(0);
+    mass[9] = mass[21] = Real(0);
+    mass[14] = mass[22] = M42;
+    mass[19] = mass[23] = Real(0);
+    mass[24] = M22;
+    forcing[0] = Real(0);
+    forcing[1] = Real(0);
+    forcing[2] = f2;
+    forcing[3] = f3;
+    forcing[4] = f4;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &x_dot = state[5];
+    const Real &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8], &phi_dot = state[9];
+    const Real &a = par[1], &Omega = par[2], &M22 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+    const Real &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Energy
+    const Real z0 = M22 * cos_theta;
+    const Real z1 = M22 * phi_dot;
+    const Real z2 = psi_dot * sin_theta;
+    const Real z3 = z1 * z2;
+    const Real z4 = a * sin_psi;
+    const Real z5 = a * cos_psi;
+    const Real z6 = z5 * sin_theta;
+    const Real z7 = theta_dot * cos_theta;
+    const Real z8 = sin_psi * sin_theta;
+    const Real z9 = psi_dot * (theta_dot * cos_psi + phi_dot * z8);
+    const Real z10 = a * (phi_dot * cos_psi * z7 - z9);
+    const Real z11 = a * z8;
+    const Real z12 = phi_dot * (sin_psi * z7 + cos_psi * z2);
+    const Real z13 = a * (psi_dot * theta_dot * sin_psi - z12);
+    const Real z14 = k1 * z4;
+    const Real z15 = k1 * z0;
+    const Real z16 = Real(1) / (M22 - z0 * z15);
+    const Real z17 = z16 * z6;
+    const Real z18 = z14 * z4 + (k0 + z17 * z6);
+    const Real z19 = k1 * z5;
+    const Real z20 = z16 * z11;
+    const Real z21 = z19 * z4 - z20 * z6;
+    const Real z22 = Real(1) / (z19 * z5 + (k0 + z20 * z11));
+    const Real z23 = z21 * z22;
+    const Real z24 = M22 * theta_dot * z2 - theta_dot * z1 * sin_theta * z15;
+    const Real z25 = z24 * z17 + (z10 + Omega * y_dot);
+    const Real z26 = z24 * z20 - (z13 + Omega * x_dot);
+    const Real z27 = z19 * z3 - z26;
+    const Real z28 = (z14 * z3 + z25) - z23 * z27;
+    const Real z29 = z28 / (z18 - z21 * z23);
+    const Real z30 = k2 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z31 = k3 * (psi_dot * psi_dot + theta_dot * theta_dot + phi_dot * phi_dot);
+    const Real T = z30 + z1 * psi_dot * cos_theta + z31;
+    const Real z32 = x * (z22 * z27 - z23 * z29);
+    const Real P = Omega * (y * z29 + z32);
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = P;
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &x = state[0], &y = state[1], &theta = state[3], &phi = state[4], &x_dot = state[5];
+    const Real &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8], &phi_dot = state[9];
+    const Real &k4 = par[8];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real z0 = psi_dot * sin_theta;
+    const Real z1 = sin_theta * sin_phi * (z0 * sin_phi + theta_dot * cos_phi);
+    const Real z2 = sin_theta * cos_phi * (z0 * cos_phi - theta_dot * sin_phi);
+    const Real spin = cos_theta * (phi_dot + psi_dot * cos_theta) + z1 + z2;
+    const Real centre_x = x - k4 * y_dot;
+    const Real centre_y = y + k4 * x_dot;
+
+    // Result
+    out[0] = spin;
+    out[1] = centre_x;
+    out[2] = centre_y;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &a = par[1], &Omega = par[2];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+    const auto [sin_psi, cos_psi] = sincos(psi);
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = psi_dot * sin_theta;
+    const Real z1 = a * sin_psi;
+    const Real z2 = a * cos_psi;
+    const Real z3 = z2 * sin_theta;
+    const Real z4 = sin_psi * sin_theta;
+    const Real z5 = cos_psi * sin_theta;
+    const Real z6 = a * z5;
+    const Real z7 = cos_psi * cos_theta;
+    const Real z8 = sin_psi * sin_phi - z7 * cos_phi;
+    const Real z9 = a * z8;
+    const Real z10 = sin_psi * cos_phi + z7 * sin_phi;
+    const Real z11 = a * z10;
+    const Real z12 = theta_dot * (z9 * sin_phi + z11 * cos_phi);
+    const Real z13 = (z9 * cos_phi - z11 * sin_phi) * sin_theta;
+    const Real z14 = psi_dot * (z6 * cos_theta + z13);
+    const Real z15 = phi_dot + psi_dot * cos_theta;
+    const Real z16 = z0 * cos_phi - theta_dot * sin_phi;
+    const Real z17 = z0 * sin_phi + theta_dot * cos_phi;
+    const Real z18 = z5 * z15 + z8 * z16 - z10 * z17;
+    const Real z19 = (x_dot + a * z18) + Omega * y;
+    const Real z20 = x_dot + phi_dot * z6 - z12 + z14 - z19;
+    const Real z21 = a * z4;
+    const Real z22 = phi_dot * z21;
+    const Real z23 = sin_psi * cos_theta;
+    const Real z24 = cos_psi * sin_phi + z23 * cos_phi;
+    const Real z25 = a * z24;
+    const Real z26 = cos_psi * cos_phi - z23 * sin_phi;
+    const Real z27 = a * z26;
+    const Real z28 = theta_dot * (z25 * sin_phi + z27 * cos_phi);
+    const Real z29 = (z27 * sin_phi - z25 * cos_phi) * sin_theta;
+    const Real z30 = psi_dot * (z21 * cos_theta + z29);
+    const Real z31 = z4 * z15 - z24 * z16 + z26 * z17;
+    const Real z32 = (y_dot + a * z31) - Omega * x;
+    const Real z33 = y_dot + z22 + z28 + z30 - z32;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = x_dot - theta_dot * z1 + phi_dot * z3 - z20;
+    velocity[1] = y_dot + theta_dot * z2 + z22 - z33;
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = -z1;
+    rows[4] = z3;
+    rows[5] = Real(0);
+    rows[6] = Real(1);
+    rows[7] = Real(0);
+    rows[8] = z2;
+    rows[9] = z21;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &a = par[1], &Omega = par[2], &M22 = par[3], &k0 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Multipliers
+    const Real z0 = M22 * cos_theta;
+    const Real z1 = M22 * phi_dot;
+    const Real z2 = psi_dot * sin_theta;
+    const Real z3 = z1 * z2;
+    const Real z4 = a * sin_psi;
+    const Real z5 = a * cos_psi;
+    const Real z6 = z5 * sin_theta;
+    const Real z7 = theta_dot * cos_theta;
+    const Real z8 = sin_psi * sin_theta;
+    const Real z9 = psi_dot * (theta_dot * cos_psi + phi_dot * z8);
+    const Real z10 = a * (phi_dot * cos_psi * z7 - z9);
+    const Real z11 = a * z8;
+    const Real z12 = phi_dot * (sin_psi * z7 + cos_psi * z2);
+    const Real z13 = a * (psi_dot * theta_dot * sin_psi - z12);
+    const Real z14 = k1 * z4;
+    const Real z15 = k1 * z0;
+    const Real z16 = Real(1) / (M22 - z0 * z15);
+    const Real z17 = z16 * z6;
+    const Real z18 = z14 * z4 + (k0 + z17 * z6);
+    const Real z19 = k1 * z5;
+    const Real z20 = z16 * z11;
+    const Real z21 = z19 * z4 - z20 * z6;
+    const Real z22 = Real(1) / (z19 * z5 + (k0 + z20 * z11));
+    const Real z23 = z21 * z22;
+    const Real z24 = M22 * theta_dot * z2 - theta_dot * z1 * sin_theta * z15;
+    const Real z25 = z24 * z17 + (z10 + Omega * y_dot);
+    const Real z26 = z24 * z20 - (z13 + Omega * x_dot);
+    const Real z27 = z19 * z3 - z26;
+    const Real z28 = (z14 * z3 + z25) - z23 * z27;
+    const Real z29 = z28 / (z18 - z21 * z23);
+    const Real lambda_y = z22 * z27 - z23 * z29;
+    const Real lambda_x = -z29;
+
+    // Result
+    lambda[0] = lambda_x;
+    lambda[1] = lambda_y;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "psi", "theta", "phi", nullptr};
+constexpr const char* parameter_names[] = { "m", "a", "Omega", nullptr};
+constexpr const char* output_names[] = { "spin", "centre_x", "centre_y", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 0.5, 0.2, 3.5, 0};
+
+constexpr alembert_solver_table table{
+    2, 5, 3, 6, 3, 0, 2, "turntable_ball", "routh, textbook form",
+    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
