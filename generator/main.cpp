@@ -63,6 +63,9 @@ int main(int argc, char** argv) {
 
     verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
 
+    CLI::App* check = verb("check", "hold a hand derivation against the derived equations", alembert::check);
+    check->add_option("claims", request.claims, "a file of claims, one equation a line; without it the scene's [[claim]]s");
+
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
     eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
 

@@ -11,6 +11,7 @@ namespace alembert {
 
 struct Request {
     std::string scene;
+    std::string claims;           ///< check: a file; empty: the claims of the scene
     std::string by;               ///< formalism; empty: the program chooses
     bool json = false;
     std::string format = "text";  ///< derive: text, latex, mathml
@@ -25,6 +26,7 @@ struct Request {
 };
 
 int agree(const Request& request);
+int check(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);

@@ -130,6 +130,7 @@ private:
                 case Variable::Kind::coordinate: leaves[id] = q_[i]; break;
                 case Variable::Kind::rate: leaves[id] = u_[i]; break;
                 case Variable::Kind::acceleration: leaves[id] = a_[i]; break;
+                case Variable::Kind::unknown: break;
             }
         }
         return leaves;
@@ -148,6 +149,7 @@ private:
                 case Variable::Kind::coordinate: q[i] = 1; break;
                 case Variable::Kind::rate: u[i] = 1; break;
                 case Variable::Kind::acceleration: a[i] = 1; break;
+                case Variable::Kind::unknown: break;
                 default: break;
             }
         }

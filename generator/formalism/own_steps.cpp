@@ -10,6 +10,7 @@
 #include "formalism/formalisms.hpp"
 #include "formalism/hamilton.hpp"
 #include "formalism/kane.hpp"
+#include "formalism/rest.hpp"
 #include "formalism/routhian.hpp"
 #include "report/text.hpp"
 
@@ -137,32 +138,13 @@ private:
     // The condition of rest as a product
 
     void add_rest(Section& section, const Phrase& sum) {
-        // Sines and cosines as variables, so that the product can be found.
-        GiNaC::exmap letters, functions;
-        const ex plain = name_functions(expression(sum), letters, functions);
-        ex factored = plain;
-        try {
-            factored = GiNaC::factor(plain);
-        } catch (const std::exception&) {
-            // shown as it is
-        }
-        std::vector<ex> factors;
-        const auto collect = [&](const ex& e) {
-            if (!GiNaC::is_a<GiNaC::mul>(e)) factors.push_back(e);
-            else for (const ex& factor : e) factors.push_back(factor);
-        };
-        collect(factored);
-        // What never vanishes (numbers, single parameters) is divided out.
+        const TrigonometricProduct found = product_of(expression(sum), m_);
         std::vector<Phrase> atoms, sums;
-        for (const ex& factor : factors) {
-            const ex base = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
-            if (GiNaC::is_a<GiNaC::numeric>(base)) continue;
-            if (GiNaC::is_a<GiNaC::symbol>(base) && is_parameter(base)) continue;
-            const auto f = fourier(base.subs(functions), *m_.symbols);
+        for (const ex& base : found.bases) {
+            const auto f = fourier(base.subs(found.functions), *m_.symbols);
             if (!f || f->size() == 0) continue;
-            Phrase phrase = leading_positive(*f);
-            (GiNaC::is_a<GiNaC::add>(base) ? sums : atoms).push_back(phrase);
-            if (m_.size() == 1) add_root(base, functions);
+            (GiNaC::is_a<GiNaC::add>(base) ? sums : atoms).push_back(leading_positive(*f));
+            if (m_.size() == 1) add_root(base, found.functions);
         }
         // GiNaC's order changes from run to run.
         const auto by_text = [](const Phrase& a, const Phrase& b) { return text(a) < text(b); };
@@ -173,36 +155,7 @@ private:
             const int simple_a = a.first.kind == Phrase::Kind::call, simple_b = b.first.kind == Phrase::Kind::call;
             return std::tuple(simple_a, text(a.first), text(a.second)) < std::tuple(simple_b, text(b.first), text(b.second));
         });
-        section.equalities.emplace_back(plain.is_zero() ? phrases::number(0) : phrases::product(std::move(atoms)), phrases::number(0));
-    }
-
-    bool is_parameter(const ex& s) const {
-        return m_.symbols->info(GiNaC::ex_to<GiNaC::symbol>(s)).kind == SymbolInfo::Kind::parameter;
-    }
-
-    ex name_functions(const ex& e, GiNaC::exmap& letters, GiNaC::exmap& functions) const {
-        if (GiNaC::is_a<GiNaC::function>(e)) {
-            if (const auto found = letters.find(e); found != letters.end()) return found->second;
-            // GiNaC's factor orders by symbol: the name is of no consequence.
-            const GiNaC::symbol s = m_.symbols->declare("f" + std::to_string(letters.size()), SymbolInfo::Kind::other);
-            letters[e] = s;
-            functions[s] = e;
-            return s;
-        }
-        if (e.nops() == 0) return e;
-        GiNaC::exvector parts;
-        for (const ex& part : e) parts.push_back(name_functions(part, letters, functions));
-        if (GiNaC::is_a<GiNaC::add>(e)) return GiNaC::add(std::move(parts));
-        if (GiNaC::is_a<GiNaC::mul>(e)) return GiNaC::mul(std::move(parts));
-        return pow(parts[0], parts[1]);
-    }
-
-    /// The factor with a plus before its first sine or cosine.
-    Phrase leading_positive(const Fourier& factor) const {
-        for (const Term& term : factor.terms())
-            if (circular(term.monomial) != nullptr)
-                return readable(term.coefficient < 0 ? Rational(-1) * factor : factor);
-        return readable(factor);
+        section.equalities.emplace_back(found.vanishes ? phrases::number(0) : phrases::product(std::move(atoms)), phrases::number(0));
     }
 
     void add_root(const ex& base, const GiNaC::exmap& functions) {

@@ -23,6 +23,7 @@ struct State {
     std::vector<Real> parameters;
     Real t = 0;
     std::vector<Real> q, qdot, qddot;
+    std::vector<Real> unknown = {};
 };
 
 /// The rational number nearest to which a Real is; exact quotient of its parts in Real's own arithmetic.
@@ -61,6 +62,7 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
                     case Variable::Kind::acceleration:
                         value[id] = i < state.qddot.size() ? state.qddot[i] : Real(0);
                         break;
+                    case Variable::Kind::unknown: value[id] = state.unknown.at(i); break;
                 }
                 break;
             }

@@ -261,7 +261,17 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
 }
 
 int lower_expression(Program& program, const Mechanism& mechanism, const ex& e) {
-    return Lowering(program, mechanism, false)(e);
+    return lower_expressions(program, mechanism, {e})[0];
+}
+
+std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<ex>& list,
+                                   const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    Lowering lowering(program, mechanism, false);
+    for (const auto& [symbol, node] : given) lowering.define(symbol, node);
+    lowering.lower_definitions(list);
+    std::vector<int> nodes;
+    for (const ex& e : list) nodes.push_back(lowering(e));
+    return nodes;
 }
 
 }  // namespace alembert

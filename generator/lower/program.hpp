@@ -37,7 +37,8 @@ enum class Op : unsigned char {
 const char* name_of(Op op);
 
 struct Variable {
-    enum class Kind : unsigned char { parameter, time, coordinate, rate, acceleration };
+    /// `unknown`: what no state gives, such as a multiplier or a constant of the motion.
+    enum class Kind : unsigned char { parameter, time, coordinate, rate, acceleration, unknown };
     Kind kind;
     int index = 0;
     friend bool operator==(const Variable&, const Variable&) = default;

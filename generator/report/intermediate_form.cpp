@@ -63,7 +63,7 @@ private:
             case Variable::Kind::coordinate: return symbol_of(m_.q[v.index]);
             case Variable::Kind::rate: return symbol_of(m_.qdot[v.index]);
             case Variable::Kind::acceleration: return symbol_of(m_.qddot[v.index]);
-            case Variable::Kind::parameter: break;
+            case Variable::Kind::parameter: case Variable::Kind::unknown: break;
         }
         int position = v.index;
         for (const Mechanism::Parameter& p : m_.parameters)

@@ -32,6 +32,11 @@ public:
         for (const Claim& claim : scene_.claims) check(claim);
     }
 
+    void check_claims() {
+        for (const std::size_t k : follow(scene_, diagnostics_).definitions) quantities_.describe(scene_.definitions[k]);
+        for (const Claim& claim : scene_.claims) check(claim);
+    }
+
 private:
     const Scene& scene_;
     std::vector<Diagnostic>& diagnostics_;
@@ -246,6 +251,12 @@ private:
 std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others) {
     std::vector<Diagnostic> diagnostics;
     Checker(scene, others, diagnostics).check();
+    return diagnostics;
+}
+
+std::vector<Diagnostic> check_claims(const Scene& scene) {
+    std::vector<Diagnostic> diagnostics;
+    Checker(scene, {}, diagnostics).check_claims();
     return diagnostics;
 }
 

@@ -319,4 +319,15 @@ Equality parse_equality(const std::string& text, const std::vector<Place>& place
     return result;
 }
 
+std::string text_of(const Equality& equation) {
+    std::string result;
+    for (const char c : equation.lhs.text + " = " + equation.rhs.text) {
+        const bool blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+        if (blank && (result.empty() || result.back() == ' ')) continue;
+        result += blank ? ' ' : c;
+    }
+    while (!result.empty() && result.back() == ' ') result.pop_back();
+    return result;
+}
+
 }  // namespace alembert

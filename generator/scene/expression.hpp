@@ -61,6 +61,9 @@ struct Equality {
     Expression lhs, rhs;
 };
 
+/// `lhs = rhs` without needless blanks.
+std::string text_of(const Equality& equation);
+
 /// With `rates_before`, `x'(-)` (the rate before an impact) is read: a call named `(-)` of the name x with one prime.
 Equality parse_equality(const std::string& text, const std::vector<Place>& places,
                         std::vector<Diagnostic>& diagnostics, bool rates_before = false);

@@ -23,7 +23,7 @@ struct Legal {
     std::string advice = {};                                ///< what to do instead, where a rate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
     bool multipliers = false;  ///< of the scene's constraints
-    bool claim = false;  ///< momenta p_…, multipliers lambda… are legal, known or not
+    bool claim = false;  ///< momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, known or not
 };
 
 class Quantities {

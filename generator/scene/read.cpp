@@ -2,10 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -16,12 +12,12 @@
 #include "scene/syntax.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
+#include "scene/text_file.hpp"
 
 namespace alembert {
 namespace {
 
 constexpr int most_syntax_mistakes = 10;
-constexpr std::size_t most_bytes = 1024 * 1024;
 
 template <void (*read)(const Table&, Scene&)>
 void one(const Table& table, Scene& scene) {
@@ -151,12 +147,6 @@ std::optional<toml::table> parse_toml(Layout layout, const SourceText& source, s
     return {};
 }
 
-[[noreturn]] void refuse_file(const std::string& file, std::string message) {
-    Scene scene;
-    scene.file = file;
-    fail(scene, {{{}, std::move(message)}});
-}
-
 }  // namespace
 
 Scene parse_scene(std::string text, std::string file) {
@@ -181,18 +171,6 @@ Scene parse_scene(std::string text, std::string file) {
     return scene;
 }
 
-Scene read_scene(const std::string& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error)) refuse_file(file, "is a directory; expected a scene file");
-    if (!std::filesystem::exists(file, error)) refuse_file(file, "no such file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse_file(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    std::string text(most_bytes + 1, '\0');
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (stream.bad()) refuse_file(file, "cannot be read");
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > most_bytes) refuse_file(file, "has more than 1048576 bytes (1 MiB), the limit for a scene");
-    return parse_scene(std::move(text), file);
-}
+Scene read_scene(const std::string& file) { return parse_scene(text_of_file(file), file); }
 
 }  // namespace alembert

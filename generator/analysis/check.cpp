@@ -1,0 +1,643 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false holds at a
+// random point of GF(p) with a chance of at most d/p (Schwartz, J. ACM 27 (1980) 701).
+#include "analysis/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/claims.hpp"
+#include "analysis/multiple.hpp"
+#include "analysis/nearest.hpp"
+#include "analysis/slip.hpp"
+#include "formalism/rest.hpp"
+#include "model/translate.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr double wanted_failure = -60;
+constexpr int most_unlucky = 4000;
+constexpr int states_of_rest = 48;
+
+/// Exact states, made when first asked for.
+class States {
+public:
+    States(const Mechanism& m, const Equations& e, Motions::At at, int halves) : motions(m, e, at, halves) {}
+
+    const ExactState* get(std::size_t k) {
+        while (made_.size() <= k && unlucky_ < most_unlucky && motions.obstacle().empty()) {
+            if (auto state = motions.at(++seed_))
+                made_.push_back(std::move(*state));
+            else
+                ++unlucky_;
+        }
+        return k < made_.size() ? &made_[k] : nullptr;
+    }
+
+    const Motions motions;
+
+private:
+    std::vector<ExactState> made_;
+    std::uint64_t seed_ = 0;
+    int unlucky_ = 0;
+};
+
+/// Rows that are linear in the open names: of a claim itself, and of its derivatives where it is an integral.
+struct Rows {
+    struct Row {
+        std::size_t claim;
+        int rest;               ///< the row at open names zero
+        std::vector<int> slope;  ///< by open name
+        bool derived = false;    ///< a time derivative of its claim
+        bool last = false;       ///< the highest of them
+    };
+    Program program;
+    std::vector<Row> list;
+
+    std::vector<int> roots() const {
+        std::vector<int> result;
+        for (const Row& row : list) {
+            result.push_back(row.rest);
+            result.insert(result.end(), row.slope.begin(), row.slope.end());
+        }
+        return result;
+    }
+};
+
+int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) { return reduce_rows(rows, columns); }
+
+class Checker {
+public:
+    Checker(const Scene& scene, const Mechanism& m, const Equations& e)
+        : scene_(scene), m_(m), e_(e), claims_(scene, m, e) {}
+
+    Checked run() {
+        read();
+        result_.claims.resize(forms_.size());
+        for (const Motions::At at : {Motions::At::motion, Motions::At::rest}) {
+            const std::string name = at == Motions::At::rest ? "rest" : "motion";
+            std::vector<std::size_t> here;
+            for (std::size_t k = 0; k < forms_.size(); ++k)
+                if (scene_.claims[k].at == name) here.push_back(k);
+            if (!here.empty()) settle(here, at);
+        }
+        for (std::size_t k = 0; k < forms_.size(); ++k)
+            if (scene_.claims[k].at == "impact") result_.claims[k].reason = "claims at an impact are not checked yet";
+        result_.complete = complete();
+        return std::move(result_);
+    }
+
+private:
+    void read() {
+        std::vector<Diagnostic> mistakes;
+        for (const Claim& claim : scene_.claims) try {
+                forms_.push_back(claims_.read(claim));
+            } catch (const SceneMistake& mistake) {
+                mistakes.push_back(mistake.diagnostic);
+            }
+        if (!mistakes.empty()) fail(scene_, mistakes);
+    }
+
+    void settle(const std::vector<std::size_t>& here, Motions::At at) {
+        // Angles in halves only where they occur: every halving doubles the degrees.
+        std::optional<States> states;
+        for (const int halves : {0, 2}) {
+            states.emplace(m_, e_, at, halves);
+            const ExactState* const state = states->get(0);
+            if (state == nullptr) continue;
+            bool all = true;
+            for (const std::size_t k : here) {
+                Program p;
+                const std::vector<int> root = claims_.lower(p, {forms_[k].residual});
+                bool lucky = false;
+                for (std::size_t s = 0; s < 24 && !lucky && states->get(s) != nullptr; ++s)
+                    lucky = evaluate_mod(p, states->get(s)->point, root).has_value();
+                all = all && lucky;
+            }
+            if (all) break;
+        }
+        if (states->get(0) == nullptr) {
+            for (const std::size_t k : here) {
+                CheckedClaim& c = result_.claims[k];
+                c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
+                           : at == Motions::At::rest           ? "no state was found in which the equations allow rest"
+                                                               : "no state was found that obeys the constraints and has one acceleration";
+            }
+            return;
+        }
+        std::vector<std::size_t> open;
+        for (const std::size_t k : here)
+            if (forms_[k].open.empty())
+                settle_alone(k, *states);
+            else
+                open.push_back(k);
+        settle_open(open, *states);
+    }
+
+    /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an error.
+    std::optional<bool> vanishes_at(States& states, const Program& p, int root, double& failure, bool& exact) const {
+        const std::array<int, 1> roots{root};
+        failure = 0;
+        int lucky = 0;
+        const bool rest = states.motions.where() == Motions::At::rest;
+        for (std::size_t s = 0;; ++s) {
+            const ExactState* const state = states.get(s);
+            if (state == nullptr || s > 400) return lucky > 0 && (failure <= wanted_failure || rest) ? std::optional(true) : std::nullopt;
+            const auto at = evaluate_mod(p, state->point, roots);
+            if (!at) continue;
+            ++lucky;
+            exact = exact && at->exact && state->exact;
+            if (!at->value[root].is_zero()) return false;
+            const double degree = std::max(1.0, at->degree[root]) * std::max(1.0, state->degree);
+            const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
+            if (chance > -1) return std::nullopt;
+            failure += chance;
+            if (failure <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
+        }
+    }
+
+    void settle_alone(std::size_t k, States& states) {
+        CheckedClaim& c = result_.claims[k];
+        Program p;
+        const int root = claims_.lower(p, {forms_[k].residual})[0];
+        if (p.is_zero(root)) {
+            c.verdict = Verdict::proved;
+            c.normal_form = true;
+            c.reason = "it holds identically and says nothing of the motion";
+            return;
+        }
+        bool exact = true;
+        const std::optional<bool> zero = vanishes_at(states, p, root, c.failure, exact);
+        if (!zero) {
+            c.reason = "it could not be evaluated: it divides by something that is zero on every motion, or its degree is too high";
+            return;
+        }
+        if (*zero) {
+            c.verdict = Verdict::proved;
+            c.normal_form = states.motions.where() == Motions::At::motion && is_multiple(forms_[k].residual, m_, e_);
+            return;
+        }
+        const bool shown = show_counterexample(c, states, p, root);
+        if (!shown && (!exact || is_delicate(p, root))) {
+            c.reason = "it differs in exact arithmetic that does not know all identities, and no state in numbers was found at which it fails";
+            return;
+        }
+        c.verdict = Verdict::refuted;
+        refine(k, states);
+    }
+
+    /// Does it hold functions whose branches the modular arithmetic does not know?
+    static bool is_delicate(const Program& p, int root) {
+        const std::array<int, 1> roots{root};
+        for (const int id : p.needed(roots))
+            if (p[id].op == Op::sqrt || p[id].op == Op::abs || p[id].op == Op::sign || p[id].op == Op::min || p[id].op == Op::max)
+                return true;
+        return false;
+    }
+
+    bool show_counterexample(CheckedClaim& c, States& states, const Program& p, int root) const {
+        const auto start = std::chrono::steady_clock::now();
+        for (unsigned seed = 0; seed < 1200; ++seed) {
+            if (std::chrono::steady_clock::now() - start > std::chrono::milliseconds(400) && seed > 40) break;
+            const auto state = real_state(states.motions, p, {root}, seed);
+            if (!state) continue;
+            const auto value = evaluate(p, *state, {root});
+            if (!value || is_small((*value)[0])) continue;
+            describe(c, *state, (*value)[0]);
+            return true;
+        }
+        return false;
+    }
+
+    static bool is_small(const numeric& value) {
+        return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
+    }
+
+    void describe(CheckedClaim& c, const RealState& state, const numeric& residual, const std::vector<int>& open = {}) const {
+        using Kind = Variable::Kind;
+        const auto add = [&](const std::string& name, const RealState::Key& key) {
+            if (state.value.contains(key)) c.counterexample.emplace_back(name, text_of(state, key));
+        };
+        int independent = 0;
+        for (const Mechanism::Parameter& p : m_.parameters)
+            if (p.independent) add(p.symbol.get_name(), {Kind::parameter, independent++});
+        add("t", {Kind::time, 0});
+        for (const auto& [kind, primes] : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
+            for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + primes, {kind, i});
+        for (std::size_t k = 0; k < e_.lambda.size(); ++k) add(e_.lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
+        for (const int o : open) add(claims_.open()[o].name, {claims_.open()[o].variable.kind, claims_.open()[o].variable.index});
+        c.residual = text_of(residual);
+        c.residual_value = residual.to_double();
+    }
+
+    // What is wrong
+
+    void refine(std::size_t k, States& states) {
+        CheckedClaim& c = result_.claims[k];
+        if (states.motions.where() == Motions::At::rest) {
+            c.reason = name_branch(k, states);
+        } else if (holds_at_scene_values(k, states)) {
+            c.reason = "it holds at the scene's values of the parameters only";
+        }
+        if (states.motions.where() != Motions::At::motion) return;
+        if (forms_[k].open.empty())
+            if (const auto nearest = nearest_equation(forms_[k].residual, m_, e_)) {
+                c.nearest = nearest->equation;
+                c.difference = nearest->difference;
+            }
+        const auto right = [&](const Claim& repaired) {
+            try {
+                Formed former{k, forms_[k], *this};
+                forms_[k] = claims_.read(repaired);
+                return holds_quickly(k, states);
+            } catch (const SceneMistake&) {
+                return false;
+            }
+        };
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, e_, right);
+    }
+
+    /// Puts a form back.
+    struct Formed {
+        std::size_t k;
+        ClaimForm form;
+        Checker& checker;
+        ~Formed() { checker.forms_[k] = form; }
+    };
+
+    bool holds_quickly(std::size_t k, States& states) {
+        if (!forms_[k].open.empty()) {
+            // With the claims of its group that are right; if they leave it open, with all.
+            std::vector<std::size_t> group = group_of(k), right = group;
+            std::erase_if(right, [&](std::size_t other) { return other != k && wrong_.contains(other); });
+            return agrees(k, right, states) || (right.size() < group.size() && agrees(k, group, states));
+        }
+        Program p;
+        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
+        if (p.is_zero(root[0])) return false;  // an identity is no repair
+        for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
+            const ExactState* const state = states.get(s);
+            if (state == nullptr || s > 20) return false;
+            const auto at = evaluate_mod(p, state->point, root);
+            if (!at) continue;
+            if (!at->value[root[0]].is_zero()) return false;
+            ++lucky;
+        }
+        return true;
+    }
+
+    bool agrees(std::size_t k, const std::vector<std::size_t>& group, States& states) {
+        const Rows rows = rows_of(group);
+        for (std::size_t s = 0; s < 2; ++s) {
+            const auto at = matrix(rows, states, s);
+            if (!at || !consistent(*at) || pins(rows, *at, {}, k)) return false;
+        }
+        return true;
+    }
+
+    bool holds_at_scene_values(std::size_t k, States& states) {
+        if (!forms_[k].open.empty() || !states.motions.steps().empty()) return false;
+        ModularPoint point;
+        int independent = 0;
+        std::map<std::pair<Variable::Kind, int>, Prime> values;
+        for (const Mechanism::Parameter& p : m_.parameters) {
+            if (!p.independent) continue;
+            const auto value = Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<numeric>(p.value).to_cl_N()));
+            if (!value) return false;
+            values[{Variable::Kind::parameter, independent++}] = *value;
+        }
+        if (independent == 0) return false;
+        Program p;
+        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
+        int lucky = 0;
+        for (std::uint64_t seed = 1; seed < 40 && lucky < 2; ++seed) {
+            const auto state = states.motions.at(seed, values);
+            if (!state) continue;
+            const auto at = evaluate_mod(p, state->point, root);
+            if (!at) continue;
+            if (!at->value[root[0]].is_zero()) return false;
+            ++lucky;
+        }
+        return lucky == 2;
+    }
+
+    /// Which factor of an equation of rest vanishes where the claim does not.
+    std::string name_branch(std::size_t k, States& states) const {
+        Program p;
+        const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
+        for (std::size_t s = 0; states.get(s) != nullptr && s < 64; ++s) {
+            const auto at = evaluate_mod(p, states.get(s)->point, root);
+            if (!at || at->value[root[0]].is_zero()) continue;
+            for (const RestFactor& factor : rest_factors(m_, e_)) {
+                Program q;
+                const std::array<int, 1> node{claims_.lower(q, {factor.value})[0]};
+                const auto value = evaluate_mod(q, states.get(s)->point, node);
+                if (value && value->value[node[0]].is_zero())
+                    return fmt::format("rest is possible with {} = 0 too, and there it fails", factor.text);
+            }
+        }
+        return "it fails at some of the states of rest";
+    }
+
+    // Claims with open names
+
+    Rows rows_of(const std::vector<std::size_t>& group) {
+        Rows rows;
+        const std::vector<GiNaC::symbol> symbols = claims_.open_symbols();
+        GiNaC::exmap zero;
+        std::vector<ex> list;
+        for (const std::size_t k : group) {
+            std::vector<ex> parts{forms_[k].residual};
+            parts.insert(parts.end(), forms_[k].derivatives.begin(), forms_[k].derivatives.end());
+            for (std::size_t r = 0; r < parts.size(); ++r) {
+                rows.list.push_back({.claim = k, .rest = 0, .slope = {}, .derived = r > 0, .last = r + 1 == parts.size()});
+                const std::vector<ex> slopes = m_.z->pull_back({{parts[r], 1}}, symbols);
+                GiNaC::exvector rest{parts[r]};
+                for (std::size_t j = 0; j < symbols.size(); ++j) rest.push_back(-slopes[j] * symbols[j]);
+                list.push_back(GiNaC::add(std::move(rest)));
+                list.insert(list.end(), slopes.begin(), slopes.end());
+            }
+        }
+        const std::vector<int> nodes = claims_.lower(rows.program, list);
+        std::size_t next = 0;
+        for (Rows::Row& row : rows.list) {
+            row.rest = nodes[next++];
+            for (std::size_t j = 0; j < symbols.size(); ++j) row.slope.push_back(nodes[next++]);
+        }
+        return rows;
+    }
+
+    struct Matrix {
+        std::vector<std::vector<Prime>> rows;  ///< slopes, then −rest
+        double chance = 0;                     ///< log₂
+        bool exact = true;
+    };
+
+    std::optional<Matrix> matrix(const Rows& rows, States& states, std::size_t s) const {
+        const ExactState* const state = states.get(s);
+        if (state == nullptr) return std::nullopt;
+        ModularPoint point = state->point;
+        const std::vector<int> roots = rows.roots();
+        const auto at = evaluate_mod(rows.program, point, roots);
+        if (!at) return std::nullopt;
+        Matrix result;
+        double degree = 1;
+        for (const int id : roots) degree = std::max(degree, at->degree[id]);
+        degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state->degree);
+        result.chance = std::log2(degree) + at->conditions + state->conditions - 61;
+        result.exact = at->exact && state->exact;
+        for (const Rows::Row& row : rows.list) {
+            result.rows.emplace_back();
+            for (const int id : row.slope) result.rows.back().push_back(at->value[id]);
+            result.rows.back().push_back(-at->value[row.rest]);
+        }
+        return result;
+    }
+
+    static bool consistent(const std::vector<std::vector<Prime>>& rows) {
+        if (rows.empty()) return true;
+        const std::size_t columns = rows[0].size() - 1;
+        return rank_of(rows, columns) == rank_of(rows, columns + 1);
+    }
+    static bool consistent(const Matrix& m) { return consistent(m.rows); }
+
+    /// All claims that share open names with claim k, through others too.
+    std::vector<std::size_t> group_of(std::size_t k) const {
+        std::set<int> names(forms_[k].open.begin(), forms_[k].open.end());
+        std::vector<std::size_t> group;
+        for (std::size_t before = 0; before != names.size() || group.empty();) {
+            before = names.size();
+            group.clear();
+            for (std::size_t other = 0; other < forms_.size(); ++other) {
+                if (scene_.claims[other].at != scene_.claims[k].at || !forms_[other].linear) continue;
+                if (std::none_of(forms_[other].open.begin(), forms_[other].open.end(), [&](int o) { return names.contains(o); })) continue;
+                group.push_back(other);
+                names.insert(forms_[other].open.begin(), forms_[other].open.end());
+            }
+            if (group.empty()) break;
+        }
+        return group;
+    }
+
+    void settle_open(const std::vector<std::size_t>& open, States& states) {
+        std::set<std::size_t> done;
+        for (const std::size_t k : open) {
+            CheckedClaim& c = result_.claims[k];
+            if (!forms_[k].linear) {
+                c.reason = "it is not linear in what it leaves open";
+                continue;
+            }
+            if (mixes(k)) {
+                c.reason = "it holds an unknown function beside a constant of the motion, and the function's derivative is not known";
+                continue;
+            }
+            if (done.contains(k)) continue;
+            std::vector<std::size_t> group = group_of(k);
+            std::erase_if(group, [&](std::size_t other) { return mixes(other); });
+            done.insert(group.begin(), group.end());
+            settle_group(group, states);
+        }
+    }
+
+    bool mixes(std::size_t k) const {
+        bool constant = false, function = false;
+        for (const int o : forms_[k].open) (claims_.open()[o].constant ? constant : function) = true;
+        return constant && function;
+    }
+
+    void settle_group(const std::vector<std::size_t>& group, States& states) {
+        const Rows rows = rows_of(group);
+        double failure = 0;
+        bool exact = true;
+        std::optional<Matrix> bad;
+        std::vector<Matrix> seen;
+        for (std::size_t s = 0; s < 400 && failure > wanted_failure && !bad; ++s) {
+            auto at = matrix(rows, states, s);
+            if (!at) {
+                if (states.get(s) == nullptr) break;
+                continue;
+            }
+            exact = exact && at->exact;
+            if (!consistent(*at)) bad = *at;
+            failure += at->chance;
+            seen.push_back(std::move(*at));
+        }
+        if (seen.empty() || (!bad && failure > wanted_failure)) {
+            for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
+            return;
+        }
+        wrong_ = bad ? culprits(rows, *bad, group) : std::set<std::size_t>();
+        const std::set<std::size_t> wrong = wrong_;
+        for (const std::size_t k : group) {
+            CheckedClaim& c = result_.claims[k];
+            c.failure = failure;
+            if (wrong.contains(k)) {
+                c.verdict = Verdict::refuted;
+                c.reason = wrong.size() > 1 && wrong.size() == group.size()
+                               ? "no choice of what is left open satisfies these claims together"
+                               : "the other claims leave no choice with which it holds";
+                open_counterexample(k, rows, wrong, states);
+                if (c.counterexample.empty() && !exact) {
+                    c.verdict = Verdict::undecided;
+                    continue;
+                }
+                refine(k, states);
+            } else if (pins(rows, seen[0], wrong, k)) {
+                const bool constant = claims_.open()[forms_[k].open[0]].constant;
+                c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
+                c.reason = constant ? "a further time derivative would be needed to tell whether what it leaves open is constant"
+                                    : "what it leaves open can take up whatever it says: no other claim fixes it";
+            } else {
+                c.verdict = Verdict::proved;
+            }
+        }
+    }
+
+    /// Does the last row of claim k raise the rank of all the others? Then it only determines something open.
+    static bool pins(const Rows& rows, const Matrix& at, const std::set<std::size_t>& without, std::size_t k) {
+        std::vector<std::vector<Prime>> all, others;
+        for (std::size_t r = 0; r < rows.list.size(); ++r) {
+            if (without.contains(rows.list[r].claim)) continue;
+            all.push_back(at.rows[r]);
+            if (rows.list[r].claim != k || !rows.list[r].last) others.push_back(at.rows[r]);
+        }
+        if (all.empty()) return false;
+        const std::size_t columns = all[0].size() - 1;
+        return rank_of(all, columns) > (others.empty() ? 0 : rank_of(others, columns));
+    }
+
+    /// The fewest claims without which the others can be satisfied; where there is a choice, all of them.
+    static std::set<std::size_t> culprits(const Rows& rows, const Matrix& at, const std::vector<std::size_t>& group) {
+        const auto rest = [&](const std::set<std::size_t>& without) {
+            std::vector<std::vector<Prime>> result;
+            for (std::size_t r = 0; r < rows.list.size(); ++r)
+                if (!without.contains(rows.list[r].claim)) result.push_back(at.rows[r]);
+            return result;
+        };
+        std::set<std::size_t> found;
+        for (const std::size_t a : group)
+            if (consistent(rest({a}))) found.insert(a);
+        if (!found.empty()) return found;
+        for (std::size_t i = 0; i < group.size(); ++i)
+            for (std::size_t j = i + 1; j < group.size(); ++j)
+                if (consistent(rest({group[i], group[j]}))) {
+                    if (!found.empty()) return {group.begin(), group.end()};
+                    found = {group[i], group[j]};
+                }
+        return found.empty() ? std::set<std::size_t>(group.begin(), group.end()) : found;
+    }
+
+    /// A state, what the other claims make of the open names there, and what is left of this claim.
+    void open_counterexample(std::size_t k, const Rows& rows, const std::set<std::size_t>& wrong, States& states) {
+        CheckedClaim& c = result_.claims[k];
+        const std::vector<int> roots = rows.roots();
+        const std::size_t columns = claims_.open().size();
+        for (unsigned seed = 0; seed < 600; ++seed) {
+            auto state = real_state(states.motions, rows.program, roots, seed);
+            if (!state) continue;
+            for (const Open& o : claims_.open()) state->value[{o.variable.kind, o.variable.index}] = 0;
+            const auto value = evaluate(rows.program, *state, roots);
+            if (!value) continue;
+            // Rows of the right claims first, then of the other wrong ones, then this one's: the first that contradicts.
+            std::vector<std::size_t> sequence(rows.list.size());
+            std::iota(sequence.begin(), sequence.end(), std::size_t{0});
+            std::stable_sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
+                const auto place = [&](std::size_t r) { return rows.list[r].claim == k ? 2 : wrong.contains(rows.list[r].claim) ? 1 : 0; };
+                return place(a) < place(b);
+            });
+            std::vector<std::vector<numeric>> kept;
+            std::vector<std::size_t> pivots;
+            for (const std::size_t r : sequence) {
+                std::vector<numeric> row(columns + 1);
+                const std::size_t base = r * (columns + 1);
+                row[columns] = -(*value)[base];
+                for (std::size_t j = 0; j < columns; ++j) row[j] = (*value)[base + 1 + j];
+                for (std::size_t p = 0; p < pivots.size(); ++p) {
+                    const numeric factor = row[pivots[p]];
+                    for (std::size_t j = 0; j <= columns; ++j) row[j] -= factor * kept[p][j];
+                    row[pivots[p]] = 0;
+                }
+                const auto pivot = std::find_if(row.begin(), row.end() - 1, [](const numeric& x) { return !is_small(x); });
+                if (pivot == row.end() - 1) {
+                    if (rows.list[r].claim != k || is_small(row[columns])) continue;
+                    for (std::size_t p = pivots.size(); p-- > 0;) {
+                        numeric x = kept[p][columns];
+                        for (std::size_t j = pivots[p] + 1; j < columns; ++j)
+                            x -= kept[p][j] * state->value[{claims_.open()[j].variable.kind, claims_.open()[j].variable.index}];
+                        state->value[{claims_.open()[pivots[p]].variable.kind, claims_.open()[pivots[p]].variable.index}] = x;
+                    }
+                    describe(c, *state, -row[columns], forms_[k].open);
+                    if (rows.list[r].derived) c.reason = "it is not constant: the residual is that of its time derivative";
+                    return;
+                }
+                const numeric lead = *pivot;
+                pivots.push_back(static_cast<std::size_t>(pivot - row.begin()));
+                for (numeric& x : row) x /= lead;
+                kept.push_back(std::move(row));
+            }
+        }
+    }
+
+    /// With the constraints and what the claims leave open eliminated, is every acceleration determined?
+    bool complete() {
+        std::vector<GiNaC::symbol> unknowns = m_.qddot;
+        unknowns.insert(unknowns.end(), e_.lambda.begin(), e_.lambda.end());
+        for (const Open& o : claims_.open()) unknowns.push_back(o.symbol);
+        std::vector<ex> list;
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            const Verdict verdict = result_.claims[k].verdict;
+            if (scene_.claims[k].at != "motion" || (verdict != Verdict::proved && verdict != Verdict::vacuous)) continue;
+            const ex last = forms_[k].derivatives.empty() ? forms_[k].residual : forms_[k].derivatives.back();
+            const std::vector<ex> slopes = m_.z->pull_back({{last, 1}}, unknowns);
+            list.insert(list.end(), slopes.begin(), slopes.end());
+            ++count;
+        }
+        if (count == 0) return false;
+        for (const auto& row : e_.A) {
+            list.insert(list.end(), row.begin(), row.end());
+            list.insert(list.end(), unknowns.size() - row.size(), ex(0));
+        }
+        States states(m_, e_, Motions::At::motion, 2);
+        Program p;
+        const std::vector<int> nodes = claims_.lower(p, list);
+        for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
+            const auto at = evaluate_mod(p, states.get(s)->point, nodes);
+            if (!at) continue;
+            std::vector<std::vector<Prime>> all, others;
+            for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
+                all.emplace_back();
+                for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+            }
+            return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
+        }
+        return false;
+    }
+
+    const Scene& scene_;
+    const Mechanism& m_;
+    const Equations& e_;
+    Claims claims_;
+    std::vector<ClaimForm> forms_;
+    std::set<std::size_t> wrong_;  // of the group in hand
+    Checked result_;
+};
+
+}  // namespace
+
+Checked check(const Scene& scene, const Mechanism& mechanism, const Equations& equations) {
+    return Checker(scene, mechanism, equations).run();
+}
+
+}  // namespace alembert

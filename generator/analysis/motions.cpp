@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "analysis/motions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "lower/lower.hpp"
+#include "lower/prime_polynomial.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// How a variable occurs in an expression.
+struct Occurrence {
+    bool plain = false, turned = false;  // outside sines and cosines; in them
+};
+using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
+
+Occurrences occurrences(const Program& p, int root) {
+    Occurrences result;
+    std::set<std::pair<int, bool>> seen;
+    std::vector<std::pair<int, bool>> stack{{root, false}};
+    while (!stack.empty()) {
+        const auto [id, turned] = stack.back();
+        stack.pop_back();
+        if (!seen.emplace(id, turned).second) continue;
+        const Node& node = p[id];
+        if (node.op == Op::variable) {
+            Occurrence& o = result[{node.variable.kind, node.variable.index}];
+            (turned ? o.turned : o.plain) = true;
+        }
+        const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
+        for (const int arg : node.args) stack.emplace_back(arg, inside);
+    }
+    return result;
+}
+
+std::optional<Prime> value_of(const Program& p, int node, const ExactState& state) {
+    const std::array<int, 1> root{node};
+    const auto at = evaluate_mod(p, state.point, root);
+    if (!at) return std::nullopt;
+    return at->value[node];
+}
+
+}  // namespace
+
+Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
+    : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+    std::vector<ex> list;
+    for (int i = 0; i < n_; ++i)
+        for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));
+    for (int i = 0; i < n_; ++i) list.push_back(e.forcing(i));
+    for (const auto& row : e.A) list.insert(list.end(), row.begin(), row.end());
+    for (int k = 0; k < m_; ++k) list.push_back(m.constraints[k].drift);
+    list.insert(list.end(), e.gamma.begin(), e.gamma.end());
+    for (int k = 0; k < m_; ++k)
+        if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
+    const std::vector<int> nodes = lower_expressions(program_, m, list);
+    auto next = nodes.begin();
+    const auto take = [&](int count) {
+        std::vector<int> part(next, next + count);
+        next += count;
+        return part;
+    };
+    system_.M = take(n_ * n_);
+    system_.f = take(n_);
+    system_.A = take(m_ * n_);
+    system_.drift = take(m_);
+    system_.gamma = take(m_);
+    std::vector<int> conditions(next, nodes.end());
+
+    if (at == At::rest) {
+        // f(q, 0) + Σ λ_k A_k = 0, and the rates' equations with q' = q'' = 0.
+        GiNaC::exmap still;
+        for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+        std::vector<ex> balance;
+        std::vector<std::pair<GiNaC::symbol, int>> given;
+        for (int k = 0; k < m_; ++k) given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
+        const auto at_rest = [&](const ex& value) { return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern); };
+        for (int i = 0; i < n_; ++i) {
+            GiNaC::exvector terms{at_rest(e.forcing(i))};
+            for (int k = 0; k < m_; ++k) terms.push_back(at_rest(e.A[k][i]) * e.lambda[k]);
+            balance.push_back(GiNaC::add(std::move(terms)));
+        }
+        for (int k = 0; k < m_; ++k) {
+            balance.push_back(at_rest(m.constraints[k].drift));
+            balance.push_back(at_rest(e.gamma[k]));
+        }
+        for (const int node : lower_expressions(program_, m, balance, given))
+            if (!program_.is_zero(node)) conditions.push_back(node);
+    }
+    order(std::move(conditions));
+}
+
+// From the last step to the first: a variable that no other condition contains can be found when all else is known.
+void Motions::order(std::vector<int> conditions) {
+    std::sort(conditions.begin(), conditions.end());
+    conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
+    std::vector<Occurrences> held;
+    for (const int node : conditions) held.push_back(occurrences(program_, node));
+    std::set<std::pair<Variable::Kind, int>> taken;
+    while (!conditions.empty()) {
+        // Multipliers, then coordinates, then parameters.
+        constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
+        std::optional<std::pair<std::size_t, Step>> chosen;
+        for (const Variable::Kind kind : kinds) {
+            for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
+                for (const auto& [variable, how] : held[c]) {
+                    if (variable.first != kind || taken.contains(variable)) continue;
+                    const bool elsewhere = std::any_of(held.begin(), held.end(), [&](const Occurrences& other) {
+                        return &other != &held[c] && other.contains(variable);
+                    });
+                    const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
+                        return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
+                    });
+                    if (elsewhere || only_parameters || (how.plain && how.turned)) continue;
+                    chosen = {c, {conditions[c], {variable.first, variable.second}, how.turned}};
+                    break;
+                }
+            if (chosen) break;
+        }
+        if (!chosen) {
+            obstacle_ = at_ == At::rest ? "the equations of rest cannot be solved one after the other"
+                                        : "the constraints cannot be solved one after the other";
+            return;
+        }
+        const auto [c, step] = *chosen;
+        taken.insert({step.variable.kind, step.variable.index});
+        steps_.insert(steps_.begin(), step);
+        conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
+        held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
+    }
+}
+
+bool Motions::solve(const Step& step, ExactState& state) const {
+    const std::pair key{step.variable.kind, step.variable.index};
+    const Prime plain = state.point.variable(step.variable);
+    state.point.given[key] = plain;
+    const auto put = [&](Prime x) {
+        if (step.turned)
+            state.point.given_angles[plain] = Turn::rational(x);
+        else
+            state.point.given[key] = x;
+    };
+    // Polynomials of growing degree, until one goes through more points than it needs.
+    for (const std::size_t degree : {2UL, 4UL, 8UL, 16UL, 24UL}) {
+        std::vector<Prime> x, y;
+        for (std::size_t k = 0; k < degree + 3; ++k) {
+            x.push_back(state.point.random(600 + k, static_cast<std::uint64_t>(step.node)));
+            put(x.back());
+            const std::optional<Prime> value = value_of(program_, step.node, state);
+            if (!value) return false;
+            y.push_back(step.turned ? *value * (x.back() * x.back() + 1).power(degree / 2) : *value);
+        }
+        const PrimePolynomial f = interpolate(x, y);
+        if (f.size() > degree + 1) continue;
+        if (f.empty()) {
+            put(x.back());  // holds for every value
+            return true;
+        }
+        std::vector<Prime> found = roots(f, state.point.seed);
+        std::vector<std::optional<Prime>> all(found.begin(), found.end());
+        if (step.turned) {  // half a turn is the root at infinity
+            state.point.given_angles[plain] = Turn{-1, 0};
+            if (value_of(program_, step.node, state) == Prime(0)) all.emplace_back();
+        }
+        if (all.empty()) return false;
+        const std::size_t pick = state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
+        if (all[pick])
+            put(*all[pick]);
+        else
+            state.point.given_angles[plain] = Turn{-1, 0};
+        state.degree *= static_cast<double>(f.size() - 1);
+        return value_of(program_, step.node, state) == Prime(0);
+    }
+    return false;
+}
+
+std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
+    if (!obstacle_.empty()) return std::nullopt;
+    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_}};
+    if (at_ == At::rest)
+        for (int i = 0; i < n_; ++i)
+            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
+    for (const Step& step : steps_)
+        if (!solve(step, state)) return std::nullopt;
+    if (at_ == At::motion && !move(state)) return std::nullopt;
+    return state;
+}
+
+bool Motions::move(ExactState& state) const {
+    const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
+    const auto note = [&](const ModularValues& at) {
+        state.conditions = std::max(state.conditions, at.conditions);
+        state.exact = state.exact && at.exact;
+    };
+    std::vector<int> wanted = system_.A;
+    wanted.insert(wanted.end(), system_.drift.begin(), system_.drift.end());
+    const auto geometry = evaluate_mod(program_, state.point, wanted);
+    if (!geometry) return false;
+    note(*geometry);
+    std::vector<std::vector<Prime>> rows;
+    for (std::size_t k = 0; k < m; ++k) {
+        rows.emplace_back();
+        for (std::size_t i = 0; i < n; ++i) rows.back().push_back(geometry->value[system_.A[k * n + i]]);
+        rows.back().push_back(-geometry->value[system_.drift[k]]);
+    }
+    reduce_rows(rows, n);
+    std::vector<bool> solved(n, false);
+    for (std::size_t i = 0; i < n; ++i) state.point.given[{Variable::Kind::rate, static_cast<int>(i)}] = state.point.random(800, i);
+    for (std::size_t k = rows.size(); k-- > 0;) {
+        const auto pivot = std::find_if(rows[k].begin(), rows[k].end(), [](Prime p) { return !p.is_zero(); });
+        if (pivot == rows[k].end()) continue;
+        const auto column = static_cast<std::size_t>(pivot - rows[k].begin());
+        if (column == n) return false;  // 0 = 1
+        Prime value = rows[k][n];
+        for (std::size_t i = column + 1; i < n; ++i)
+            value -= rows[k][i] * state.point.given[{Variable::Kind::rate, static_cast<int>(i)}];
+        state.point.given[{Variable::Kind::rate, static_cast<int>(column)}] = value;
+    }
+
+    wanted = system_.M;
+    for (const auto* part : {&system_.f, &system_.A, &system_.gamma}) wanted.insert(wanted.end(), part->begin(), part->end());
+    const auto at = evaluate_mod(program_, state.point, wanted);
+    if (!at) return false;
+    note(*at);
+    rows.assign(n + m, std::vector<Prime>(n + m + 1));
+    double entry = 0, right = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            rows[i][j] = at->value[system_.M[i * n + j]];
+            entry = std::max(entry, at->degree[system_.M[i * n + j]]);
+        }
+        for (std::size_t k = 0; k < m; ++k) {
+            rows[n + k][i] = at->value[system_.A[k * n + i]];
+            rows[i][n + k] = -rows[n + k][i];
+            entry = std::max(entry, at->degree[system_.A[k * n + i]]);
+        }
+        rows[i][n + m] = at->value[system_.f[i]];
+        right = std::max(right, at->degree[system_.f[i]]);
+    }
+    for (std::size_t k = 0; k < m; ++k) {
+        rows[n + k][n + m] = at->value[system_.gamma[k]];
+        right = std::max(right, at->degree[system_.gamma[k]]);
+    }
+    if (reduce_rows(rows, n + m) < static_cast<int>(n + m)) return false;
+    for (std::size_t i = 0; i < n; ++i)
+        state.point.given[{Variable::Kind::acceleration, static_cast<int>(i)}] = rows[i][n + m];
+    for (std::size_t k = 0; k < m; ++k) state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = rows[n + k][n + m];
+    state.degree *= static_cast<double>(n + m) * entry + right + 1;
+    return true;
+}
+
+}  // namespace alembert

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Random states of a mechanism that are exact: they obey the constraints and their derivatives, with the accelerations and
+/// multipliers that the equations give, modulo 2⁶¹ − 1.
+///
+///     const Motions motions(mechanism, equations);
+///     if (const auto state = motions.at(seed))
+///         evaluate_mod(claim, state->point, roots);         // zero at each seed, if the claim is right
+///
+/// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for all values of
+/// the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of them taken. An angle that
+/// occurs in sines and cosines alone is solved for by the tangent of its half. That the order of solving be triangular is
+/// asked for; a set of constraints that has no such order has no states here, and `obstacle` says so.
+/// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
+///
+/// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
+/// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
+
+#include "formalism/equations.hpp"
+#include "lower/modular.hpp"
+
+namespace alembert {
+
+struct ExactState {
+    ModularPoint point;     ///< coordinates, rates, accelerations; `unknown` k is the multiplier of constraint k
+    double degree = 1;      ///< of the accelerations in the random values, at most: for Schwartz's bound
+    double conditions = 0;  ///< doublings of the chance of a failure (ModularValues)
+    bool exact = true;      ///< no function was met whose identities are unknown
+};
+
+class Motions {
+public:
+    enum class At { motion, rest };
+
+    /// `halves`: angles may occur in parts of 1/2^halves.
+    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0);
+
+    /// Nothing at an unlucky seed: no root in the field, a zero denominator.
+    /// `given`: values instead of random ones, of what is not solved for.
+    std::optional<ExactState> at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given = {}) const;
+
+    /// Why there is no state at any seed; empty if there may be.
+    const std::string& obstacle() const { return obstacle_; }
+    At where() const { return at_; }
+
+    /// A condition and the variable that it is solved for, and how. In the order of solving.
+    struct Step {
+        int node = 0;        ///< in program()
+        Variable variable{};
+        bool turned = false;  ///< as an angle in sines and cosines
+    };
+    const std::vector<Step>& steps() const { return steps_; }
+
+    /// The system's entries as nodes: what other arithmetic can evaluate too.
+    struct System {
+        std::vector<int> M;        ///< n·n, by rows
+        std::vector<int> f;        ///< n
+        std::vector<int> A;        ///< m·n, by rows
+        std::vector<int> drift, gamma;  ///< m
+    };
+    const Program& program() const { return program_; }
+    const System& entries() const { return system_; }
+    int size() const { return n_; }
+    int constraints() const { return m_; }
+
+private:
+    void order(std::vector<int> conditions);
+    bool solve(const Step& step, ExactState& state) const;
+    bool move(ExactState& state) const;
+
+    Program program_;
+    System system_;
+    std::vector<Step> steps_;
+    std::string obstacle_;
+    At at_;
+    int n_ = 0, m_ = 0, halves_ = 0;
+};
+
+}  // namespace alembert

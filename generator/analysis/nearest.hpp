@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The equation of motion that a wrong one was meant to be, after matching the scale of its row.
+///
+///     if (const auto nearest = nearest_equation(residual, mechanism, equations))
+///         nearest->difference;            // claim − scale·row, "2*m*g*sin(theta)"
+///
+/// Candidates are the rows of the equations and the differentiated constraints. The scale is a number times powers of
+/// parameters, such that as many terms of the normal forms as possible agree.
+
+#include <optional>
+#include <string>
+
+#include "formalism/equations.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+struct Nearest {
+    int row = 0;              ///< of the equations; beyond them: of the constraints
+    Fourier scale;
+    Fourier wrong;            ///< the difference
+    std::string equation;     ///< scale·row = 0
+    std::string difference;
+};
+
+/// Nothing where no row shares a term with it, or where it is too large.
+std::optional<Nearest> nearest_equation(const GiNaC::ex& residual, const Mechanism& mechanism, const Equations& equations);
+
+/// The rows' normal forms, M u' − f − Aᵀλ and A u' − γ; nothing in place of what is too large.
+std::vector<std::optional<Fourier>> rows_of(const Mechanism& mechanism, const Equations& equations);
+
+/// c·m with b = c·m·a, m a product of powers of parameters; nothing where there is none.
+std::optional<Fourier> steady_ratio(const Term& a, const Term& b);
+
+}  // namespace alembert

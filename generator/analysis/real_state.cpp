@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "analysis/real_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <set>
+#include <sstream>
+
+namespace alembert {
+
+using GiNaC::numeric;
+
+namespace {
+
+using Key = RealState::Key;
+constexpr unsigned first_float_seed = 400;
+
+/// fifty digits, for as long as it lives
+class Precision {
+public:
+    Precision() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
+    ~Precision() { GiNaC::Digits = former_; }
+    Precision(const Precision&) = delete;
+    Precision& operator=(const Precision&) = delete;
+
+private:
+    long former_;
+};
+
+struct Turned {
+    numeric cos = 1, sin = 0;
+};
+Turned operator*(const Turned& a, const Turned& b) {
+    return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
+}
+
+/// Σ c·variable + c·π, where an expression is that.
+struct Linear {
+    std::map<Key, Rational> angles;
+    Rational pi = 0;
+};
+
+class Evaluation {
+public:
+    Evaluation(const Program& program, const RealState& state) : p_(program), s_(state) {}
+
+    std::optional<std::vector<numeric>> run(const std::vector<int>& roots) {
+        value_.resize(p_.size());
+        for (const int id : p_.needed(roots)) {
+            const std::optional<numeric> value = of(id);
+            if (!value || !value->is_real()) return std::nullopt;
+            value_[id] = *value;
+        }
+        std::vector<numeric> result;
+        for (const int id : roots) result.push_back(value_[id]);
+        return result;
+    }
+
+private:
+    static numeric number(const Rational& r) { return numeric(cln::cl_N(r)); }
+
+    std::optional<numeric> of(int id) try {
+        const Node& node = p_[id];
+        const auto arg = [&](std::size_t k) -> const numeric& { return value_[node.args[k]]; };
+        switch (node.op) {
+            case Op::number: return number(node.number);
+            case Op::pi: return GiNaC::ex_to<numeric>(GiNaC::Pi.evalf());
+            case Op::variable: return s_.value.at({node.variable.kind, node.variable.index});
+            case Op::sum: {
+                numeric sum = number(node.number);
+                for (std::size_t k = 0; k < node.args.size(); ++k) sum += number(node.coefficients[k]) * arg(k);
+                return sum;
+            }
+            case Op::product: {
+                numeric product = 1;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    if (node.exponents[k] < 0 && arg(k).is_zero()) return std::nullopt;
+                    product *= GiNaC::pow(arg(k), numeric(node.exponents[k]));
+                }
+                return product;
+            }
+            case Op::sin:
+            case Op::cos:
+            case Op::tan: {
+                if (const auto turn = turned(node.args[0])) {
+                    if (node.op == Op::tan && turn->cos.is_zero()) return std::nullopt;
+                    return node.op == Op::sin ? turn->sin : node.op == Op::cos ? turn->cos : turn->sin / turn->cos;
+                }
+                const numeric x = real(arg(0));
+                return node.op == Op::sin ? GiNaC::sin(x) : node.op == Op::cos ? GiNaC::cos(x) : GiNaC::tan(x);
+            }
+            case Op::sqrt: return GiNaC::sqrt(arg(0));  // exact for squares of fractions
+            case Op::abs: return GiNaC::abs(arg(0));
+            case Op::sign: return numeric(arg(0).csgn());
+            case Op::asin: return GiNaC::asin(real(arg(0)));
+            case Op::acos: return GiNaC::acos(real(arg(0)));
+            case Op::atan: return GiNaC::atan(real(arg(0)));
+            case Op::sinh: return GiNaC::sinh(real(arg(0)));
+            case Op::cosh: return GiNaC::cosh(real(arg(0)));
+            case Op::tanh: return GiNaC::tanh(real(arg(0)));
+            case Op::exp: return arg(0).is_zero() ? numeric(1) : GiNaC::exp(real(arg(0)));
+            case Op::log: return arg(0).is_positive() ? std::optional(GiNaC::log(real(arg(0)))) : std::nullopt;
+            case Op::pow: return GiNaC::pow(real(arg(0)), real(arg(1)));
+            case Op::atan2: return GiNaC::atan(real(arg(0)), real(arg(1)));
+            case Op::min: return std::min(arg(0), arg(1));
+            case Op::max: return std::max(arg(0), arg(1));
+        }
+        return std::nullopt;
+    } catch (const std::exception&) {  // a pole
+        return std::nullopt;
+    }
+
+    static numeric real(const numeric& x) { return GiNaC::ex_to<numeric>(GiNaC::ex(x).evalf()); }
+
+    std::optional<Linear> linear(int id) const {
+        const Node& node = p_[id];
+        Linear result;
+        if (node.op == Op::pi) {
+            result.pi = 1;
+            return result;
+        }
+        if (node.op == Op::variable) {
+            const Key key{node.variable.kind, node.variable.index};
+            if (!s_.angle.contains(key)) return std::nullopt;
+            result.angles[key] = 1;
+            return result;
+        }
+        if (node.op != Op::sum || !cln::zerop(node.number)) return std::nullopt;
+        for (std::size_t k = 0; k < node.args.size(); ++k) {
+            const auto part = linear(node.args[k]);
+            if (!part) return std::nullopt;
+            result.pi = result.pi + node.coefficients[k] * part->pi;
+            for (const auto& [key, c] : part->angles) {
+                Rational& to = result.angles.emplace(key, 0).first->second;
+                to = to + node.coefficients[k] * c;
+            }
+        }
+        return result;
+    }
+
+    std::optional<Turned> turned(int id) const {
+        const auto sum = linear(id);
+        if (!sum) return std::nullopt;
+        Turned result;
+        const auto turn = [&](Turned by, const Rational& times) {
+            if (cln::denominator(times) != 1 || cln::abs(times) > 1000) return false;
+            int count = cln::cl_I_to_int(cln::numerator(times));
+            if (count < 0) by.sin = -by.sin;
+            for (count = std::abs(count); count > 0; --count) result = result * by;
+            return true;
+        };
+        if (!turn({0, 1}, 2 * sum->pi)) return std::nullopt;
+        for (const auto& [key, c] : sum->angles) {
+            const RealState::Angle& angle = s_.angle.at(key);
+            if (angle.half_turn) {
+                if (!turn({0, 1}, 2 * c)) return std::nullopt;
+                continue;
+            }
+            const numeric below = 1 + angle.tangent * angle.tangent;
+            if (!turn({(1 - angle.tangent * angle.tangent) / below, 2 * angle.tangent / below}, c * (1 << s_.halves)))
+                return std::nullopt;
+        }
+        return result;
+    }
+
+    const Program& p_;
+    const RealState& s_;
+    std::vector<numeric> value_;
+};
+
+void put_angle(RealState& state, const Key& key, const RealState::Angle& angle) {
+    state.angle[key] = angle;
+    state.value[key] = angle.half_turn ? GiNaC::ex_to<numeric>(GiNaC::Pi.evalf())
+                                       : numeric(2 << state.halves) * GiNaC::atan(GiNaC::ex_to<numeric>(GiNaC::ex(angle.tangent).evalf()));
+}
+
+/// Variables in angles, and those outside.
+void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
+    std::set<std::pair<int, bool>> seen;
+    std::vector<std::pair<int, bool>> stack;
+    for (const int root : roots) stack.emplace_back(root, false);
+    while (!stack.empty()) {
+        const auto [id, inside] = stack.back();
+        stack.pop_back();
+        if (!seen.emplace(id, inside).second) continue;
+        const Node& node = p[id];
+        if (node.op == Op::variable) (inside ? angles : plain).insert({node.variable.kind, node.variable.index});
+        const bool turns = node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
+        for (const int arg : node.args) stack.emplace_back(arg, inside || turns);
+    }
+}
+
+/// Small numbers first, odder ones with the seed.
+class Numbers {
+public:
+    explicit Numbers(unsigned seed) : random_(seed), spread_(3 + std::min(seed, 400U) / 20) {}
+    numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
+    numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
+    numeric tangent() {
+        const int below = pick(2, 2 + spread_ / 2);
+        const numeric r = numeric(pick(1, below)) / numeric(below == 1 ? 1 : below);
+        return pick(0, 1) != 0 ? r : -r;
+    }
+
+private:
+    int pick(int low, int high) { return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1)); }
+    std::mt19937 random_;
+    int spread_;
+};
+
+/// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where there is one.
+/// `seed` chooses among several.
+std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats, unsigned seed) {
+    std::array<numeric, 4> y;
+    for (int k = 0; k < 4; ++k) {
+        const auto value = f(numeric(k - 1));
+        if (!value) return std::nullopt;
+        y[static_cast<std::size_t>(k)] = *value;
+    }
+    if (y[1].is_zero() && seed % 2 == 0) return numeric(0);
+    const numeric c = y[1], b = (y[2] - y[0]) / 2, a = (y[2] + y[0]) / 2 - c;
+    const numeric beyond = y[3] - (4 * a + 2 * b + c);
+    const bool quadratic = beyond.is_rational() ? beyond.is_zero() : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
+    if (quadratic && a.is_zero()) return b.is_zero() ? (c.is_zero() ? std::optional(numeric(1)) : std::nullopt) : std::optional(-c / b);
+    if (quadratic) {
+        const numeric discriminant = b * b - 4 * a * c;
+        if (discriminant.is_negative()) return std::nullopt;
+        const numeric root = GiNaC::sqrt(discriminant);
+        if (!root.is_rational() && !floats) return std::nullopt;
+        return (seed % 4 < 2 ? root - b : -root - b) / (2 * a);
+    }
+    if (!floats) return std::nullopt;
+    // Secants, from two guesses, in 50 digits.
+    numeric x0 = numeric(1, 3) + numeric(static_cast<int>(seed % 7)), x1 = x0 + numeric(1, 15);
+    auto f0 = f(x0), f1 = f(x1);
+    for (int step = 0; step < 60 && f0 && f1; ++step) {
+        const numeric slope = *f1 - *f0;
+        if (slope.is_zero()) break;
+        const numeric x2 = x1 - *f1 * (x1 - x0) / slope;
+        x0 = x1, f0 = f1, x1 = GiNaC::ex_to<numeric>(GiNaC::ex(x2).evalf());
+        f1 = f(x1);
+        if (!f1 || GiNaC::abs(x1 - x0) > GiNaC::pow(numeric(10), numeric(-45))) continue;
+        return GiNaC::abs(x1) < GiNaC::pow(numeric(10), numeric(-30)) ? numeric(0) : x1;
+    }
+    return std::nullopt;
+}
+
+bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
+    for (const Motions::Step& step : motions.steps()) {
+        const Key key{step.variable.kind, step.variable.index};
+        const auto at = [&](const numeric& x, bool cleared) -> std::optional<numeric> {
+            if (state.angle.contains(key))
+                put_angle(state, key, {x});
+            else
+                state.value[key] = x;
+            const auto value = evaluate(motions.program(), state, {step.node});
+            if (!value) return std::nullopt;
+            return cleared ? (*value)[0] * (1 + x * x) : (*value)[0];
+        };
+        const bool is_angle = state.angle.contains(key);
+        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, seed);
+        if (!root) return false;
+        if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
+        const auto rest = at(*root, false);
+        if (!rest) return false;
+        if (!rest->is_zero() && (rest->is_rational() || GiNaC::abs(*rest) > GiNaC::pow(numeric(10), numeric(-35)))) return false;
+    }
+    return true;
+}
+
+bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
+    const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
+    const Motions::System& s = motions.entries();
+    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::rate, static_cast<int>(i)}] = numbers.any();
+    if (m > 0) {
+        // Rates nearest to the chosen ones would be fractions of large numbers; the pivots' rates are solved for instead.
+        const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.drift);
+        if (!A || !b) return false;
+        std::vector<std::size_t> pivots;
+        std::vector<std::vector<numeric>> rows(m, std::vector<numeric>(n));
+        for (std::size_t k = 0; k < m; ++k) {
+            for (std::size_t i = 0; i < n; ++i) rows[k][i] = (*A)[k * n + i];
+            for (std::size_t p = 0; p < pivots.size(); ++p) {
+                const numeric factor = rows[k][pivots[p]] / rows[p][pivots[p]];
+                for (std::size_t i = 0; i < n; ++i) rows[k][i] -= factor * rows[p][i];
+                rows[k][pivots[p]] = 0;
+            }
+            const auto pivot = std::max_element(rows[k].begin(), rows[k].end(), [](const numeric& a, const numeric& b2) {
+                return GiNaC::abs(a) < GiNaC::abs(b2);
+            });
+            if (GiNaC::abs(*pivot) < GiNaC::pow(numeric(10), numeric(-30))) return false;
+            pivots.push_back(static_cast<std::size_t>(pivot - rows[k].begin()));
+        }
+        std::vector<std::vector<numeric>> equations(m, std::vector<numeric>(m + 1));
+        for (std::size_t k = 0; k < m; ++k) {
+            equations[k][m] = -(*b)[k];
+            for (std::size_t i = 0; i < n; ++i) {
+                const auto column = std::find(pivots.begin(), pivots.end(), i);
+                if (column != pivots.end())
+                    equations[k][static_cast<std::size_t>(column - pivots.begin())] = (*A)[k * n + i];
+                else
+                    equations[k][m] -= (*A)[k * n + i] * state.value[{Variable::Kind::rate, static_cast<int>(i)}];
+            }
+        }
+        const auto rates = solve_rows(std::move(equations), m);
+        if (!rates) return false;
+        for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
+    }
+    std::vector<int> roots = s.M;
+    for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
+    const auto value = evaluate(motions.program(), state, roots);
+    if (!value) return false;
+    std::vector<std::vector<numeric>> rows(n + m, std::vector<numeric>(n + m + 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) rows[i][j] = (*value)[i * n + j];
+        rows[i][n + m] = (*value)[n * n + i];
+        for (std::size_t k = 0; k < m; ++k) {
+            rows[n + k][i] = (*value)[n * n + n + k * n + i];
+            rows[i][n + k] = -rows[n + k][i];
+        }
+    }
+    for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
+    const auto solution = solve_rows(std::move(rows), n + m);
+    if (!solution) return false;
+    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
+    for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
+    return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots) {
+    const Precision digits;
+    return Evaluation(program, state).run(roots);
+}
+
+std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>> rows, std::size_t columns) {
+    for (std::size_t c = 0; c < columns; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t r = c + 1; r < rows.size(); ++r)
+            if (GiNaC::abs(rows[r][c]) > GiNaC::abs(rows[pivot][c])) pivot = r;
+        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30))) return std::nullopt;
+        std::swap(rows[c], rows[pivot]);
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            if (r == c || rows[r][c].is_zero()) continue;
+            const numeric factor = rows[r][c] / rows[c][c];
+            for (std::size_t k = c; k <= columns; ++k) rows[r][k] -= factor * rows[c][k];
+        }
+    }
+    std::vector<numeric> result;
+    for (std::size_t c = 0; c < columns; ++c) result.push_back(rows[c][columns] / rows[c][c]);
+    return result;
+}
+
+std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed) {
+    if (!motions.obstacle().empty()) return std::nullopt;
+    const Precision digits;
+    Numbers numbers(seed);
+    const bool floats = seed >= first_float_seed;
+    std::set<Key> angles, plain;
+    const Motions::System& s = motions.entries();
+    std::vector<int> entries = s.M;
+    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma}) entries.insert(entries.end(), part->begin(), part->end());
+    for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
+    find_variables(motions.program(), entries, angles, plain);
+    find_variables(claims, roots, angles, plain);
+
+    RealState state;
+    std::set<Key> all = angles;
+    all.insert(plain.begin(), plain.end());
+    for (int i = 0; i < motions.size(); ++i) all.insert({Variable::Kind::coordinate, i});
+    for (const Key& key : all) {
+        const bool is_angle = angles.contains(key) && !plain.contains(key) &&
+                              (key.first == Variable::Kind::coordinate || key.first == Variable::Kind::parameter ||
+                               key.first == Variable::Kind::time);
+        if (is_angle)
+            put_angle(state, key, {numbers.tangent()});
+        else
+            state.value[key] = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time ? numbers.positive()
+                                                                                                              : numbers.any();
+    }
+    if (motions.where() == Motions::At::rest) {
+        for (int i = 0; i < motions.size(); ++i)
+            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.value[{kind, i}] = 0;
+        for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
+    }
+    if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
+    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
+    for (const auto& [key, value] : state.value) state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
+    return state;
+}
+
+std::string text_of(const numeric& value) {
+    std::ostringstream stream;
+    if (value.is_rational()) {
+        stream << value;
+        return stream.str();
+    }
+    const long former = GiNaC::Digits;
+    GiNaC::Digits = 30;
+    stream << GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
+    GiNaC::Digits = former;
+    std::string text = stream.str();
+    std::replace(text.begin(), text.end(), 'E', 'e');
+    return text;
+}
+
+std::string text_of(const RealState& state, const Key& key) {
+    const auto angle = state.angle.find(key);
+    if (angle == state.angle.end()) return text_of(state.value.at(key));
+    if (angle->second.half_turn) return "pi";
+    if (angle->second.tangent.is_zero()) return "0";
+    return fmt::format("{}*atan({})", 2 << state.halves, text_of(angle->second.tangent));
+}
+
+}  // namespace alembert

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The equations of rest as products: each factor that can vanish is a branch of equilibria, sin α = 0 or
+/// cos α = (m+M)g/(m l ω²) (Zhang & Qin, equation (20) of example 1-1).
+
+#include <optional>
+#include <string>
+
+#include "formalism/equations.hpp"
+#include "report/phrase.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+/// An expression as a product, its sines and cosines counting as variables. Numbers and parameters that stand alone are left
+/// out: they never vanish.
+struct TrigonometricProduct {
+    std::vector<GiNaC::ex> bases;  ///< in letters
+    GiNaC::exmap functions;        ///< letter → sine, cosine …
+    bool vanishes = false;         ///< the expression is zero
+};
+TrigonometricProduct product_of(const GiNaC::ex& e, const Mechanism& mechanism);
+
+struct RestFactor {
+    GiNaC::ex value;
+    std::string text;
+};
+/// The factors of all equations of rest that can be factored.
+std::vector<RestFactor> rest_factors(const Mechanism& mechanism, const Equations& equations);
+
+/// The factor with a plus before its first sine or cosine.
+Phrase leading_positive(const Fourier& factor);
+
+}  // namespace alembert

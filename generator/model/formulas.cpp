@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/formulas.hpp"
+
+namespace alembert {
+
+Formulas::Formulas(const Scene& scene, const Mechanism& m)
+    : translator_(m, {.position = [this](const std::string& p) { return places_.position(p); },
+                      .velocity = [this](const std::string& p) { return places_.velocity(p); },
+                      .orientation = [this](const std::string& f) -> const Orientation& { return places_.orientation(f); }}),
+      places_(scene, m, translator_) {
+    know("t", m.t);
+    for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);
+    for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.derivative[0]);
+    for (const Mechanism::Definition& d : m.definitions) know(d.name, d.value);
+    for (const Mechanism::Constraint& c : m.constraints) know(c.multiplier.get_name(), c.multiplier);
+    for (const Mechanism::Unilateral& u : m.unilateral) know(u.gap.multiplier.get_name(), u.gap.multiplier);
+    const std::vector<GiNaC::ex> p = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+    for (int i = 0; i < m.size(); ++i) {
+        const std::string name = "p_" + m.q[i].get_name();
+        const auto taken = [&](const auto& list, const auto& name_of) {
+            for (const auto& item : list)
+                if (name_of(item) == name) return true;
+            return false;
+        };
+        // A scene may have a name of its own of this form.
+        if (!taken(m.parameters, [](const auto& item) { return item.symbol.get_name(); }) &&
+            !taken(m.inputs, [](const auto& item) { return item.derivative[0].get_name(); }) &&
+            !taken(m.definitions, [](const auto& item) { return item.name; }))
+            know(name, p[i]);
+    }
+}
+
+}  // namespace alembert

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/claims_file.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <utility>
+
+#include "scene/check.hpp"
+#include "scene/source.hpp"
+#include "scene/text_file.hpp"
+
+namespace alembert {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+struct Word {
+    std::string text;
+    std::size_t offset = 0;
+};
+
+std::vector<Word> words_of(const std::string& line) {
+    std::vector<Word> words;
+    for (std::size_t at = 0; at < line.size();) {
+        while (at < line.size() && (is_blank(line[at]) || line[at] == ',')) ++at;
+        const std::size_t begin = at;
+        while (at < line.size() && !is_blank(line[at]) && line[at] != ',') ++at;
+        if (at > begin) words.push_back({line.substr(begin, at - begin), begin});
+    }
+    return words;
+}
+
+}  // namespace
+
+Scene with_claims(Scene scene, const std::string& file) {
+    return with_claims(std::move(scene), text_of_file(file), file);
+}
+
+Scene with_claims(Scene scene, std::string text, std::string file) {
+    Scene result = std::move(scene);
+    result.file = std::move(file);
+    result.text = std::move(text);
+    result.claims.clear();
+    std::vector<Diagnostic> mistakes = check_bytes(result.text);
+    if (!mistakes.empty()) fail(result, std::move(mistakes));
+
+    std::vector<Name> unknowns, constants;
+    std::string at = "motion";
+    std::istringstream lines(result.text);
+    const SourceText source(result.text);
+    std::size_t begin = 0, next = 0;
+    for (std::string line; std::getline(lines, line);) {
+        begin = std::exchange(next, next + line.size() + 1);
+        line = line.substr(0, line.find('#'));
+        while (!line.empty() && is_blank(line.back())) line.pop_back();
+        const std::vector<Word> words = words_of(line);
+        if (words.empty()) continue;
+        const std::string& first = words[0].text;
+        const bool is_equation = line.find('=') != std::string::npos;
+        if (!is_equation && (first == "unknowns" || first == "constants")) {
+            std::vector<Name>& list = first == "unknowns" ? unknowns : constants;
+            for (std::size_t k = 1; k < words.size(); ++k) list.push_back({words[k].text, source.place(begin + words[k].offset)});
+            if (words.size() == 1) mistakes.push_back({source.place(begin), fmt::format("'{}' names nothing; expected names after it", first)});
+            continue;
+        }
+        if (!is_equation && words.size() == 1 && (first == "rest" || first == "impact" || first == "motion")) {
+            at = first;
+            continue;
+        }
+        Claim claim;
+        claim.place = source.place(begin + words[0].offset);
+        claim.at = at;
+        claim.unknowns = unknowns;
+        claim.constants = constants;
+        std::vector<Place> places;
+        for (std::size_t k = 0; k <= line.size(); ++k) places.push_back(source.place(begin + k));
+        claim.equation = parse_equality(line, places, mistakes, at == "impact");
+        result.claims.push_back(std::move(claim));
+    }
+    if (!mistakes.empty()) fail(result, std::move(mistakes));
+    mistakes = check_claims(result);
+    if (!mistakes.empty()) fail(result, std::move(mistakes));
+    if (result.claims.empty()) fail(result, {{{}, "has no claims; expected one equation a line"}});
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A file of claims: one equation a line, `#` comments, and lines that begin with a word.
+///
+///     unknowns lambda1 lambda2        what the claims leave open, the same in all that follow
+///     m*xC'' = lambda1*tan(phi)
+///     constants c
+///     m*xC'^2 + J*phi'^2 = c
+///     rest | impact | motion          what the claims that follow speak of
+
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+/// The scene with the file's claims in place of its own. Its file and text become those of the claims, for messages.
+/// Throws SceneError for what cannot be read, with its line.
+Scene with_claims(Scene scene, const std::string& file);
+
+/// The same from a text already in memory; `file` is only what messages call it.
+Scene with_claims(Scene scene, std::string text, std::string file);
+
+}  // namespace alembert
