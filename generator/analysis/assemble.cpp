@@ -28,9 +28,15 @@ public:
         }
     }
 
-    std::vector<std::string> go() {
+    std::vector<std::string> go(bool rates_must_obey) {
         settle("position", start_.q, q_free_, "");
-        settle("velocity", start_.qdot, u_free_, "'");
+        const std::vector<double> given = start_.qdot;
+        try {
+            settle("velocity", start_.qdot, u_free_, "'");
+        } catch (const std::runtime_error&) {
+            if (rates_must_obey) throw;
+            start_.qdot = given;
+        }
         return std::move(moved_);
     }
 
@@ -102,9 +108,9 @@ private:
 }  // namespace
 
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
-                                  const Overrides& held) {
+                                  const Overrides& held, bool rates_must_obey) {
     if (mechanism.constraints.empty()) return {};
-    return Assembly(start, mechanism, program, held).go();
+    return Assembly(start, mechanism, program, held).go(rates_must_obey);
 }
 
 }  // namespace alembert
