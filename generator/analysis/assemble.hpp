@@ -23,4 +23,7 @@ namespace alembert {
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
 
+/// Sum of the sizes of the terms of a node: what its value is to be measured by.
+double size_of_terms(const Program& program, int node, const std::vector<double>& value);
+
 }  // namespace alembert

@@ -25,5 +25,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.
 int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);
+/// The same for expressions in the state too, several at once.
+std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<GiNaC::ex>& list);
 
 }  // namespace alembert
