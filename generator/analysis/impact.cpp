@@ -19,10 +19,20 @@ namespace {
 
 constexpr double closed = 1e-9;  // of the sum of the sizes of a gap's terms
 
+/// Mass matrix, rows and positions. No accelerations: constraints that only an impact can impose may leave none.
+Program program_of(Mechanism m) {
+    m.outputs.clear();
+    m.events.clear();
+    m.event_stops.clear();
+    Energy energy = energy_of(m);
+    energy.power = 0;
+    return lower(m, routh(m), energy);
+}
+
 /// Everything that the law needs, as numbers at the start.
 class Numbers {
 public:
-    explicit Numbers(const Mechanism& m) : m_(m), program_(lower(m, routh(m), energy_of(m))) {
+    explicit Numbers(const Mechanism& m) : m_(m), program_(program_of(m)) {
         std::vector<ex> wanted = m.generalized_impulses();
         for (const Mechanism::Constraint& c : m.constraints) wanted.push_back(c.drift);
         for (const Mechanism::Unilateral& u : m.unilateral) {

@@ -9,7 +9,7 @@
 
 #include "analysis/exact_solve.hpp"
 #include "formalism/lagrange.hpp"
-#include "lower/choose.hpp"
+#include "report/compose.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {
@@ -224,7 +224,7 @@ private:
         for (const Row& row : rows)
             conditions.push_back(row.contact ? ex(-row.b - row.restitution * speed(row, imposed)) : ex(-row.b));
         const auto x = solved(before, true, rows, conditions);
-        return x && write_solution(*x, rows, before);
+        return x && write_solution(*x, rows, before, conditions);
     }
 
     /// Without those whose row follows from the others; their impulses are shared out in numbers only.
@@ -247,22 +247,27 @@ private:
         return result;
     }
 
-    /// Numerator and denominator in factors.
+    /// A sum of quotients or one quotient, whichever is shorter.
     std::optional<Phrase> phrase(const ex& e) const {
         const ex parts = lowest_terms(e).numer_denom();
-        ex below = 1;
-        const ex factored = GiNaC::factor(parts.op(1));
-        const auto divide = [&](const ex& factor) { below *= pow(factor, -1); };
-        if (GiNaC::is_a<GiNaC::mul>(factored))
-            for (std::size_t i = 0; i < factored.nops(); ++i) divide(factored.op(i));
+        const int sign = number(parts.op(1)) < 0 ? -1 : 1;
+        ex reciprocal = 1;
+        const ex below = GiNaC::factor(parts.op(1));
+        if (GiNaC::is_a<GiNaC::mul>(below))
+            for (std::size_t i = 0; i < below.nops(); ++i) reciprocal *= pow(below.op(i), -1);
         else
-            divide(factored);
-        const auto f = fourier(parts.op(0) * below, *m_.symbols, 20 * most_terms);
-        if (!f || f->size() > most_terms) return std::nullopt;
-        return readable(*f);
+            reciprocal = pow(below, -1);
+        const auto whole = fourier(parts.op(0) * reciprocal, *m_.symbols, 20 * most_terms);
+        const auto n = fourier(sign * parts.op(0), *m_.symbols, 20 * most_terms), d = fourier(sign * parts.op(1), *m_.symbols, 20 * most_terms);
+        if (!whole || !n || !d || whole->size() > most_terms) return std::nullopt;
+        Phrase sum = readable(*whole);
+        if (n->size() < 2 || d->size() == 0) return sum;
+        Composer compose;
+        Phrase quotient = phrases::quotient(compose.formula(n->polynomial()), compose.formula(d->polynomial()));
+        return cost(quotient) < cost(sum) ? quotient : sum;
     }
 
-    bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before) {
+    bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before, const exvector& conditions) {
         // Another route to the same: what the numbers say. Signs that only the scene's values decide would show here.
         double size = 0, misfit = 0;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -283,9 +288,14 @@ private:
         impact_.solution = std::move(solution);
         for (std::size_t k = 0; k < rows.size() && !redundant_; ++k)
             if (const auto p = phrase(x[n_ + k])) impact_.reactions.emplace_back(rows[k].name, *p);
+        // T⁻ − T⁺ = −½ Δp·(q'⁺ + q'⁻), in which a·q'⁺ is what the conditions say.
         exvector loss;
-        for (std::size_t i = 0; i < n_; ++i)
-            for (std::size_t j = 0; j < n_; ++j) loss.push_back(mass_[i][j] * (before[i] * before[j] - x[i] * x[j]) / 2);
+        for (std::size_t i = 0; i < n_; ++i) loss.push_back(-at_pose(impulse_[i]) * (x[i] + before[i]) / 2);
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            exvector sum{conditions[k]};
+            for (std::size_t i = 0; i < n_; ++i) sum.push_back(rows[k].a[i] * before[i]);
+            loss.push_back(-x[n_ + k] * GiNaC::add(std::move(sum)) / 2);
+        }
         impact_.energy_loss = phrase(GiNaC::add(std::move(loss)));
         return true;
     }
