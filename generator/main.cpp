@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
     eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
 
+    verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
+
     CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
     emit->add_option("-o,--output", request.output, "folder")->required();
     emit->add_flag("--fold", request.fold, "parameters as constants");

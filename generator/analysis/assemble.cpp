@@ -28,27 +28,19 @@ public:
         }
     }
 
-    std::vector<std::string> go() {
+    std::vector<std::string> go(bool rates_must_obey) {
         settle("position", start_.q, q_free_, "");
-        settle("velocity", start_.qdot, u_free_, "'");
+        const std::vector<double> given = start_.qdot;
+        try {
+            settle("velocity", start_.qdot, u_free_, "'");
+        } catch (const std::runtime_error&) {
+            if (rates_must_obey) throw;
+            start_.qdot = given;
+        }
         return std::move(moved_);
     }
 
 private:
-    /// Sum of the sizes of the terms of a node.
-    double size(int id, const std::vector<double>& value) const {
-        const Node* node = &p_[id];
-        double factor = 1;
-        while (node->is_scaled()) {
-            factor *= std::abs(real_of<double>(node->coefficients[0]));
-            node = &p_[node->args[0]];
-        }
-        double sum = std::abs(real_of<double>(node->number));
-        for (std::size_t k = 0; k < node->args.size(); ++k)
-            sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) * std::abs(value[node->args[k]]);
-        return factor * sum;
-    }
-
     void settle(const char* group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
         const std::vector<int> nodes = p_.nodes_of(group);
         const std::vector<double> before = x;
@@ -82,7 +74,7 @@ private:
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size(nodes[k], value)) continue;
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value)) continue;
             const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
                 throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "
@@ -101,10 +93,23 @@ private:
 
 }  // namespace
 
+double size_of_terms(const Program& program, int id, const std::vector<double>& value) {
+    const Node* node = &program[id];
+    double factor = 1;
+    while (node->is_scaled()) {
+        factor *= std::abs(real_of<double>(node->coefficients[0]));
+        node = &program[node->args[0]];
+    }
+    double sum = std::abs(real_of<double>(node->number));
+    for (std::size_t k = 0; k < node->args.size(); ++k)
+        sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) * std::abs(value[node->args[k]]);
+    return factor * sum;
+}
+
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
-                                  const Overrides& held) {
+                                  const Overrides& held, bool rates_must_obey) {
     if (mechanism.constraints.empty()) return {};
-    return Assembly(start, mechanism, program, held).go();
+    return Assembly(start, mechanism, program, held).go(rates_must_obey);
 }
 
 }  // namespace alembert

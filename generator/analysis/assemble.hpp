@@ -16,9 +16,14 @@ namespace alembert {
 
 /// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least change,
 /// then the guessed rates until all rates obey them; gives a line for each value that moved. Names in `held` stay.
+/// Rates that need not obey the constraints, because an impact is about to impose them, are left as they are where the
+/// guessed ones cannot reach them.
 /// Throws IntegrationError if guesses do not converge, ModelError if a constraint is broken by more than 1e-9 of the
 /// sum of the sizes of its terms and nothing may move.
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
-                                  const Overrides& held);
+                                  const Overrides& held, bool rates_must_obey = true);
+
+/// Sum of the sizes of the terms of a node: what its value is to be measured by.
+double size_of_terms(const Program& program, int node, const std::vector<double>& value);
 
 }  // namespace alembert

@@ -30,6 +30,7 @@ int check(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);
+int impact(const Request& request);
 int simulate(const Request& request);
 
 }  // namespace alembert

@@ -48,6 +48,7 @@ public:
         add_masses();
         add_links();
         add_forces();
+        add_impulses();
         add_energy();
         add_constraints();
         add_outputs();
@@ -316,6 +317,27 @@ private:
                 add_pairs(load, spin(tau.on.text), M, 1);
                 if (tau.reaction) add_pairs(load, spin(tau.reaction->text), M, -1);
                 m_.loads.push_back(std::move(load));
+            });
+    }
+
+    void add_impulses() {
+        for (std::size_t i = 0; i < scene_.impulses.size(); ++i)
+            attempt([&] {
+                const Impulse& impulse = scene_.impulses[i];
+                Load load{.label = fmt::format("impulse {} at {}", i + 1, impulse.at.text), .pairs = {}};
+                SourceScope source(*m_.z, load.label);
+                const Vector3 S = places_.along(impulse.vector, impulse.axes), velocity = places_.velocity(impulse.at.text);
+                for (int k = 0; k < 3; ++k)
+                    if (!S[k].is_zero() && !velocity[k].is_zero()) load.pairs.push_back({velocity[k], S[k]});
+                m_.impulses.push_back(std::move(load));
+            });
+        for (const GeneralizedForce& f : scene_.generalized_impulses)
+            attempt([&] {
+                const std::string label = "impulse on " + f.coordinate.text;
+                SourceScope source(*m_.z, label);
+                for (int i = 0; i < m_.size(); ++i)
+                    if (m_.q[i].get_name() == f.coordinate.text)
+                        m_.impulses.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value)), m_.q[i]}}});
             });
     }
 

@@ -62,4 +62,11 @@ std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {
     return z->pull_back(targets, qdot);
 }
 
+std::vector<ex> Mechanism::generalized_impulses() const {
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Load& impulse : impulses)
+        for (const Load::Pair& pair : impulse.pairs) targets.emplace_back(pair.velocity, pair.force);
+    return z->pull_back(targets, qdot);
+}
+
 }  // namespace alembert

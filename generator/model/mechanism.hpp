@@ -112,6 +112,7 @@ struct Mechanism {
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;
+    std::vector<Load> impulses;           ///< ∫load dt of what acts at the start in no time; not among `loads`
     std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
     std::vector<SpringElement> springs;
     Vector3 gravity{0, 0, 0};
@@ -144,6 +145,8 @@ struct Mechanism {
 
     /// Q_i of the loads, per coordinate; `dissipative` selects dampers and Rayleigh's function, or all the others.
     std::vector<GiNaC::ex> generalized_forces(bool dissipative) const;
+    /// Q̂_i of the impulses.
+    std::vector<GiNaC::ex> generalized_impulses() const;
 };
 
 /// Builds the mechanism of a scene. Throws SceneError for what is wrong with the scene's values (a negative mass

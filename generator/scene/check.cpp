@@ -26,6 +26,7 @@ public:
         check_geometry();
         check_masses();
         check_loads();
+        check_impulses();
         check_energy();
         check_constraints();
         check_runs();
@@ -120,6 +121,19 @@ private:
         for (const GeneralizedForce& f : scene_.generalized_forces) {
             check_coordinate(f.coordinate);
             quantities_.check(f.value, force);
+        }
+    }
+
+    void check_impulses() {
+        const Legal impulse{.subject = "an impulse", .order = 0, .input_order = 2, .time = true};
+        for (const Impulse& i : scene_.impulses) {
+            quantities_.check_point(i.at);
+            quantities_.check_frame(i.axes);
+            check(i.vector, impulse);
+        }
+        for (const GeneralizedForce& i : scene_.generalized_impulses) {
+            check_coordinate(i.coordinate);
+            quantities_.check(i.value, impulse);
         }
     }
 

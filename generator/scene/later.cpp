@@ -14,7 +14,6 @@ namespace {
 
 void allow(const Table& table, const std::string& name) {
     if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
-    if (name == "impulse") table.allow({"at", "vector", "axes"});
     if (name == "polynomial") table.allow({"coefficients"});
     if (name == "joint")
         table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate",
@@ -39,13 +38,13 @@ void add_names(const Table& table, const std::string& section, std::vector<std::
 }
 
 bool is_list(std::string_view name) {
-    return name != "speeds" && name != "impulses" && name != "polynomial";
+    return name != "speeds" && name != "polynomial";
 }
 
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"speeds", "rolling", "impulse", "impulses", "joint", "polynomial"};
+    return {"speeds", "rolling", "joint", "polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {

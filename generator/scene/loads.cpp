@@ -46,6 +46,16 @@ void read_force(Table table, Scene& scene) {
     scene.forces.push_back(std::move(force));
 }
 
+void read_impulse(Table table, Scene& scene) {
+    table.allow({"at", "vector", "axes"});
+    Impulse impulse;
+    impulse.place = table.place();
+    impulse.at = table.needed_name("at");
+    impulse.vector = table.needed_vector("vector");
+    if (auto axes = table.name("axes")) impulse.axes = std::move(*axes);
+    scene.impulses.push_back(std::move(impulse));
+}
+
 void read_torque(Table table, Scene& scene) {
     table.allow({"on", "vector", "axes", "reaction"});
     Torque torque;

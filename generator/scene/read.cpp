@@ -50,6 +50,8 @@ constexpr Section sections[] = {
     {"damper", true, each<read_damper>},
     {"constraint", true, each<read_constraint>},
     {"unilateral", true, each<read_unilateral>},
+    {"impulse", true, each<read_impulse>},
+    {"impulses", false, one<read_impulses>},
     {"energy", false, one<read_energy>},
     {"dissipation", false, one<read_dissipation>},
     {"forces", false, one<read_forces>},

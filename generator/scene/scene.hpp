@@ -109,6 +109,14 @@ struct Force {
     std::optional<Name> reaction;
 };
 
+/// What acts in no time at the start: ∫F dt at a point.
+struct Impulse {
+    Place place;
+    Name at;
+    Vector vector;
+    Name axes{"N", {}};
+};
+
 struct Torque {
     Place place;
     Name on;
@@ -189,6 +197,8 @@ struct Scene {
     Expression kinetic, potential, lagrangian;  ///< [energy]; null where missing
     Expression rayleigh;
     std::vector<GeneralizedForce> generalized_forces;
+    std::vector<Impulse> impulses;
+    std::vector<GeneralizedForce> generalized_impulses;
     std::vector<ConstraintRule> constraints;
     std::vector<UnilateralRule> unilateral;
     std::vector<Output> outputs;

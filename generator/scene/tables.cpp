@@ -95,6 +95,13 @@ void read_forces(const Table& table, Scene& scene) {
              read_expression(table.reading(), *entry.node, labelled("the force along", entry.key))});
 }
 
+void read_impulses(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries())
+        scene.generalized_impulses.push_back(
+            {{entry.key, entry.place},
+             read_expression(table.reading(), *entry.node, labelled("the impulse along", entry.key))});
+}
+
 void read_outputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
         scene.outputs.push_back({{entry.key, entry.place},

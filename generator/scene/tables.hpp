@@ -15,6 +15,7 @@ void read_definitions(const Table& table, Scene& scene);
 void read_energy(const Table& table, Scene& scene);
 void read_dissipation(const Table& table, Scene& scene);
 void read_forces(const Table& table, Scene& scene);
+void read_impulses(const Table& table, Scene& scene);
 void read_outputs(const Table& table, Scene& scene);
 
 // bodies.cpp: where things are, and how heavy
@@ -25,6 +26,7 @@ void read_body(Table table, Scene& scene);
 
 // loads.cpp: what acts on them
 void read_force(Table table, Scene& scene);
+void read_impulse(Table table, Scene& scene);
 void read_torque(Table table, Scene& scene);
 void read_spring(Table table, Scene& scene);
 void read_damper(Table table, Scene& scene);
