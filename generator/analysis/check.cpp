@@ -16,6 +16,7 @@
 #include "analysis/nearest.hpp"
 #include "analysis/slip.hpp"
 #include "formalism/rest.hpp"
+#include "model/energy.hpp"
 #include "model/translate.hpp"
 
 namespace alembert {
@@ -84,15 +85,17 @@ public:
     Checked run() {
         read();
         result_.claims.resize(forms_.size());
-        for (const Motions::At at : {Motions::At::motion, Motions::At::rest}) {
-            const std::string name = at == Motions::At::rest ? "rest" : "motion";
+        for (const char* const when : {"motion", "rest", "impact"}) {
+            when_ = when;
             std::vector<std::size_t> here;
             for (std::size_t k = 0; k < forms_.size(); ++k)
-                if (scene_.claims[k].at == name) here.push_back(k);
-            if (!here.empty()) settle(here, at);
+                if (scene_.claims[k].at == when_) here.push_back(k);
+            if (here.empty()) continue;
+            if (when_ == "impact" && !claims_.after_impact())
+                for (const std::size_t k : here) result_.claims[k].reason = claims_.impact_obstacle();
+            else  // the rates after an impact are expressions by now, in what any state of motion gives
+                settle(here, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
         }
-        for (std::size_t k = 0; k < forms_.size(); ++k)
-            if (scene_.claims[k].at == "impact") result_.claims[k].reason = "claims at an impact are not checked yet";
         result_.complete = complete();
         return std::move(result_);
     }
@@ -173,7 +176,7 @@ private:
         if (p.is_zero(root)) {
             c.verdict = Verdict::proved;
             c.normal_form = true;
-            c.reason = "it holds identically and says nothing of the motion";
+            if (when_ != "impact") c.reason = "it holds identically and says nothing of the motion";
             return;
         }
         bool exact = true;
@@ -184,7 +187,8 @@ private:
         }
         if (*zero) {
             c.verdict = Verdict::proved;
-            c.normal_form = states.motions.where() == Motions::At::motion && is_multiple(forms_[k].residual, m_, e_);
+            c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, e_)) ||
+                            (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
         }
         const bool shown = show_counterexample(c, states, p, root);
@@ -205,7 +209,7 @@ private:
         return false;
     }
 
-    bool show_counterexample(CheckedClaim& c, States& states, const Program& p, int root) const {
+    bool show_counterexample(CheckedClaim& c, States& states, const Program& p, int root) {
         const auto start = std::chrono::steady_clock::now();
         for (unsigned seed = 0; seed < 1200; ++seed) {
             if (std::chrono::steady_clock::now() - start > std::chrono::milliseconds(400) && seed > 40) break;
@@ -223,7 +227,7 @@ private:
         return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
     }
 
-    void describe(CheckedClaim& c, const RealState& state, const numeric& residual, const std::vector<int>& open = {}) const {
+    void describe(CheckedClaim& c, const RealState& state, const numeric& residual, const std::vector<int>& open = {}) {
         using Kind = Variable::Kind;
         const auto add = [&](const std::string& name, const RealState::Key& key) {
             if (state.value.contains(key)) c.counterexample.emplace_back(name, text_of(state, key));
@@ -231,11 +235,27 @@ private:
         int independent = 0;
         for (const Mechanism::Parameter& p : m_.parameters)
             if (p.independent) add(p.symbol.get_name(), {Kind::parameter, independent++});
+        if (when_ == "impact") return describe_impact(c, state, residual);
         add("t", {Kind::time, 0});
         for (const auto& [kind, primes] : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
             for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + primes, {kind, i});
         for (std::size_t k = 0; k < e_.lambda.size(); ++k) add(e_.lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
         for (const int o : open) add(claims_.open()[o].name, {claims_.open()[o].variable.kind, claims_.open()[o].variable.index});
+        c.residual = text_of(residual);
+        c.residual_value = residual.to_double();
+    }
+
+    void describe_impact(CheckedClaim& c, const RealState& state, const numeric& residual) {
+        const Impact::Exact& impact = *claims_.after_impact();
+        const auto add = [&](const std::string& name, const ex& e) {
+            Program p;
+            const std::vector<int> node = claims_.lower(p, {m_.z->name(e.subs(impact.pose, GiNaC::subs_options::no_pattern))});
+            if (const auto value = evaluate(p, state, node)) c.counterexample.emplace_back(name, text_of((*value)[0]));
+        };
+        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name(), m_.q[i]);
+        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + "'(-)", impact.before[i]);
+        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + "'", impact.after[i]);
+        for (const auto& [multiplier, impulse] : impact.reactions) add(multiplier.get_name(), impulse);
         c.residual = text_of(residual);
         c.residual_value = residual.to_double();
     }
@@ -250,7 +270,7 @@ private:
             c.reason = "it holds at the scene's values of the parameters only";
         }
         if (states.motions.where() != Motions::At::motion) return;
-        if (forms_[k].open.empty())
+        if (forms_[k].open.empty() && when_ == "motion")
             if (const auto nearest = nearest_equation(forms_[k].residual, m_, e_)) {
                 c.nearest = nearest->equation;
                 c.difference = nearest->difference;
@@ -284,7 +304,7 @@ private:
         }
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
-        if (p.is_zero(root[0])) return false;  // an identity is no repair
+        if (p.is_zero(root[0])) return when_ == "impact";  // elsewhere an identity is no repair
         for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
             const ExactState* const state = states.get(s);
             if (state == nullptr || s > 20) return false;
@@ -630,6 +650,7 @@ private:
     const Equations& e_;
     Claims claims_;
     std::vector<ClaimForm> forms_;
+    std::string when_;
     std::set<std::size_t> wrong_;  // of the group in hand
     Checked result_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "lower/lower.hpp"
 #include "report/derivation.hpp"
@@ -67,9 +68,40 @@ std::vector<GiNaC::symbol> Claims::open_symbols() const {
     return result;
 }
 
+const std::optional<Impact::Exact>& Claims::after_impact() {
+    if (std::exchange(has_struck_, true)) return after_;
+    try {
+        Impact result = impact(m_);
+        after_ = std::move(result.exact);
+        impact_obstacle_ = after_ ? "" : result.silence;
+        for (const GiNaC::symbol& before : after_ ? after_->before : std::vector<GiNaC::symbol>())
+            if (!after_->pose.contains(before)) {
+                impact_obstacle_ = "the rates before the impact are known in numbers only";
+                after_.reset();
+                break;
+            }
+    } catch (const std::runtime_error& e) {
+        impact_obstacle_ = e.what();
+    }
+    return after_;
+}
+
+/// In parameters, and in coordinates that start at a number inside a sine.
+ex Claims::at_impact(const ex& e) const {
+    GiNaC::exmap values;
+    for (int i = 0; i < m_.size(); ++i) {
+        values[m_.qdot[i]] = after_->after[i];
+        values[m_.qddot[i]] = after_->pose.at(after_->before[i]);  // x'(-)
+    }
+    for (const auto& [multiplier, impulse] : after_->reactions) values[multiplier] = impulse;
+    constexpr auto plain = GiNaC::subs_options::no_pattern;
+    return m_.z->name(m_.z->expand(e).subs(values, plain).subs(after_->pose, plain));
+}
+
 ClaimForm Claims::read(const Claim& claim) {
     ClaimForm form;
     form.residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    if (claim.at == "impact" && after_impact()) form.residual = at_impact(form.residual);
     bool constants = false;
     const std::vector<GiNaC::symbol> symbols = open_symbols();
     const std::vector<ex> slopes = m_.z->pull_back({{form.residual, 1}}, symbols);

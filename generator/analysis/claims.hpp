@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/impact.hpp"
 #include "analysis/motions.hpp"
 #include "model/formulas.hpp"
 
@@ -35,6 +36,11 @@ public:
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
 
+    /// Rates after the scene's impulses (§ `analysis/impact.hpp`), as expressions at the pose where it starts; nothing where
+    /// they are known in numbers only, or not at all: then `impact_obstacle` says why.
+    const std::optional<Impact::Exact>& after_impact();
+    const std::string& impact_obstacle() const { return impact_obstacle_; }
+
     /// Lowers into `program`; symbols of multipliers and open names become its unknowns.
     std::vector<int> lower(Program& program, const std::vector<GiNaC::ex>& list) const;
 
@@ -44,6 +50,7 @@ public:
     std::vector<GiNaC::symbol> open_symbols() const;
 
 private:
+    GiNaC::ex at_impact(const GiNaC::ex& e) const;
     void know_intermediates(const Scene& scene);
     void open_name(const std::string& name, bool constant);
 
@@ -51,6 +58,9 @@ private:
     const Equations& e_;
     Formulas formulas_;
     std::vector<Open> open_;
+    bool has_struck_ = false;
+    std::optional<Impact::Exact> after_;
+    std::string impact_obstacle_;
 };
 
 /// The time derivative at most `times` times, each in q'' at the highest; nothing more once it would hold q'''.

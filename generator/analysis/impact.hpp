@@ -39,6 +39,15 @@ struct Impact {
     std::vector<std::pair<std::string, ReadableEquation>> conditions;  ///< on the rates after, by constraint or contact
     std::vector<Phrase> solution;             ///< rates after; at the pose, where that is known exactly
     std::vector<std::pair<std::string, Phrase>> reactions;
+    /// The same as expressions, with what was put in for coordinates, t, inputs and rates before; what stands for the latter
+    /// where they are not known exactly are `before`.
+    struct Exact {
+        GiNaC::exmap pose;
+        std::vector<GiNaC::symbol> before;
+        std::vector<GiNaC::ex> after;
+        std::vector<std::pair<GiNaC::symbol, GiNaC::ex>> reactions;  ///< by multiplier; empty where rows are redundant
+    };
+    std::optional<Exact> exact;
     std::optional<Phrase> energy_loss;        ///< T before − T after
     std::string silence;
 };

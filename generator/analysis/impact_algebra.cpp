@@ -286,6 +286,12 @@ private:
             solution.push_back(*p);
         }
         impact_.solution = std::move(solution);
+        impact_.exact.emplace();
+        impact_.exact->pose = pose_;
+        impact_.exact->before = before_;
+        impact_.exact->after.assign(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n_));
+        for (std::size_t k = 0; k < rows.size() && !redundant_; ++k)
+            impact_.exact->reactions.emplace_back(rows[k].multiplier, x[n_ + k]);
         for (std::size_t k = 0; k < rows.size() && !redundant_; ++k)
             if (const auto p = phrase(x[n_ + k])) impact_.reactions.emplace_back(rows[k].name, *p);
         // T⁻ − T⁺ = −½ Δp·(q'⁺ + q'⁻), in which a·q'⁺ is what the conditions say.
