@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
 
     verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
+    verb("audit", "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", alembert::audit);
 
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
     eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lower/lower.hpp"
+
 namespace alembert {
 
 namespace {
@@ -105,6 +107,26 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
                                   const Overrides& held) {
     if (mechanism.constraints.empty()) return {};
     return Assembly(start, mechanism, program, held).go();
+}
+
+Program constraint_program(const Mechanism& m) {
+    std::vector<GiNaC::ex> wanted;
+    for (const Mechanism::Constraint& c : m.constraints) {
+        wanted.insert(wanted.end(), c.row.begin(), c.row.end());
+        wanted.push_back(c.position.value_or(0));
+        GiNaC::exvector velocity{c.drift};
+        for (int i = 0; i < m.size(); ++i) velocity.push_back(c.row[i] * m.qdot[i]);
+        wanted.push_back(GiNaC::add(std::move(velocity)));
+    }
+    Program program;
+    const std::vector<int> nodes = lower_expressions(program, m, wanted);
+    auto node = nodes.begin();
+    for (const Mechanism::Constraint& c : m.constraints) {
+        for (int i = 0; i < m.size(); ++i) program.roots.push_back({"row", c.name, *node++});
+        program.roots.push_back({"position", c.name, *node++});
+        program.roots.push_back({"velocity", c.name, *node++});
+    }
+    return program;
 }
 
 }  // namespace alembert

@@ -21,4 +21,7 @@ namespace alembert {
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held);
 
+/// What `assemble` needs and no more: groups "row", "position", "velocity" as in lower.hpp, without the dynamics.
+Program constraint_program(const Mechanism& mechanism);
+
 }  // namespace alembert

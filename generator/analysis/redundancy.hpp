@@ -11,7 +11,7 @@
 
 namespace alembert {
 
-/// Positions (in Mechanism::constraints) of those whose row of A is a combination of earlier rows at the initial state
+/// Positions (in Mechanism::constraints) of those whose row of A is a combination of earlier rows, all holonomic ones coming first, at the initial state
 /// and at eight further states of the constraint variety, sampled near it with a fixed seed. A sampled answer, in
 /// floating point: a row counts as dependent if less than 1e-9 of it is left beside the others. Nothing where the
 /// initial state cannot be assembled.

@@ -25,6 +25,7 @@ struct Request {
 };
 
 int agree(const Request& request);
+int audit(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);

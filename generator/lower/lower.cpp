@@ -262,4 +262,12 @@ int lower_expression(Program& program, const Mechanism& mechanism, const ex& e) 
     return Lowering(program, mechanism, false)(e);
 }
 
+std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<ex>& all) {
+    Lowering lowering(program, mechanism, false);
+    lowering.lower_definitions(all);
+    std::vector<int> nodes;
+    for (const ex& e : all) nodes.push_back(lowering(e));
+    return nodes;
+}
+
 }  // namespace alembert

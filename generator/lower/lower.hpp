@@ -26,4 +26,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.
 int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);
 
+/// Lowers many at once, of any size, each intermediate symbol once.
+std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<GiNaC::ex>& all);
+
 }  // namespace alembert

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf ∂_p. Their
+// brackets, and those of the X_f with brackets, have pivot components alone; left-normed brackets span all others, and
+// one that is a combination of those before gives none that is not.
+#include "analysis/integrability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/variety.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr int points = 3;
+constexpr int largest_program = 200000;
+constexpr double seen = 1e-8;  // of the sum of the sizes of its terms: a value that is not zero in floating point
+
+/// d³F/dt³ of every input, which the mechanism has no symbol for. Inputs may hold each other.
+std::vector<ex> third_derivatives(const Mechanism& m) {
+    GiNaC::exmap known;
+    for (const Mechanism::Input& input : m.inputs) known[input.derivative[0]] = m.z->expand(input.value);
+    std::vector<ex> result;
+    for (const Mechanism::Input& input : m.inputs) {
+        ex value = input.derivative[0];
+        for (std::size_t round = 0; round < m.inputs.size(); ++round) value = value.subs(known, GiNaC::subs_options::no_pattern);
+        value = m.z->name(value);
+        for (int order = 0; order < 3; ++order) value = m.z->push_forward({value}, {{m.t, 1}})[0];
+        result.push_back(value);
+    }
+    return result;
+}
+
+using Rows = std::vector<std::vector<Prime>>;
+
+int rank_of(Rows rows) {
+    const std::size_t columns = rows.empty() ? 0 : rows[0].size();
+    return reduce_rows(rows, columns);
+}
+
+class Closure {
+public:
+    Closure(const std::vector<OneForm>& forms, const Mechanism& m, const std::vector<ex>& positions,
+            const std::vector<State<double>>& states, const IntegrabilityOptions& options)
+        : forms_(forms), m_(m), states_(states), options_(options), size_(m.q.size() + 1), third_(third_derivatives(m)) {
+        std::vector<ex> flat;
+        for (const OneForm& form : forms) flat.insert(flat.end(), form.begin(), form.end());
+        entries_ = lower_expressions(program_, m, flat);
+        const std::vector<int> zeros = lower_expressions(program_, m, positions);
+        std::map<std::pair<Variable::Kind, int>, Prime> given;
+        if (options.fixed)
+            for (int k = 0; const Mechanism::Parameter& p : m.parameters)
+                if (p.independent)
+                    given[{Variable::Kind::parameter, k++}] =
+                        Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())).value_or(0);
+        variety_ = variety_points(program_, zeros, entries_, points, given);
+        result_.on_variety = variety_.on_variety;
+        result_.integrable.resize(forms.size());
+    }
+
+    Integrability go() {
+        if (static_cast<int>(variety_.points.size()) < points) return undecided("no points were found where all roots exist");
+        values_ = evaluate(entries_);
+        if (values_.empty()) return undecided("no points were found where all roots exist");
+        find_independent();
+        if (!result_.contradictory.empty()) return undecided("the constraints contradict each other");
+        eliminate();
+        if (!close()) return undecided("the brackets grow beyond what is evaluated");
+        decide();
+        return std::move(result_);
+    }
+
+private:
+    Integrability undecided(std::string reason) {
+        result_.reason = std::move(reason);
+        return std::move(result_);
+    }
+
+    /// The nodes' values at every point; empty where a point became unlucky.
+    std::vector<std::vector<Prime>> evaluate(const std::vector<int>& nodes) {
+        std::vector<std::vector<Prime>> result;
+        double failure = 0, largest = 1;
+        for (const ModularPoint& point : variety_.points) {
+            const auto at = evaluate_mod(program_, point, nodes);
+            if (!at) return {};
+            result_.exact = result_.exact && at->exact;
+            result.emplace_back();
+            for (const int node : nodes) {
+                result.back().push_back(at->value[node]);
+                largest = std::max(largest, at->degree[node]);
+            }
+            failure += at->conditions + variety_.conditions - 61;
+        }
+        degree_ = std::max(degree_, largest * variety_.degree);
+        conditions_ = std::max(conditions_, failure + 61.0 * points);
+        return result;
+    }
+
+    Prime entry(int point, std::size_t form, std::size_t variable) const { return values_[point][form * size_ + variable]; }
+
+    /// Those whose row raises the rank, at whichever point.
+    void find_independent() {
+        std::vector<Rows> rates(points), all(points);
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            bool raises = false, raises_all = false;
+            for (int p = 0; p < points; ++p) {
+                std::vector<Prime> row;
+                for (std::size_t i = 0; i < size_; ++i) row.push_back(entry(p, k, i));
+                all[p].push_back(row);
+                row.pop_back();
+                rates[p].push_back(row);
+                raises = raises || rank_of(rates[p]) == static_cast<int>(rates[p].size());
+                raises_all = raises_all || rank_of(all[p]) == static_cast<int>(all[p].size());
+            }
+            if (!result_.on_variety && std::find(options_.redundant.begin(), options_.redundant.end(), static_cast<int>(k)) != options_.redundant.end())
+                raises = raises_all = false;
+            if (raises) {
+                result_.independent.push_back(static_cast<int>(k));
+                continue;
+            }
+            if (raises_all) result_.contradictory.push_back(static_cast<int>(k));
+            for (int p = 0; p < points; ++p) {
+                rates[p].pop_back();
+                all[p].pop_back();
+            }
+        }
+    }
+
+    /// Gauss-Jordan over the intermediate symbols; a pivot is an entry that is not zero at the points, a number if there is one.
+    void eliminate() {
+        std::vector<OneForm> rows;
+        std::vector<std::vector<std::vector<Prime>>> value(points);
+        for (const int k : result_.independent) {
+            rows.push_back(forms_[k]);
+            for (int p = 0; p < points; ++p) {
+                value[p].emplace_back();
+                for (std::size_t i = 0; i < size_; ++i) value[p].back().push_back(entry(p, k, i));
+            }
+        }
+        const auto is_zero = [&](std::size_t r, std::size_t i) {
+            return std::all_of(value.begin(), value.end(), [&](const auto& at) { return at[r][i].is_zero(); });
+        };
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            std::size_t column = size_;
+            for (std::size_t i = 0; i + 1 < size_; ++i) {
+                if (std::any_of(value.begin(), value.end(), [&](const auto& at) { return at[r][i].is_zero(); })) continue;
+                if (column == size_ || m_.z->tree_size(rows[r][i]) < m_.z->tree_size(rows[r][column])) column = i;
+            }
+            pivots_.push_back(column);
+            for (std::size_t i = 0; i < size_; ++i)
+                if (i != column) rows[r][i] = is_zero(r, i) ? ex(0) : m_.z->name(rows[r][i] / rows[r][column]);
+            rows[r][column] = 1;
+            for (int p = 0; p < points; ++p) {
+                const Prime scale = value[p][r][column].inverse();
+                for (Prime& v : value[p][r]) v *= scale;
+            }
+            for (std::size_t s = 0; s < rows.size(); ++s) {
+                if (s == r) continue;
+                const ex factor = rows[s][column];
+                for (std::size_t i = 0; i < size_ && !is_zero(s, column); ++i)
+                    if (i != column && !is_zero(r, i)) rows[s][i] = m_.z->name(rows[s][i] - factor * rows[r][i]);
+                rows[s][column] = 0;
+                for (int p = 0; p < points; ++p) {
+                    const Prime f = value[p][s][column];
+                    for (std::size_t i = 0; i < size_; ++i) value[p][s][i] -= f * value[p][r][i];
+                }
+                for (std::size_t i = 0; i < size_; ++i)
+                    if (is_zero(s, i)) rows[s][i] = 0;
+            }
+        }
+        for (std::size_t f = 0; f < size_; ++f) {
+            if (std::find(pivots_.begin(), pivots_.end(), f) != pivots_.end()) continue;
+            std::vector<ex> field(size_, 0);
+            field[f] = 1;
+            for (std::size_t r = 0; r < rows.size(); ++r) field[pivots_[r]] = m_.z->name(-rows[r][f]);
+            fields_.push_back(field);
+        }
+    }
+
+    /// Σ rate_k ∂/∂variable_k; inputs move with t.
+    std::vector<ex> along(const std::vector<ex>& values, const std::vector<ex>& rates) const {
+        Intermediates::Direction direction;
+        for (std::size_t k = 0; k < m_.q.size(); ++k)
+            if (!rates[k].is_zero()) direction.emplace_back(m_.q[k], rates[k]);
+        if (const ex& clock = rates.back(); !clock.is_zero()) {
+            direction.emplace_back(m_.t, clock);
+            for (std::size_t k = 0; k < m_.inputs.size(); ++k) {
+                const auto& F = m_.inputs[k].derivative;
+                direction.insert(direction.end(), {{F[0], F[1] * clock}, {F[1], F[2] * clock}, {F[2], third_[k] * clock}});
+            }
+        }
+        return m_.z->push_forward(values, direction);
+    }
+
+    std::vector<ex> bracket(const std::vector<ex>& X, const std::vector<ex>& Y) const {
+        const std::vector<ex> first = along(Y, X), second = along(X, Y);
+        std::vector<ex> result(size_, 0);
+        for (const std::size_t p : pivots_) result[p] = m_.z->name(first[p] - second[p]);
+        return result;
+    }
+
+    /// Adds brackets until no more raises the rank; false where they grow too large.
+    bool close() {
+        std::vector<std::vector<ex>> last = fields_;
+        kept_.assign(points, {});
+        for (bool first = true; !last.empty(); first = false) {
+            std::vector<std::vector<ex>> next;
+            for (std::size_t a = 0; a < fields_.size(); ++a)
+                for (std::size_t b = first ? a + 1 : 0; b < last.size() && kept_nodes_.size() < pivots_.size(); ++b) {
+                    const std::vector<ex> Z = bracket(fields_[a], last[b]);
+                    if (std::all_of(Z.begin(), Z.end(), [](const ex& e) { return e.is_zero(); })) continue;
+                    const std::optional<bool> raises = keep(Z);
+                    if (!raises) return false;
+                    if (*raises) next.push_back(Z);
+                }
+            last = std::move(next);
+        }
+        return true;
+    }
+
+    /// Keeps a bracket if it is no combination of those before; nothing where it is too large to tell.
+    std::optional<bool> keep(const std::vector<ex>& Z) {
+        const std::vector<int> nodes = lower_expressions(program_, m_, Z);
+        if (program_.size() > largest_program) return std::nullopt;
+        const auto at = evaluate(nodes);
+        if (at.empty()) return std::nullopt;
+        bool raises = false;
+        for (int p = 0; p < points; ++p) {
+            kept_[p].push_back(at[p]);
+            raises = raises || rank_of(kept_[p]) == static_cast<int>(kept_nodes_.size()) + 1;
+        }
+        if (raises) {
+            kept_nodes_.push_back(nodes);
+        } else {
+            for (Rows& rows : kept_) rows.pop_back();
+        }
+        return raises;
+    }
+
+    void decide() {
+        result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
+        // A determinant of at most as many rows as there are forms, and one bracket more.
+        result_.failure = points * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
+        const bool certain = result_.exact && result_.on_variety;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            bool zero = true;
+            for (int p = 0; p < points; ++p)
+                for (const std::vector<Prime>& Y : kept_[p]) zero = zero && pairing(p, k, Y).is_zero();
+            if (zero && result_.failure <= -60)
+                result_.integrable[k] = true;
+            else if (!zero && (certain || seen_in_numbers(k)))
+                result_.integrable[k] = false;
+            else if (!zero)
+                result_.reason = "it is not integrable beside the surface of the holonomic constraints; on it nothing is proved";
+            else
+                result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
+        }
+        find_combinations();
+    }
+
+    Prime pairing(int p, std::size_t k, const std::vector<Prime>& Y) const {
+        Prime sum = 0;
+        for (std::size_t i = 0; i < size_; ++i) sum += entry(p, k, i) * Y[i];
+        return sum;
+    }
+
+    /// Is w_k(Y) beyond rounding at some state?
+    bool seen_in_numbers(std::size_t k) const {
+        for (const State<double>& state : states_) {
+            const std::vector<double> value = interpret(program_, state);
+            for (const std::vector<int>& Y : kept_nodes_) {
+                double sum = 0, size = 0, largest = 0;
+                for (std::size_t i = 0; i < size_; ++i) {
+                    const double term = value[entries_[k * size_ + i]] * value[Y[i]];
+                    sum += term;
+                    size += std::abs(term);
+                    largest = std::max(largest, std::abs(value[Y[i]]));
+                }
+                if (std::isfinite(sum) && std::abs(sum) > seen * size && largest > seen) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Constant coefficients c with Σ c_k w_k(Y) = 0 for all brackets Y: the same echelon form at all points, with small numbers.
+    void find_combinations() {
+        std::vector<std::size_t> unfit;
+        for (const int k : result_.independent)
+            if (result_.integrable[k] == false) unfit.push_back(k);
+        if (unfit.size() < 2 || !result_.on_variety || kept_[0].empty()) return;
+        std::vector<Rows> forms(points);
+        for (int p = 0; p < points; ++p) {
+            for (const std::vector<Prime>& Y : kept_[p]) {
+                forms[p].emplace_back();
+                for (const std::size_t k : unfit) forms[p].back().push_back(pairing(p, k, Y));
+            }
+            reduce_rows(forms[p], unfit.size());
+        }
+        // Every form beside its pivot: w_j − Σ (entries) w_pivot. One column must be constant for its combination.
+        std::vector<std::size_t> pivot;
+        for (const std::vector<Prime>& row : forms[0])
+            for (std::size_t j = 0; j < unfit.size(); ++j)
+                if (!row[j].is_zero()) {
+                    pivot.push_back(j);
+                    break;
+                }
+        for (std::size_t j = 0; j < unfit.size(); ++j) {
+            if (std::find(pivot.begin(), pivot.end(), j) != pivot.end()) continue;
+            std::vector<GiNaC::numeric> combination(forms_.size(), 0);
+            combination[unfit[j]] = 1;
+            bool constant = true;
+            for (std::size_t r = 0; r < pivot.size() && constant; ++r) {
+                for (int p = 1; p < points; ++p) constant = constant && forms[p][r][j] == forms[0][r][j];
+                const auto c = small_rational(forms[0][r][j]);
+                constant = constant && c;
+                if (constant) combination[unfit[pivot[r]]] = -*c;
+            }
+            if (constant) result_.combinations.push_back(combination);
+        }
+    }
+
+    static std::optional<GiNaC::numeric> small_rational(Prime value) {
+        for (int below = 1; below <= 12; ++below)
+            for (const int sign : {1, -1})
+                if (const Prime above = value * below * sign; above.bits() <= 144)
+                    return GiNaC::numeric(sign * static_cast<long>(above.bits()), below);
+        return std::nullopt;
+    }
+
+    const std::vector<OneForm>& forms_;
+    const Mechanism& m_;
+    const std::vector<State<double>>& states_;
+    const IntegrabilityOptions& options_;
+    std::size_t size_;       ///< n + 1
+    std::vector<ex> third_;  ///< derivatives of the inputs
+    Program program_;
+    std::vector<int> entries_;
+    Variety variety_;
+    std::vector<std::vector<Prime>> values_;  ///< of the entries, at every point
+    std::vector<std::size_t> pivots_;
+    std::vector<std::vector<ex>> fields_;
+    std::vector<Rows> kept_;                  ///< brackets that raised the rank, at every point
+    std::vector<std::vector<int>> kept_nodes_;
+    double degree_ = 1, conditions_ = 0;
+    Integrability result_;
+};
+
+}  // namespace
+
+std::vector<OneForm> forms_of(const Mechanism& m) {
+    std::vector<OneForm> result;
+    for (const Mechanism::Constraint& c : m.constraints) {
+        OneForm form = c.row;
+        form.push_back(c.drift);
+        result.push_back(form);
+    }
+    return result;
+}
+
+Integrability integrability(const std::vector<OneForm>& forms, const Mechanism& mechanism,
+                            const std::vector<ex>& positions, const std::vector<State<double>>& states, const IntegrabilityOptions& options) {
+    if (forms.empty()) return {};
+    return Closure(forms, mechanism, positions, states, options).go();
+}
+
+}  // namespace alembert

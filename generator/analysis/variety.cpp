@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// f at four values of one unknown: the third difference of a quadratic vanishes. In τ = tan(v/2) a function that is
+// linear in cos v and sin v is a quadratic over 1 + τ².
+#include "analysis/variety.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace alembert {
+
+namespace {
+
+using Key = std::pair<Variable::Kind, int>;
+
+struct Unknown {
+    Key key;
+    bool turn = false;  ///< the coordinate's angle is solved for, not the coordinate itself
+};
+
+/// An equation and the unknown that it gives.
+struct Step {
+    int position;
+    Unknown unknown;
+    double degree = 1;
+};
+
+class Solving {
+public:
+    Solving(const Program& program, const std::vector<int>& positions, const std::vector<int>& others,
+            const std::map<Key, Prime>& given, bool turns)
+        : program_(program), positions_(positions), all_(positions), given_(given), turns_(turns) {
+        all_.insert(all_.end(), others.begin(), others.end());
+        for (const int f : positions_) depends_.push_back(variables_of({f}));
+        std::vector<int> arguments;
+        for (const int id : program.needed(all_))
+            if (const Op op = program[id].op; op >= Op::sin && op != Op::sqrt && op != Op::abs)
+                arguments.insert(arguments.end(), program[id].args.begin(), program[id].args.end());
+        inside_ = variables_of(arguments);
+        plan();
+    }
+
+    Variety go(int count) {
+        Variety result;
+        constexpr std::uint64_t trials = 400;
+        result.on_variety = solvable_;
+        if (!solvable_) steps_.clear();
+        for (std::uint64_t seed = 1; seed < trials && static_cast<int>(result.points.size()) < count; ++seed)
+            if (auto point = solved(seed)) result.points.push_back(std::move(*point));
+        for (const Step& step : steps_) {
+            result.degree *= 1 + step.degree;
+            result.conditions += 1;
+        }
+        return result;
+    }
+
+private:
+    std::set<Key> variables_of(const std::vector<int>& roots) const {
+        std::set<Key> result;
+        for (const int id : program_.needed(roots))
+            if (program_[id].op == Op::variable) result.emplace(program_[id].variable.kind, program_[id].variable.index);
+        return result;
+    }
+
+    ModularPoint start(std::uint64_t seed) const { return {.seed = seed, .given = given_, .given_angles = {}, .halves = halves_}; }
+
+    static void set(ModularPoint& point, const Unknown& unknown, Prime value) {
+        if (unknown.turn)
+            point.given_angles[point.variable({unknown.key.first, unknown.key.second})] = Turn::rational(value);
+        else
+            point.given[unknown.key] = value;
+    }
+
+    /// Coefficients of f (times 1 + τ² for a turn) as a polynomial in the unknown; nothing if it is not quadratic.
+    std::optional<std::array<Prime, 3>> quadratic(int f, const Unknown& unknown, ModularPoint point, double* degree) const {
+        std::array<Prime, 4> value;
+        for (int k = 0; k < 4; ++k) {
+            set(point, unknown, k);
+            const auto at = evaluate_mod(program_, point, std::array{f});
+            if (!at || !at->exact) return std::nullopt;
+            value[k] = at->value[f] * (unknown.turn ? Prime(1 + k * k) : Prime(1));
+            if (degree != nullptr) *degree = at->degree[f];
+        }
+        if (!(value[3] - 3 * value[2] + 3 * value[1] - value[0]).is_zero()) return std::nullopt;
+        const Prime second = (value[2] - 2 * value[1] + value[0]) * Prime(2).inverse();
+        return std::array{value[0], value[1] - value[0] - second, second};
+    }
+
+    /// Who is solved for what, the last to be solved first (a constraint whose unknown no other one needs).
+    void plan() {
+        std::set<int> left;
+        for (std::size_t k = 0; k < positions_.size(); ++k) left.insert(static_cast<int>(k));
+        while (!left.empty() && solvable_) {
+            solvable_ = false;
+            for (const bool turn : {false, true})
+                for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::parameter, Variable::Kind::time})
+                    for (const int k : left)
+                        if (!solvable_ && (!turn || (turns_ && kind == Variable::Kind::coordinate)) && give(k, kind, turn, left)) {
+                            solvable_ = true;
+                            left.erase(k);
+                            break;
+                        }
+        }
+        std::reverse(steps_.begin(), steps_.end());
+    }
+
+    bool give(int k, Variable::Kind kind, bool turn, const std::set<int>& left) {
+        for (const Key& key : depends_[k]) {
+            if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != turn) continue;
+            if (std::any_of(left.begin(), left.end(), [&](int j) { return j != k && depends_[j].count(key) != 0; })) continue;
+            const int former = halves_;
+            if (turn) halves_ = 0;  // then sin(v/2) makes every point unlucky
+            Step step{.position = positions_[k], .unknown = {.key = key, .turn = turn}};
+            for (std::uint64_t seed = 1; seed <= 3; ++seed)
+                if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree); c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
+                    steps_.push_back(step);
+                    return true;
+                }
+            halves_ = former;
+        }
+        return false;
+    }
+
+    std::optional<ModularPoint> solved(std::uint64_t seed) const {
+        ModularPoint point = start(seed);
+        for (const Step& step : steps_) {
+            const auto c = quadratic(step.position, step.unknown, point, nullptr);
+            if (!c) return std::nullopt;
+            const auto [low, middle, high] = *c;
+            Prime root;
+            if (high.is_zero()) {
+                if (middle.is_zero()) return std::nullopt;
+                root = -low * middle.inverse();
+            } else {
+                const Prime under = middle * middle - 4 * low * high;
+                if (!under.is_square()) return std::nullopt;
+                root = (seed % 2 == 0 ? under.root() - middle : -under.root() - middle) * (2 * high).inverse();
+            }
+            set(point, step.unknown, root);
+        }
+        const auto at = evaluate_mod(program_, point, all_);
+        if (!at) return std::nullopt;
+        for (const int f : positions_)
+            if (solvable_ && !at->value[f].is_zero()) return std::nullopt;
+        return point;
+    }
+
+    const Program& program_;
+    std::vector<int> positions_, all_;
+    std::map<Key, Prime> given_;
+    std::vector<std::set<Key>> depends_;
+    std::set<Key> inside_;  ///< variables inside angles, exponents and the like
+    std::vector<Step> steps_;
+    bool turns_, solvable_ = true;
+    int halves_ = 2;
+};
+
+}  // namespace
+
+Variety variety_points(const Program& program, const std::vector<int>& positions, const std::vector<int>& others,
+                       int count, const std::map<std::pair<Variable::Kind, int>, Prime>& given) {
+    for (const bool turns : {true, false})
+        if (Variety found = Solving(program, positions, others, given, turns).go(count);
+            found.on_variety && static_cast<int>(found.points.size()) == count)
+            return found;
+    std::vector<int> all = positions;
+    all.insert(all.end(), others.begin(), others.end());
+    Variety beside = Solving(program, {}, all, given, false).go(count);
+    beside.on_variety = positions.empty();
+    return beside;
+}
+
+}  // namespace alembert
