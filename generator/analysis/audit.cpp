@@ -13,6 +13,7 @@
 #include "analysis/redundancy.hpp"
 #include "model/energy.hpp"
 #include "report/readable.hpp"
+#include "report/text.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {
@@ -22,6 +23,7 @@ using GiNaC::ex;
 namespace {
 
 constexpr int most_states = 6, tries = 24;
+constexpr std::size_t readable = 12;  // constraints: beyond, nobody asks what special parameters change
 
 Mechanism with_everything_loose(Mechanism m) {
     m.q_is_guess.assign(m.q.size(), true);
@@ -180,18 +182,18 @@ private:
     }
 
     void joint() {
-        joint_ = integrability(forms_, m_, positions(), states_, {.redundant = redundant_});
+        std::vector<bool> exact;
+        for (const Mechanism::Constraint& c : m_.constraints) exact.push_back(c.holonomic);
+        joint_ = integrability(forms_, m_, positions(), states_, {.exact = exact, .redundant = redundant_});
         result_.failure = joint_.failure;
         if (joint_.reason.empty()) result_.integrals = joint_.integrals;
         else result_.integrals = std::nullopt;
-        std::vector<bool> independent(m_.constraints.size(), false);
-        for (const int k : joint_.independent) independent[k] = true;
         result_.exact_rank = joint_.on_variety && static_cast<int>(joint_.independent.size()) == result_.rank;
         if (contradictory_) {
             // Rank and redundancy as exact arithmetic sees them: no state is at hand.
             result_.rank = static_cast<int>(joint_.independent.size());
             result_.degrees_of_freedom = n_ - result_.rank;
-            for (std::size_t k = 0; k < independent.size(); ++k) result_.constraints[k].redundant = false;
+            for (AuditedConstraint& c : result_.constraints) c.redundant = false;
         } else if (joint_.on_variety && static_cast<int>(joint_.independent.size()) > result_.rank) {
             result_.notes.push_back(fmt::format("the rank is {} for general parameters, and {} for those of the scene",
                                                 joint_.independent.size(), result_.rank));
@@ -204,11 +206,10 @@ private:
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
             c.integrable = c.holonomic ? std::optional(true) : joint_.integrable.empty() ? std::nullopt : joint_.integrable[k];
-            if (!c.integrable && !joint_.reason.empty()) c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
         }
         const bool any = std::any_of(result_.constraints.begin(), result_.constraints.end(), [](const auto& c) { return c.integrable == false; });
-        if (!any) return;
-        const Integrability fixed = integrability(forms_, m_, positions(), states_, {.fixed = true, .redundant = redundant_});
+        if (!any || m_.constraints.size() > readable) return;
+        const Integrability fixed = integrability(forms_, m_, positions(), states_, {.fixed = true, .exact = exact, .redundant = redundant_});
         for (std::size_t k = 0; k < m_.constraints.size() && fixed.on_variety; ++k)
             if (result_.constraints[k].integrable == false && fixed.integrable[k] == true)
                 result_.constraints[k].notes.push_back("it is integrable for the scene's parameters, but not for general ones");
@@ -242,13 +243,16 @@ private:
             AuditedConstraint& c = result_.constraints[k];
             if (c.holonomic || c.integrable == false) continue;
             std::optional<ex> F = integral_of(forms_[k], m_);
-            if (F) c.alone = true;
+            if (F && !c.alone) c.alone = true;
             if (!F && c.alone == false) F = integral_of(forms_[k], m_, frozen);
             if (!F) continue;
             c.integrable = true;
             c.integral = phrase(*F);
         }
-        for (const std::vector<GiNaC::numeric>& combination : joint_.combinations) {
+        for (std::vector<GiNaC::numeric> combination : joint_.combinations) {
+            const auto leading = std::find_if(combination.begin(), combination.end(), [](const auto& c) { return !c.is_zero(); });
+            if (*leading < 0)
+                for (GiNaC::numeric& c : combination) c = -c;
             OneForm form(static_cast<std::size_t>(n_) + 1, 0);
             std::string name;
             for (std::size_t k = 0; k < combination.size(); ++k) {
@@ -287,11 +291,10 @@ private:
             }
             if (c.holonomic && gradient_vanishes(k))
                 c.notes.push_back("its gradient is zero wherever it holds, as that of a square is: write it without the square");
+            if (!c.integrable && !joint_.reason.empty()) c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
             if (c.holonomic || c.integrable != true) continue;
-            const std::string what = c.alone == true    ? "it is integrable"
-                                     : c.alone == false ? "together with the others it is integrable, though not alone"
-                                                        : "together with the others it is integrable";
-            c.notes.push_back(fmt::format("declared nonholonomic, but {}: it is a position constraint up to a constant of the motion", what));
+            c.notes.push_back(fmt::format("declared nonholonomic, but it is integrable{}: {}", c.alone == true ? "" : " together with the others",
+                                          c.integral ? text(*c.integral) + " is constant" : "some function of the coordinates is constant"));
         }
     }
 

@@ -42,7 +42,7 @@ struct Audit {
     /// Independent functions of q and t that all motions keep; n minus these is the dimension of where they lead.
     std::optional<int> integrals;
     bool exact_rank = false;
-    double failure = 0;              ///< log₂ of the chance that a "yes, integrable" is wrong
+    double failure = 0;              ///< log₂ of the chance that a "yes, integrable" is wrong; 0 where none is at stake
     /// Integrable combinations of constraints that are not: "left - right", and what it keeps.
     std::vector<std::pair<std::string, std::optional<Phrase>>> combinations;
     std::vector<Adjusted> adjusted;

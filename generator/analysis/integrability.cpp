@@ -18,8 +18,9 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int points = 3;
-constexpr int largest_program = 200000;
+constexpr int few = 3, many = 16;  // points; many where few give no bound
+constexpr double surely = -60;
+constexpr int largest_program = 500000;
 constexpr double seen = 1e-8;  // of the sum of the sizes of its terms: a value that is not zero in floating point
 
 /// d³F/dt³ of every input, which the mechanism has no symbol for. Inputs may hold each other.
@@ -47,8 +48,8 @@ int rank_of(Rows rows) {
 class Closure {
 public:
     Closure(const std::vector<OneForm>& forms, const Mechanism& m, const std::vector<ex>& positions,
-            const std::vector<State<double>>& states, const IntegrabilityOptions& options)
-        : forms_(forms), m_(m), states_(states), options_(options), size_(m.q.size() + 1), third_(third_derivatives(m)) {
+            const std::vector<State<double>>& states, const IntegrabilityOptions& options, int points)
+        : forms_(forms), m_(m), states_(states), options_(options), points_(points), size_(m.q.size() + 1), third_(third_derivatives(m)) {
         std::vector<ex> flat;
         for (const OneForm& form : forms) flat.insert(flat.end(), form.begin(), form.end());
         entries_ = lower_expressions(program_, m, flat);
@@ -59,17 +60,17 @@ public:
                 if (p.independent)
                     given[{Variable::Kind::parameter, k++}] =
                         Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())).value_or(0);
-        variety_ = variety_points(program_, zeros, entries_, points, given);
+        variety_ = variety_points(program_, zeros, entries_, points_, given);
         result_.on_variety = variety_.on_variety;
         result_.integrable.resize(forms.size());
     }
 
     Integrability go() {
-        if (static_cast<int>(variety_.points.size()) < points) return undecided("no points were found where all roots exist");
+        if (static_cast<int>(variety_.points.size()) < points_) return undecided("no points were found where all roots exist");
         values_ = evaluate(entries_);
         if (values_.empty()) return undecided("no points were found where all roots exist");
         find_independent();
-        if (!result_.contradictory.empty()) return undecided("the constraints contradict each other");
+        if (!result_.contradictory.empty()) return undecided("no rates obey all constraints, but where a relation between coordinates and time holds");
         eliminate();
         if (!close()) return undecided("the brackets grow beyond what is evaluated");
         decide();
@@ -98,7 +99,7 @@ private:
             failure += at->conditions + variety_.conditions - 61;
         }
         degree_ = std::max(degree_, largest * variety_.degree);
-        conditions_ = std::max(conditions_, failure + 61.0 * points);
+        conditions_ = std::max(conditions_, failure + 61.0 * points_);
         return result;
     }
 
@@ -106,10 +107,10 @@ private:
 
     /// Those whose row raises the rank, at whichever point.
     void find_independent() {
-        std::vector<Rows> rates(points), all(points);
+        std::vector<Rows> rates(points_), all(points_);
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             bool raises = false, raises_all = false;
-            for (int p = 0; p < points; ++p) {
+            for (int p = 0; p < points_; ++p) {
                 std::vector<Prime> row;
                 for (std::size_t i = 0; i < size_; ++i) row.push_back(entry(p, k, i));
                 all[p].push_back(row);
@@ -125,7 +126,7 @@ private:
                 continue;
             }
             if (raises_all) result_.contradictory.push_back(static_cast<int>(k));
-            for (int p = 0; p < points; ++p) {
+            for (int p = 0; p < points_; ++p) {
                 rates[p].pop_back();
                 all[p].pop_back();
             }
@@ -135,10 +136,10 @@ private:
     /// Gauss-Jordan over the intermediate symbols; a pivot is an entry that is not zero at the points, a number if there is one.
     void eliminate() {
         std::vector<OneForm> rows;
-        std::vector<std::vector<std::vector<Prime>>> value(points);
+        std::vector<std::vector<std::vector<Prime>>> value(points_);
         for (const int k : result_.independent) {
             rows.push_back(forms_[k]);
-            for (int p = 0; p < points; ++p) {
+            for (int p = 0; p < points_; ++p) {
                 value[p].emplace_back();
                 for (std::size_t i = 0; i < size_; ++i) value[p].back().push_back(entry(p, k, i));
             }
@@ -156,7 +157,7 @@ private:
             for (std::size_t i = 0; i < size_; ++i)
                 if (i != column) rows[r][i] = is_zero(r, i) ? ex(0) : m_.z->name(rows[r][i] / rows[r][column]);
             rows[r][column] = 1;
-            for (int p = 0; p < points; ++p) {
+            for (int p = 0; p < points_; ++p) {
                 const Prime scale = value[p][r][column].inverse();
                 for (Prime& v : value[p][r]) v *= scale;
             }
@@ -166,7 +167,7 @@ private:
                 for (std::size_t i = 0; i < size_ && !is_zero(s, column); ++i)
                     if (i != column && !is_zero(r, i)) rows[s][i] = m_.z->name(rows[s][i] - factor * rows[r][i]);
                 rows[s][column] = 0;
-                for (int p = 0; p < points; ++p) {
+                for (int p = 0; p < points_; ++p) {
                     const Prime f = value[p][s][column];
                     for (std::size_t i = 0; i < size_; ++i) value[p][s][i] -= f * value[p][r][i];
                 }
@@ -205,54 +206,73 @@ private:
         return result;
     }
 
-    /// Adds brackets until no more raises the rank; false where they grow too large.
+    /// Adds brackets until no more raises the rank, which is at most the number of forms that are not exact; false where
+    /// they grow too large. In small lots, so that what is not needed is not made.
     bool close() {
-        std::vector<std::vector<ex>> last = fields_;
-        kept_.assign(points, {});
+        std::size_t lot = 2;
+        for (const int k : result_.independent) most_ += options_.exact.empty() || !options_.exact[k] ? 1 : 0;
+        std::vector<std::vector<ex>> last = fields_, lots;
+        kept_.assign(points_, {});
         for (bool first = true; !last.empty(); first = false) {
-            std::vector<std::vector<ex>> next;
-            for (std::size_t a = 0; a < fields_.size(); ++a)
-                for (std::size_t b = first ? a + 1 : 0; b < last.size() && kept_nodes_.size() < pivots_.size(); ++b) {
-                    const std::vector<ex> Z = bracket(fields_[a], last[b]);
-                    if (std::all_of(Z.begin(), Z.end(), [](const ex& e) { return e.is_zero(); })) continue;
-                    const std::optional<bool> raises = keep(Z);
-                    if (!raises) return false;
-                    if (*raises) next.push_back(Z);
+            std::vector<std::vector<ex>> raising;
+            const auto flush = [&] {
+                if (!keep(lots)) return false;
+                raising.insert(raising.end(), lots.begin(), lots.end());
+                lots.clear();
+                lot = std::min<std::size_t>(2 * lot, 64);
+                return true;
+            };
+            for (std::size_t b = 0; b < last.size(); ++b)
+                for (std::size_t a = 0; a < (first ? b : fields_.size()) && kept_nodes_.size() < most_; ++a) {
+                    std::vector<ex> Z = bracket(fields_[a], last[b]);
+                    if (std::any_of(Z.begin(), Z.end(), [](const ex& e) { return !e.is_zero(); })) lots.push_back(std::move(Z));
+                    if (lots.size() == lot && !flush()) return false;
                 }
-            last = std::move(next);
+            if (!flush()) return false;
+            last = std::move(raising);
         }
         return true;
     }
 
-    /// Keeps a bracket if it is no combination of those before; nothing where it is too large to tell.
-    std::optional<bool> keep(const std::vector<ex>& Z) {
-        const std::vector<int> nodes = lower_expressions(program_, m_, Z);
-        if (program_.size() > largest_program) return std::nullopt;
+    /// Leaves in the list what is no combination of those kept before; false where it is too large to tell.
+    bool keep(std::vector<std::vector<ex>>& brackets) {
+        std::vector<ex> flat;
+        for (const std::vector<ex>& Z : brackets) flat.insert(flat.end(), Z.begin(), Z.end());
+        const std::vector<int> nodes = lower_expressions(program_, m_, flat);
+        if (program_.size() > largest_program) return false;
         const auto at = evaluate(nodes);
-        if (at.empty()) return std::nullopt;
-        bool raises = false;
-        for (int p = 0; p < points; ++p) {
-            kept_[p].push_back(at[p]);
-            raises = raises || rank_of(kept_[p]) == static_cast<int>(kept_nodes_.size()) + 1;
+        if (at.empty()) return false;
+        std::vector<std::vector<ex>> raising;
+        for (std::size_t b = 0; b < brackets.size() && kept_nodes_.size() < most_; ++b) {
+            const auto begin = static_cast<std::ptrdiff_t>(b * size_), end = begin + static_cast<std::ptrdiff_t>(size_);
+            bool raises = false;
+            for (int p = 0; p < points_; ++p) {
+                kept_[p].emplace_back(at[p].begin() + begin, at[p].begin() + end);
+                raises = raises || rank_of(kept_[p]) == static_cast<int>(kept_nodes_.size()) + 1;
+            }
+            if (raises) {
+                kept_nodes_.emplace_back(nodes.begin() + begin, nodes.begin() + end);
+                raising.push_back(brackets[b]);
+            } else {
+                for (Rows& rows : kept_) rows.pop_back();
+            }
         }
-        if (raises) {
-            kept_nodes_.push_back(nodes);
-        } else {
-            for (Rows& rows : kept_) rows.pop_back();
-        }
-        return raises;
+        brackets = std::move(raising);
+        return true;
     }
 
     void decide() {
         result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
         // A determinant of at most as many rows as there are forms, and one bracket more.
-        result_.failure = points * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
+        const double failure = points_ * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
         const bool certain = result_.exact && result_.on_variety;
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             bool zero = true;
-            for (int p = 0; p < points; ++p)
+            for (int p = 0; p < points_; ++p)
                 for (const std::vector<Prime>& Y : kept_[p]) zero = zero && pairing(p, k, Y).is_zero();
-            if (zero && result_.failure <= -60)
+            const bool known = !options_.exact.empty() && options_.exact[k];
+            if (zero && !known) result_.failure = failure;
+            if (zero && (known || failure <= surely))
                 result_.integrable[k] = true;
             else if (!zero && (certain || seen_in_numbers(k)))
                 result_.integrable[k] = false;
@@ -261,6 +281,7 @@ private:
             else
                 result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
         }
+        if (kept_nodes_.size() < most_ && result_.failure == 0.0) result_.failure = failure;  // of the number of integrals
         find_combinations();
     }
 
@@ -294,8 +315,8 @@ private:
         for (const int k : result_.independent)
             if (result_.integrable[k] == false) unfit.push_back(k);
         if (unfit.size() < 2 || !result_.on_variety || kept_[0].empty()) return;
-        std::vector<Rows> forms(points);
-        for (int p = 0; p < points; ++p) {
+        std::vector<Rows> forms(points_);
+        for (int p = 0; p < points_; ++p) {
             for (const std::vector<Prime>& Y : kept_[p]) {
                 forms[p].emplace_back();
                 for (const std::size_t k : unfit) forms[p].back().push_back(pairing(p, k, Y));
@@ -316,7 +337,7 @@ private:
             combination[unfit[j]] = 1;
             bool constant = true;
             for (std::size_t r = 0; r < pivot.size() && constant; ++r) {
-                for (int p = 1; p < points; ++p) constant = constant && forms[p][r][j] == forms[0][r][j];
+                for (int p = 1; p < points_; ++p) constant = constant && forms[p][r][j] == forms[0][r][j];
                 const auto c = small_rational(forms[0][r][j]);
                 constant = constant && c;
                 if (constant) combination[unfit[pivot[r]]] = -*c;
@@ -337,6 +358,7 @@ private:
     const Mechanism& m_;
     const std::vector<State<double>>& states_;
     const IntegrabilityOptions& options_;
+    int points_;
     std::size_t size_;       ///< n + 1
     std::vector<ex> third_;  ///< derivatives of the inputs
     Program program_;
@@ -347,6 +369,7 @@ private:
     std::vector<std::vector<ex>> fields_;
     std::vector<Rows> kept_;                  ///< brackets that raised the rank, at every point
     std::vector<std::vector<int>> kept_nodes_;
+    std::size_t most_ = 0;                    ///< brackets that can be independent
     double degree_ = 1, conditions_ = 0;
     Integrability result_;
 };
@@ -366,7 +389,8 @@ std::vector<OneForm> forms_of(const Mechanism& m) {
 Integrability integrability(const std::vector<OneForm>& forms, const Mechanism& mechanism,
                             const std::vector<ex>& positions, const std::vector<State<double>>& states, const IntegrabilityOptions& options) {
     if (forms.empty()) return {};
-    return Closure(forms, mechanism, positions, states, options).go();
+    Integrability result = Closure(forms, mechanism, positions, states, options, few).go();
+    return result.failure <= surely ? result : Closure(forms, mechanism, positions, states, options, many).go();
 }
 
 }  // namespace alembert

@@ -41,12 +41,13 @@ struct Integrability {
     /// Combinations Σ c_k w_k with rational coefficients that are integrable though their forms are not.
     std::vector<std::vector<GiNaC::numeric>> combinations;
     bool on_variety = true, exact = true;
-    double failure = 0;                           ///< log₂ of the chance that a "yes" is wrong
+    double failure = 0;                           ///< log₂ of the chance that a "yes" is wrong; 0 where none is at stake
     std::string reason;                           ///< why nothing was decided
 };
 
 struct IntegrabilityOptions {
     bool fixed = false;           ///< for the scene's parameters, not for generic ones
+    std::vector<bool> exact = {};  ///< forms known to be differentials: of holonomic constraints
     std::vector<int> redundant = {};  ///< forms that numbers have found dependent: believed where no exact point was found
 };
 

@@ -22,22 +22,31 @@ class Integration {
 public:
     Integration(const Mechanism& m, const std::vector<int>& frozen) : m_(m) {
         for (int k = 0; k <= m.size(); ++k)
-            if (std::find(frozen.begin(), frozen.end(), k) == frozen.end()) free_.push_back(k);
+            if (std::find(frozen.begin(), frozen.end(), k) == frozen.end())
+                free_.push_back(k);
+            else
+                frozen_.push_back(k < m.size() ? m.q[k] : m.t);
     }
 
     std::optional<ex> go(const OneForm& form) {
         GiNaC::exmap inputs;
         for (const Mechanism::Input& input : m_.inputs) inputs[input.derivative[0]] = m_.z->expand(input.value);
-        std::vector<ex> a;
+        std::vector<ex> all, a;
         for (const int k : free_) {
             if (m_.z->tree_size(form[k]) > largest_tree) return std::nullopt;
             const auto entry = simplified(without_inputs(m_.z->expand(form[k]), inputs));
             if (!entry) return std::nullopt;
-            if (entry->is_zero()) continue;
-            variables_.push_back(k < m_.size() ? m_.q[k] : m_.t);
-            a.push_back(*entry);
+            all.push_back(*entry);
+        }
+        for (std::size_t j = 0; j < all.size(); ++j) {
+            const symbol x = free_[j] < m_.size() ? m_.q[free_[j]] : m_.t;
+            if (std::none_of(all.begin(), all.end(), [&](const ex& e) { return e.has(x); }) && all[j].is_zero()) continue;
+            variables_.push_back(x);
+            a.push_back(all[j]);
         }
         for (const ex& factor : factors(a)) {
+            // What keeps its value may keep the value zero.
+            if (std::any_of(frozen_.begin(), frozen_.end(), [&](const symbol& s) { return factor.has(s); })) continue;
             std::vector<ex> b;
             for (const ex& entry : a) {
                 const auto scaled = simplified(entry * factor);
@@ -175,7 +184,8 @@ private:
 
     const Mechanism& m_;
     std::vector<int> free_;
-    std::vector<symbol> variables_;  ///< whose coefficients are not zero
+    std::vector<symbol> frozen_;
+    std::vector<symbol> variables_;  ///< whose coefficients are not zero, or that occur in others
 };
 
 }  // namespace

@@ -70,14 +70,29 @@ public:
         for (int k = 0; k < starts && searchable_ && !moving_.empty(); ++k) {
             std::vector<double> q = state_.q;
             for (const int i : moving_) q[i] += away(random) * std::max(1.0, std::abs(q[i]) / 2);
-            if (descend(q, random)) add(simplified(q), false);
+            if (!descend(q, random)) continue;
+            q = simplified(q);
+            if (near(q)) add(q, false);
         }
+        // Simple poses first, where there are many.
+        const auto plain = [&](const SingularPose& pose) {
+            int count = 0;
+            for (const int i : moving_) {
+                const double quarter = pose.q[i] / (std::numbers::pi / 2);
+                count += pose.q[i] == state_.q[i] || std::abs(quarter - std::round(quarter)) < 1e-9;
+            }
+            return count;
+        };
         const auto distance = [&](const SingularPose& pose) {
             double sum = 0;
             for (std::size_t i = 0; i < pose.q.size(); ++i) sum += std::pow(pose.q[i] - state_.q[i], 2);
             return sum;
         };
-        std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+        std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+            if (a.given != b.given) return a.given;
+            if (plain(a) != plain(b)) return plain(a) > plain(b);
+            return distance(a) < distance(b);
+        });
         if (found.size() > most) found.resize(most);
         return found;
     }
@@ -139,6 +154,13 @@ private:
         return J;
     }
 
+    /// What tends to zero at infinity is no singular pose.
+    bool near(const std::vector<double>& q) const {
+        return std::all_of(moving_.begin(), moving_.end(), [&](int i) {
+            return std::abs(q[i] - state_.q[i]) <= 4 * std::numbers::pi * std::max(1.0, std::abs(state_.q[i]));
+        });
+    }
+
     bool descend(std::vector<double>& q, std::mt19937_64& random) {
         std::normal_distribution<double> normal;
         Eigen::VectorXd v(usual_.size());
@@ -177,7 +199,8 @@ private:
     /// The same pose with simpler numbers, where it is singular as well.
     std::vector<double> simplified(std::vector<double> q) {
         for (const int i : moving_)
-            for (const double other : {state_.q[i], 0.0, std::remainder(q[i], 2 * std::numbers::pi)}) {
+            for (double other : {0.0, state_.q[i], std::remainder(q[i], 2 * std::numbers::pi)}) {
+                if (std::abs(other + std::numbers::pi) < 1e-6) other += 2 * std::numbers::pi;
                 std::vector<double> trial = q;
                 trial[i] = other;
                 if (!singular(trial)) continue;

@@ -22,6 +22,7 @@ struct Unknown {
 struct Step {
     int position;
     Unknown unknown;
+    std::optional<Key> spare = {};  ///< a variable of this equation that none solved before it holds
     double degree = 1;
 };
 
@@ -102,6 +103,13 @@ private:
                         }
         }
         std::reverse(steps_.begin(), steps_.end());
+        std::set<Key> held;
+        for (Step& step : steps_) {
+            const auto k = std::find(positions_.begin(), positions_.end(), step.position) - positions_.begin();
+            for (const Key& key : depends_[k])
+                if (key != step.unknown.key && held.count(key) == 0 && given_.count(key) == 0) step.spare = key;
+            held.insert(depends_[k].begin(), depends_[k].end());
+        }
     }
 
     bool give(int k, Variable::Kind kind, bool turn, const std::set<int>& left) {
@@ -122,27 +130,33 @@ private:
     }
 
     std::optional<ModularPoint> solved(std::uint64_t seed) const {
+        constexpr std::uint64_t most_turns = 40;
         ModularPoint point = start(seed);
         for (const Step& step : steps_) {
-            const auto c = quadratic(step.position, step.unknown, point, nullptr);
-            if (!c) return std::nullopt;
-            const auto [low, middle, high] = *c;
-            Prime root;
-            if (high.is_zero()) {
-                if (middle.is_zero()) return std::nullopt;
-                root = -low * middle.inverse();
-            } else {
-                const Prime under = middle * middle - 4 * low * high;
-                if (!under.is_square()) return std::nullopt;
-                root = (seed % 2 == 0 ? under.root() - middle : -under.root() - middle) * (2 * high).inverse();
+            std::optional<Prime> root = root_of(step, point, seed);
+            // No square: another value of what the steps before do not hold.
+            for (std::uint64_t turn = 1; !root && step.spare && turn < most_turns; ++turn) {
+                point.given[*step.spare] = point.random(400, static_cast<std::uint64_t>(step.position), turn);
+                root = root_of(step, point, seed);
             }
-            set(point, step.unknown, root);
+            if (!root) return std::nullopt;
+            set(point, step.unknown, *root);
         }
         const auto at = evaluate_mod(program_, point, all_);
         if (!at) return std::nullopt;
         for (const int f : positions_)
             if (solvable_ && !at->value[f].is_zero()) return std::nullopt;
         return point;
+    }
+
+    std::optional<Prime> root_of(const Step& step, const ModularPoint& point, std::uint64_t seed) const {
+        const auto c = quadratic(step.position, step.unknown, point, nullptr);
+        if (!c) return std::nullopt;
+        const auto [low, middle, high] = *c;
+        if (high.is_zero()) return middle.is_zero() ? std::nullopt : std::optional(-low * middle.inverse());
+        const Prime under = middle * middle - 4 * low * high;
+        if (!under.is_square()) return std::nullopt;
+        return (seed % 2 == 0 ? under.root() - middle : -under.root() - middle) * (2 * high).inverse();
     }
 
     const Program& program_;

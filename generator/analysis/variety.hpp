@@ -12,6 +12,7 @@
 ///     a cos α + b cos β − c cos γ − d = 0,    a sin α + b sin β − c sin γ = 0
 /// gets its d from the first and then, before it, its a from the second. Points with solved parameters are generic points
 /// of {(q, t, parameters): f = 0}: what holds there holds for almost all parameters.
+/// Of a variety of several sheets, such as x·y = 0, the points are on the one that the solving meets.
 /// Where some f finds no unknown (both sums above with numbers in place of a … d) the points are random ones beside
 /// the variety, and `on_variety` says so.
 

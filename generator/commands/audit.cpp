@@ -38,7 +38,7 @@ Json json_of(const Audit& audit, const Mechanism& m) {
     json["degrees_of_freedom"] = audit.degrees_of_freedom;
     json["coordinates_free"] = audit.integrals ? Json(m.size() - *audit.integrals) : Json(nullptr);
     json["rank_is_exact"] = audit.exact_rank;
-    json["failure_bound_log2"] = audit.failure;
+    json["failure_bound_log2"] = audit.failure < 0 ? Json(audit.failure) : Json(nullptr);
     json["integrable_combinations"] = Json::array();
     for (const auto& [name, integral] : audit.combinations)
         json["integrable_combinations"].push_back({{"combination", name}, {"integral", integral ? Json(text(*integral)) : Json(nullptr)}});
@@ -83,7 +83,7 @@ void print(const Audit& audit, const Mechanism& m) {
     fmt::print("\n");
     for (const AuditedConstraint& c : audit.constraints) {
         if (c.integral) fmt::print("{}: {} = const\n", c.name, text(*c.integral));
-        for (const std::string& note : c.notes) fmt::print("{}: {}\n", c.name, note);
+        for (const std::string& note : c.notes) fmt::print("{}{}\n", note.starts_with("'") ? "" : c.name + ": ", note);
     }
     for (const auto& [name, integral] : audit.combinations)
         fmt::print("{} is integrable{}\n", name, integral ? fmt::format(": {} = const", text(*integral)) : "");
