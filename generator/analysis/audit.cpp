@@ -23,7 +23,7 @@ using GiNaC::ex;
 namespace {
 
 constexpr int most_states = 6, tries = 24;
-constexpr std::size_t readable = 12;  // constraints: beyond, nobody asks what special parameters change
+constexpr std::size_t most_special = 12;  // constraints: beyond, nobody asks what special parameters change
 
 Mechanism with_everything_loose(Mechanism m) {
     m.q_is_guess.assign(m.q.size(), true);
@@ -147,12 +147,16 @@ private:
             if (states_of(only(fewer), start, 1).empty()) clash = fewer;
         }
         const std::string names = quoted(m_, clash);
+        std::vector<OneForm> forms;
+        for (const int k : clash) forms.push_back(forms_[k]);
+        const bool dependent = integrability(forms, m_, {}, {}, {.exact = std::vector<bool>(clash.size(), true)}).independent.size() < clash.size();
         result_.wrong = true;
         result_.problem = clash.size() == 1
                               ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names, tries)
-                              : fmt::format("constraints {} contradict each other: no state that obeys {} was found from {} places; "
+                              : fmt::format("constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
                                             "remove or correct one of them",
-                                            names, clash.size() == 2 ? "both" : "all", tries);
+                                            names, dependent ? "they constrain the same rates differently; " : "",
+                                            clash.size() == 2 ? "both" : "all", tries);
         for (const int k : clash)
             result_.constraints[k].notes.push_back(clash.size() == 1 ? "no state was found that obeys it"
                                                                      : fmt::format("{} contradict each other", names));
@@ -208,7 +212,7 @@ private:
             c.integrable = c.holonomic ? std::optional(true) : joint_.integrable.empty() ? std::nullopt : joint_.integrable[k];
         }
         const bool any = std::any_of(result_.constraints.begin(), result_.constraints.end(), [](const auto& c) { return c.integrable == false; });
-        if (!any || m_.constraints.size() > readable) return;
+        if (!any || m_.constraints.size() > most_special) return;
         const Integrability fixed = integrability(forms_, m_, positions(), states_, {.fixed = true, .exact = exact, .redundant = redundant_});
         for (std::size_t k = 0; k < m_.constraints.size() && fixed.on_variety; ++k)
             if (result_.constraints[k].integrable == false && fixed.integrable[k] == true)
