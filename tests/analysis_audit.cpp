@@ -164,7 +164,7 @@ TEST_CASE("integral: of a differential with a factor is a function of what it wa
     const std::vector<Case> cases{
         {"x*y^2 + z", "1"}, {"x/y", "y^2"}, {"x*y*z", "1/(x*y*z)"}, {"sin(x + 2*y)*z", "1"}, {"x^2 + y^2", "1/(x^2 + y^2)"},
         {"x*sin(y) + z*cos(y)", "1"}, {"x - r*y + t^2*z", "1"}, {"exp(x)*y", "exp(-x)"}, {"x - 2*sin(3*t)", "r"}, {"x^3*sin(x)*r + y", "1"},
-        {"sqrt(x^2 + y^2 + z^2)", "1"}, {"x/cos(y)", "cos(y)^2"}, {"log(1 + x^2) + y*z", "1"}, {"r*cos(x) - cos(x - y)", "1"}};
+        {"sqrt(x^2 + y^2 + z^2)", "1"}, {"x/cos(y)", "cos(y)^2"}, {"log(1 + x^2) + y*z", "1"}, {"r*cos(x) - cos(x - y)", "1"}, {"y*cosh(x) + log(cos(z))", "1"}};
     for (const Case& c : cases) {
         CAPTURE(c.function);
         const Mechanism m = with({"x", "y", "z"}, {c.function}, "r = 0.5");
@@ -228,6 +228,10 @@ TEST_CASE("audit: copies, multiples and derivatives are redundant, a velocity ra
     // Dependent where the circle is, and nowhere else.
     CHECK(redundant({"x^2 + y^2 - 1", "z*(x^2 + y^2 - 1) + x^2 + y^2 - 1"}) == std::vector{0, 1});
     CHECK(redundant({"x' + y' - z'", "x' - y'", "2*x' - z'"}) == std::vector{0, 0, 1});
+    CHECK(redundant({"(sin(x)^2 + cos(x)^2 - 1)*x'", "z'"}) == std::vector{1, 0});
+    const Audit audit = audit_of(with(q, {"z' + x*y'", "x^2 + y^2 - 1", "x' - y'", "2*x*x' + 2*y*y' + x' - y'"}));
+    REQUIRE(!audit.constraints[3].notes.empty());
+    CHECK(audit.constraints[3].notes[0] == "follows from 'c1' and 'c2'; the equations of motion leave it out");
 }
 
 TEST_CASE("audit: constraints that contradict each other are named, and no innocent one") {

@@ -85,6 +85,10 @@ private:
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
             if (misfit <= allowed * size(nodes[k], value)) continue;
+            if (!std::isfinite(misfit))
+                throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
+                                             "a root or a logarithm of what has none; give other initial values",
+                                             m_.constraints[k].name));
             const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
                 throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "analysis/assemble.hpp"
 #include "analysis/integral.hpp"
@@ -81,6 +83,7 @@ public:
         if (states_.empty()) contradiction(start);
         rank(start);
         joint();
+        sources_of_redundancy();
         alone();
         integrals();
         poses();
@@ -173,9 +176,47 @@ private:
             }
         }
         redundant_ = redundant_constraints(at);
+        count();
+    }
+
+    void count() {
+        for (AuditedConstraint& c : result_.constraints) c.redundant = false;
         for (const int k : redundant_) result_.constraints[k].redundant = true;
         result_.rank = static_cast<int>(m_.constraints.size() - redundant_.size());
         result_.degrees_of_freedom = n_ - result_.rank;
+    }
+
+    /// Whose rows a redundant row is made of at states that obey the constraints: "follows from 'a' and 'b'".
+    void sources_of_redundancy() {
+        const Program program = constraint_program(m_);
+        const std::vector<int> rows = program.nodes_of("row");
+        if (result_.rank == 0) return;
+        for (const int k : redundant_) {
+            if (std::find(joint_.contradictory.begin(), joint_.contradictory.end(), k) != joint_.contradictory.end()) continue;
+            std::set<int> from;
+            for (const State<double>& state : states_) {
+                const std::vector<double> value = interpret(program, state);
+                const auto row = [&](int r) {
+                    Eigen::VectorXd result(n_);
+                    for (int i = 0; i < n_; ++i) result[i] = value[rows[r * n_ + i]];
+                    return result;
+                };
+                Eigen::MatrixXd kept(n_, result_.rank);
+                std::vector<int> names;
+                for (int r = 0; r < static_cast<int>(m_.constraints.size()); ++r)
+                    if (!result_.constraints[r].redundant) {
+                        kept.col(static_cast<Eigen::Index>(names.size())) = row(r);
+                        names.push_back(r);
+                    }
+                const Eigen::VectorXd target = row(k);
+                const Eigen::VectorXd share = kept.completeOrthogonalDecomposition().solve(target);
+                for (Eigen::Index c = 0; c < share.size(); ++c)
+                    if (std::abs(share[c]) * kept.col(c).norm() > 1e-7 * target.norm()) from.insert(names[c]);
+            }
+            if (!from.empty())
+                result_.constraints[k].notes.push_back(fmt::format("follows from {}; the equations of motion leave it out",
+                                                                   quoted(m_, std::vector<int>(from.begin(), from.end()))));
+        }
     }
 
     std::vector<ex> positions() const {
@@ -192,12 +233,20 @@ private:
         result_.failure = joint_.failure;
         if (joint_.reason.empty()) result_.integrals = joint_.integrals;
         else result_.integrals = std::nullopt;
+        if (joint_.on_variety && !contradictory_ && static_cast<int>(joint_.independent.size()) < result_.rank) {
+            // Rounding may leave a little of a row that is exactly zero.
+            redundant_.clear();
+            for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)
+                if (std::find(joint_.independent.begin(), joint_.independent.end(), k) == joint_.independent.end()) redundant_.push_back(k);
+            count();
+        }
         result_.exact_rank = joint_.on_variety && static_cast<int>(joint_.independent.size()) == result_.rank;
         if (contradictory_) {
             // Rank and redundancy as exact arithmetic sees them: no state is at hand.
             result_.rank = static_cast<int>(joint_.independent.size());
             result_.degrees_of_freedom = n_ - result_.rank;
             for (AuditedConstraint& c : result_.constraints) c.redundant = false;
+            redundant_.clear();
         } else if (joint_.on_variety && static_cast<int>(joint_.independent.size()) > result_.rank) {
             result_.notes.push_back(fmt::format("the rank is {} for general parameters, and {} for those of the scene",
                                                 joint_.independent.size(), result_.rank));

@@ -108,7 +108,11 @@ private:
     /// Those whose row raises the rank, at whichever point.
     void find_independent() {
         std::vector<Rows> rates(points_), all(points_);
-        for (std::size_t k = 0; k < forms_.size(); ++k) {
+        std::vector<std::size_t> order;
+        for (const bool exact : {true, false})
+            for (std::size_t k = 0; k < forms_.size(); ++k)
+                if ((!options_.exact.empty() && options_.exact[k]) == exact) order.push_back(k);
+        for (const std::size_t k : order) {
             bool raises = false, raises_all = false;
             for (int p = 0; p < points_; ++p) {
                 std::vector<Prime> row;

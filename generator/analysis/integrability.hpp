@@ -35,7 +35,7 @@ std::vector<OneForm> forms_of(const Mechanism& mechanism);
 
 struct Integrability {
     std::vector<std::optional<bool>> integrable;  ///< of each form; nothing where undecided
-    std::vector<int> independent;                 ///< forms that are no combinations of those before, as found at the points
+    std::vector<int> independent;                 ///< forms that are no combinations of those before, exact ones first
     std::vector<int> contradictory;               ///< whose rates are combinations of earlier ones', but not the rest (0 = g(q,t))
     int integrals = 0;                            ///< independent functions that are constant in every motion
     /// Combinations Σ c_k w_k with rational coefficients that are integrable though their forms are not.

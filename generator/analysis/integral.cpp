@@ -164,6 +164,10 @@ private:
             if (name == "sin") return -constant * share * cos(B);
             if (name == "cos") return constant * share * sin(B);
             if (name == "exp") return constant * share * outer;
+            if (name == "sinh") return constant * share * cosh(B);
+            if (name == "cosh") return constant * share * sinh(B);
+            if (name == "tan") return -constant * share * log(cos(B));
+            if (name == "log") return constant * share * (B * log(B) - B);
         }
         return by_parts(constant, moving, x);
     }

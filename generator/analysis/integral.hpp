@@ -8,7 +8,8 @@
 ///
 /// Tried as factors are 1, and reciprocals of the coefficients, of their products in pairs, of Σ xᵢ aᵢ and of x² + y² (Euler's
 /// factors; Ince, Ordinary Differential Equations (1926), 2.1), sines and cosines of a coordinate and their reciprocals. A closed form is integrated
-/// variable by variable, term by term: powers, sines, cosines and exponentials of what is linear in the variable, and B^k·∂B/∂x.
+/// variable by variable, term by term: f(B)·∂B/∂x with f a power, sine, cosine, exponential and the like, and by
+/// parts with a polynomial.
 /// What is given has been differentiated again and compared by normal form. Nothing proves that there is no integral.
 
 #include "analysis/integrability.hpp"
