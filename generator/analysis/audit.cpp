@@ -342,8 +342,10 @@ private:
                                               : "its coefficients of the rates are all zero");
                 continue;
             }
-            if (c.holonomic && gradient_vanishes(k))
+            if (c.holonomic && gradient_vanishes(k)) {
+                c.redundant = false;
                 c.notes.push_back("its gradient is zero wherever it holds, as that of a square is: write it without the square");
+            }
             if (!c.integrable && !joint_.reason.empty()) c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
             if (c.holonomic || c.integrable != true) continue;
             c.notes.push_back(fmt::format("declared nonholonomic, but it is integrable{}: {}", c.alone == true ? "" : " together with the others",
