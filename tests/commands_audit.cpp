@@ -73,6 +73,7 @@ TEST_CASE("commands: audit reports what is wrong with the constraints before it 
     CHECK(contradictory.exit == 3);
     CHECK(contradictory.err.find("'circle' and 'larger' contradict each other") != std::string::npos);
     CHECK(Json::parse(contradictory.out)["constraints"].size() == 2);
+    CHECK(Json::parse(contradictory.out)["contradictory"] == Json{"circle", "larger"});
     const auto broken = run({"audit", scene("x = 1\ny = 0.5", circle), "--json"});
     CHECK(broken.exit == 3);
     CHECK(broken.err.find("'circle' is off by 0.25 at the start") != std::string::npos);

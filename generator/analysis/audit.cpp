@@ -160,9 +160,7 @@ private:
                                             "remove or correct one of them",
                                             names, dependent ? "they constrain the same rates differently; " : "",
                                             clash.size() == 2 ? "both" : "all", tries);
-        for (const int k : clash)
-            result_.constraints[k].notes.push_back(clash.size() == 1 ? "no state was found that obeys it"
-                                                                     : fmt::format("{} contradict each other", names));
+        result_.contradictory = clash;
         contradictory_ = true;
     }
 
@@ -241,6 +239,7 @@ private:
             count();
         }
         result_.exact_rank = joint_.on_variety && static_cast<int>(joint_.independent.size()) == result_.rank;
+        if (joint_.on_variety) result_.generic_rank = static_cast<int>(joint_.independent.size());
         if (contradictory_) {
             // Rank and redundancy as exact arithmetic sees them: no state is at hand.
             result_.rank = static_cast<int>(joint_.independent.size());

@@ -42,6 +42,8 @@ struct Audit {
     /// Independent functions of q and t that all motions keep; n minus these is the dimension of where they lead.
     std::optional<int> integrals;
     bool exact_rank = false;
+    std::optional<int> generic_rank;  ///< for general parameters, where exact points of the variety were found
+    std::vector<int> contradictory;   ///< constraints that no state obeys together, as few as possible
     double failure = 0;              ///< log₂ of the chance that a "yes, integrable" is wrong; 0 where none is at stake
     /// Integrable combinations of constraints that are not: "left - right", and what it keeps.
     std::vector<std::pair<std::string, std::optional<Phrase>>> combinations;

@@ -37,6 +37,9 @@ Json json_of(const Audit& audit, const Mechanism& m) {
     json["rank"] = audit.rank;
     json["degrees_of_freedom"] = audit.degrees_of_freedom;
     json["coordinates_free"] = audit.integrals ? Json(m.size() - *audit.integrals) : Json(nullptr);
+    json["contradictory"] = Json::array();
+    for (const int k : audit.contradictory) json["contradictory"].push_back(audit.constraints[k].name);
+    json["generic_rank"] = or_null(audit.generic_rank);
     json["rank_is_exact"] = audit.exact_rank;
     json["failure_bound_log2"] = audit.failure < 0 ? Json(audit.failure) : Json(nullptr);
     json["integrable_combinations"] = Json::array();
@@ -83,7 +86,7 @@ void print(const Audit& audit, const Mechanism& m) {
     fmt::print("\n");
     for (const AuditedConstraint& c : audit.constraints) {
         if (c.integral) fmt::print("{}: {} = const\n", c.name, text(*c.integral));
-        for (const std::string& note : c.notes) fmt::print("{}{}\n", note.starts_with("'") ? "" : c.name + ": ", note);
+        for (const std::string& note : c.notes) fmt::print("{}: {}\n", c.name, note);
     }
     for (const auto& [name, integral] : audit.combinations)
         fmt::print("{} is integrable{}\n", name, integral ? fmt::format(": {} = const", text(*integral)) : "");
