@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <random>
-#include <set>
 
 #include "analysis/assemble.hpp"
+#include "analysis/contradiction.hpp"
 #include "analysis/integral.hpp"
 #include "analysis/redundancy.hpp"
 #include "model/energy.hpp"
@@ -24,36 +22,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int most_states = 6, tries = 24;
+constexpr int most_states = 6;
 constexpr std::size_t most_special = 12;  // constraints: beyond, nobody asks what special parameters change
-
-Mechanism with_everything_loose(Mechanism m) {
-    m.q_is_guess.assign(m.q.size(), true);
-    m.qdot_is_guess.assign(m.q.size(), true);
-    return m;
-}
-
-/// States that obey all constraints, found from the start and from random places around it.
-std::vector<State<double>> states_of(const Mechanism& mechanism, const Start& from, int wanted) {
-    const Mechanism loose = with_everything_loose(mechanism);
-    const Program program = constraint_program(loose);
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> away(-1, 1);
-    std::vector<State<double>> result;
-    for (int k = 0; k < tries && static_cast<int>(result.size()) < wanted; ++k) {
-        Start start = from;
-        const double reach = k == 0 ? 0 : k < tries / 2 ? 0.3 : 3;
-        for (double& q : start.q) q += reach * away(random) * (1 + std::abs(q));
-        for (double& u : start.qdot) u += reach * away(random);
-        try {
-            assemble(start, loose, program, {});
-            result.push_back(start.state());
-        } catch (const std::runtime_error&) {
-            continue;
-        }
-    }
-    return result;
-}
 
 std::string quoted(const Mechanism& m, const std::vector<int>& which) {
     std::vector<std::string> names;
@@ -78,7 +48,7 @@ public:
             result_.constraints.push_back({.name = c.name, .holonomic = c.holonomic, .rheonomic = is_rheonomic(c),
                                            .integrable = {}, .alone = {}, .integral = {}, .notes = {}});
         settle(start);
-        states_ = states_of(m_, settled_ ? settled_start_ : start, most_states);
+        states_ = states_that_obey(m_, settled_ ? settled_start_ : start, most_states);
         if (states_.empty() && settled_) states_.push_back(settled_start_.state());
         if (states_.empty()) contradiction(start);
         rank(start);
@@ -133,45 +103,32 @@ private:
             result_.constraints[k].residual = {value[position[k]], value[velocity[k]]};
     }
 
-    Mechanism only(const std::vector<int>& which) const {
-        std::vector<int> others;
-        for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)
-            if (std::find(which.begin(), which.end(), k) == which.end()) others.push_back(k);
-        return without_constraints(m_, others);
-    }
+    Mechanism only(int k) const { return with_constraints(m_, {k}); }
 
-    /// No state obeys all constraints: which of them have none in common, as few as possible.
     void contradiction(const Start& start) {
-        std::vector<int> clash;
-        for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k) clash.push_back(k);
-        for (int k = static_cast<int>(clash.size()) - 1; k >= 0 && clash.size() > 1; --k) {
-            std::vector<int> fewer = clash;
-            fewer.erase(fewer.begin() + k);
-            if (states_of(only(fewer), start, 1).empty()) clash = fewer;
-        }
+        const std::vector<int> clash = contradictory_constraints(m_, start);
         const std::string names = quoted(m_, clash);
         std::vector<OneForm> forms;
         for (const int k : clash) forms.push_back(forms_[k]);
         const bool dependent = integrability(forms, m_, {}, {}, {.exact = std::vector<bool>(clash.size(), true)}).independent.size() < clash.size();
         result_.wrong = true;
         result_.problem = clash.size() == 1
-                              ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names, tries)
+                              ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names, places_tried)
                               : fmt::format("constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
                                             "remove or correct one of them",
                                             names, dependent ? "they constrain the same rates differently; " : "",
-                                            clash.size() == 2 ? "both" : "all", tries);
+                                            clash.size() == 2 ? "both" : "all", places_tried);
         result_.contradictory = clash;
         contradictory_ = true;
     }
 
     void rank(const Start& start) {
-        Mechanism at = settled_ ? m_ : with_everything_loose(m_);
-        if (!settled_) {
+        Mechanism at = m_;
+        for (int i = 0; i < n_ && !settled_; ++i) {
             const State<double> from = states_.empty() ? start.state() : states_[0];
-            for (int i = 0; i < n_; ++i) {
-                at.q_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.q[i])));
-                at.qdot_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.qdot[i])));
-            }
+            at.q_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.q[i])));
+            at.qdot_start[i] = GiNaC::numeric(cln::rational(cln::cl_DF(from.qdot[i])));
+            at.q_is_guess[i] = at.qdot_is_guess[i] = true;
         }
         redundant_ = redundant_constraints(at);
         count();
@@ -184,36 +141,12 @@ private:
         result_.degrees_of_freedom = n_ - result_.rank;
     }
 
-    /// Whose rows a redundant row is made of at states that obey the constraints: "follows from 'a' and 'b'".
     void sources_of_redundancy() {
-        const Program program = constraint_program(m_);
-        const std::vector<int> rows = program.nodes_of("row");
-        if (result_.rank == 0) return;
         for (const int k : redundant_) {
             if (std::find(joint_.contradictory.begin(), joint_.contradictory.end(), k) != joint_.contradictory.end()) continue;
-            std::set<int> from;
-            for (const State<double>& state : states_) {
-                const std::vector<double> value = interpret(program, state);
-                const auto row = [&](int r) {
-                    Eigen::VectorXd result(n_);
-                    for (int i = 0; i < n_; ++i) result[i] = value[rows[r * n_ + i]];
-                    return result;
-                };
-                Eigen::MatrixXd kept(n_, result_.rank);
-                std::vector<int> names;
-                for (int r = 0; r < static_cast<int>(m_.constraints.size()); ++r)
-                    if (!result_.constraints[r].redundant) {
-                        kept.col(static_cast<Eigen::Index>(names.size())) = row(r);
-                        names.push_back(r);
-                    }
-                const Eigen::VectorXd target = row(k);
-                const Eigen::VectorXd share = kept.completeOrthogonalDecomposition().solve(target);
-                for (Eigen::Index c = 0; c < share.size(); ++c)
-                    if (std::abs(share[c]) * kept.col(c).norm() > 1e-7 * target.norm()) from.insert(names[c]);
-            }
+            const std::vector<int> from = follows_from(m_, k, redundant_, states_);
             if (!from.empty())
-                result_.constraints[k].notes.push_back(fmt::format("follows from {}; the equations of motion leave it out",
-                                                                   quoted(m_, std::vector<int>(from.begin(), from.end()))));
+                result_.constraints[k].notes.push_back(fmt::format("follows from {}; the equations of motion leave it out", quoted(m_, from)));
         }
     }
 
@@ -272,7 +205,7 @@ private:
             AuditedConstraint& c = result_.constraints[k];
             c.alone = c.holonomic || m_.constraints.size() == 1
                           ? c.integrable
-                          : integrability({forms_[k]}, m_, {}, states_of(only({static_cast<int>(k)}), start_of(m_), 3)).integrable[0];
+                          : integrability({forms_[k]}, m_, {}, states_that_obey(only(static_cast<int>(k)), start_of(m_), 3)).integrable[0];
         }
     }
 
@@ -354,7 +287,7 @@ private:
 
     /// Rows at states that obey the constraint, beside rows at the same states moved a little.
     bool gradient_vanishes(std::size_t k) const {
-        const Mechanism one = only({static_cast<int>(k)});
+        const Mechanism one = only(static_cast<int>(k));
         const Program program = constraint_program(one);
         const auto size = [&](const State<double>& state) {
             const std::vector<double> value = interpret(program, state);

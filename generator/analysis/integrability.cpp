@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf ∂_p. Their
-// brackets, and those of the X_f with brackets, have pivot components alone; left-normed brackets span all others, and
-// one that is a combination of those before gives none that is not.
+// The null fields X_f = ∂_f − Σ C_pf ∂_p of the rows in echelon form: their brackets, and those of the X_f with brackets, have
+// pivot components alone; left-normed brackets span all others, and one that is a combination of those before gives
+// none that is not.
 #include "analysis/integrability.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/null_fields.hpp"
 #include "analysis/variety.hpp"
 #include "lower/lower.hpp"
 
@@ -70,8 +71,9 @@ public:
         values_ = evaluate(entries_);
         if (values_.empty()) return undecided("no points were found where all roots exist");
         find_independent();
-        if (!result_.contradictory.empty()) return undecided("no rates obey all constraints, but where a relation between coordinates and time holds");
-        eliminate();
+        if (!result_.contradictory.empty())
+            return undecided("no rates obey all constraints, but where a relation between coordinates and time holds");
+        if (!find_fields()) return undecided("the points are unlucky");
         if (!close()) return undecided("the brackets grow beyond what is evaluated");
         decide();
         return std::move(result_);
@@ -123,7 +125,8 @@ private:
                 raises = raises || rank_of(rates[p]) == static_cast<int>(rates[p].size());
                 raises_all = raises_all || rank_of(all[p]) == static_cast<int>(all[p].size());
             }
-            if (!result_.on_variety && std::find(options_.redundant.begin(), options_.redundant.end(), static_cast<int>(k)) != options_.redundant.end())
+            const auto& known = options_.redundant;
+            if (!result_.on_variety && std::find(known.begin(), known.end(), static_cast<int>(k)) != known.end())
                 raises = raises_all = false;
             if (raises) {
                 result_.independent.push_back(static_cast<int>(k));
@@ -137,10 +140,9 @@ private:
         }
     }
 
-    /// Gauss-Jordan over the intermediate symbols; a pivot is an entry that is not zero at the points, a number if there is one.
-    void eliminate() {
+    bool find_fields() {
         std::vector<OneForm> rows;
-        std::vector<std::vector<std::vector<Prime>>> value(points_);
+        std::vector<Rows> value(points_);
         for (const int k : result_.independent) {
             rows.push_back(forms_[k]);
             for (int p = 0; p < points_; ++p) {
@@ -148,44 +150,11 @@ private:
                 for (std::size_t i = 0; i < size_; ++i) value[p].back().push_back(entry(p, k, i));
             }
         }
-        const auto is_zero = [&](std::size_t r, std::size_t i) {
-            return std::all_of(value.begin(), value.end(), [&](const auto& at) { return at[r][i].is_zero(); });
-        };
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            std::size_t column = size_;
-            for (std::size_t i = 0; i + 1 < size_; ++i) {
-                if (std::any_of(value.begin(), value.end(), [&](const auto& at) { return at[r][i].is_zero(); })) continue;
-                if (column == size_ || m_.z->tree_size(rows[r][i]) < m_.z->tree_size(rows[r][column])) column = i;
-            }
-            pivots_.push_back(column);
-            for (std::size_t i = 0; i < size_; ++i)
-                if (i != column) rows[r][i] = is_zero(r, i) ? ex(0) : m_.z->name(rows[r][i] / rows[r][column]);
-            rows[r][column] = 1;
-            for (int p = 0; p < points_; ++p) {
-                const Prime scale = value[p][r][column].inverse();
-                for (Prime& v : value[p][r]) v *= scale;
-            }
-            for (std::size_t s = 0; s < rows.size(); ++s) {
-                if (s == r) continue;
-                const ex factor = rows[s][column];
-                for (std::size_t i = 0; i < size_ && !is_zero(s, column); ++i)
-                    if (i != column && !is_zero(r, i)) rows[s][i] = m_.z->name(rows[s][i] - factor * rows[r][i]);
-                rows[s][column] = 0;
-                for (int p = 0; p < points_; ++p) {
-                    const Prime f = value[p][s][column];
-                    for (std::size_t i = 0; i < size_; ++i) value[p][s][i] -= f * value[p][r][i];
-                }
-                for (std::size_t i = 0; i < size_; ++i)
-                    if (is_zero(s, i)) rows[s][i] = 0;
-            }
-        }
-        for (std::size_t f = 0; f < size_; ++f) {
-            if (std::find(pivots_.begin(), pivots_.end(), f) != pivots_.end()) continue;
-            std::vector<ex> field(size_, 0);
-            field[f] = 1;
-            for (std::size_t r = 0; r < rows.size(); ++r) field[pivots_[r]] = m_.z->name(-rows[r][f]);
-            fields_.push_back(field);
-        }
+        auto found = null_fields(std::move(rows), std::move(value), *m_.z);
+        if (!found) return false;
+        fields_ = std::move(found->fields);
+        pivots_ = std::move(found->pivots);
+        return true;
     }
 
     /// Σ rate_k ∂/∂variable_k; inputs move with t.

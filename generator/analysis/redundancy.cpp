@@ -2,6 +2,7 @@
 #include "analysis/redundancy.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <random>
 
 #include "analysis/assemble.hpp"
@@ -70,6 +71,35 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     std::vector<int> result;
     for (std::size_t k = 0; k < redundant.size(); ++k)
         if (redundant[k]) result.push_back(static_cast<int>(k));
+    return result;
+}
+
+std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
+                              const std::vector<State<double>>& states) {
+    const Program program = constraint_program(mechanism);
+    const std::vector<int> rows = program.nodes_of("row");
+    const Eigen::Index n = mechanism.size();
+    std::vector<int> kept;
+    for (int r = 0; r < static_cast<int>(mechanism.constraints.size()); ++r)
+        if (std::find(redundant.begin(), redundant.end(), r) == redundant.end()) kept.push_back(r);
+    if (kept.empty()) return {};
+    std::vector<bool> used(kept.size(), false);
+    for (const State<double>& state : states) {
+        const std::vector<double> value = interpret(program, state);
+        const auto row = [&](int r) {
+            Eigen::VectorXd result(n);
+            for (Eigen::Index i = 0; i < n; ++i) result[i] = value[rows[r * n + i]];
+            return result;
+        };
+        Eigen::MatrixXd basis(n, static_cast<Eigen::Index>(kept.size()));
+        for (std::size_t c = 0; c < kept.size(); ++c) basis.col(static_cast<Eigen::Index>(c)) = row(kept[c]);
+        const Eigen::VectorXd target = row(k), share = basis.completeOrthogonalDecomposition().solve(target);
+        for (Eigen::Index c = 0; c < share.size(); ++c)
+            if (std::abs(share[c]) * basis.col(c).norm() > 1e-7 * target.norm()) used[static_cast<std::size_t>(c)] = true;
+    }
+    std::vector<int> result;
+    for (std::size_t c = 0; c < kept.size(); ++c)
+        if (used[c]) result.push_back(kept[c]);
     return result;
 }
 

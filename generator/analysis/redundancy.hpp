@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {
@@ -16,6 +17,10 @@ namespace alembert {
 /// floating point: a row counts as dependent if less than 1e-9 of it is left beside the others. Nothing where the
 /// initial state cannot be assembled.
 std::vector<int> redundant_constraints(const Mechanism& mechanism);
+
+/// The constraints, none of them redundant, whose rows row k is made of at any of these states.
+std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
+                              const std::vector<State<double>>& states);
 
 /// The mechanism without these; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
