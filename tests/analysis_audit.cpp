@@ -61,7 +61,7 @@ bool is_integrable(const Mechanism& m, const OneForm& form) {
 }
 
 std::vector<std::optional<bool>> joint(const Mechanism& m) { return integrability(forms_of(m), m, {}, {}).integrable; }
-int integrals(const Mechanism& m) { return integrability(forms_of(m), m, {}, {}).integrals; }
+std::optional<int> integrals(const Mechanism& m) { return integrability(forms_of(m), m, {}, {}).integrals; }
 
 using Answers = std::vector<std::optional<bool>>;
 

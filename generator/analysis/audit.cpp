@@ -162,8 +162,7 @@ private:
         for (const Mechanism::Constraint& c : m_.constraints) exact.push_back(c.holonomic);
         joint_ = integrability(forms_, m_, positions(), states_, {.exact = exact, .redundant = redundant_});
         result_.failure = joint_.failure;
-        if (joint_.reason.empty()) result_.integrals = joint_.integrals;
-        else result_.integrals = std::nullopt;
+        result_.integrals = joint_.integrals;
         if (joint_.on_variety && !contradictory_ && static_cast<int>(joint_.independent.size()) < result_.rank) {
             // Rounding may leave a little of a row that is exactly zero.
             redundant_.clear();

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -235,10 +236,10 @@ private:
     }
 
     void decide() {
-        result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
         // A determinant of at most as many rows as there are forms, and one bracket more.
         const double failure = points_ * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
         const bool certain = result_.exact && result_.on_variety;
+        if (certain || independent_in_numbers()) result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             bool zero = true;
             for (int p = 0; p < points_; ++p)
@@ -262,6 +263,21 @@ private:
         Prime sum = 0;
         for (std::size_t i = 0; i < size_; ++i) sum += entry(p, k, i) * Y[i];
         return sum;
+    }
+
+    /// Are the brackets independent at some state, beyond rounding?
+    bool independent_in_numbers() const {
+        if (kept_nodes_.empty()) return true;
+        return std::any_of(states_.begin(), states_.end(), [&](const State<double>& state) {
+            const std::vector<double> value = interpret(program_, state);
+            Eigen::MatrixXd Y(static_cast<Eigen::Index>(kept_nodes_.size()), static_cast<Eigen::Index>(size_));
+            for (Eigen::Index b = 0; b < Y.rows(); ++b)
+                for (Eigen::Index i = 0; i < Y.cols(); ++i) Y(b, i) = value[kept_nodes_[b][i]];
+            if (!Y.allFinite()) return false;
+            Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(Y);
+            decomposed.setThreshold(seen);
+            return decomposed.rank() == Y.rows() && decomposed.maxPivot() > seen;
+        });
     }
 
     /// Is w_k(Y) beyond rounding at some state?

@@ -37,7 +37,7 @@ struct Integrability {
     std::vector<std::optional<bool>> integrable;  ///< of each form; nothing where undecided
     std::vector<int> independent;                 ///< forms that are no combinations of those before, exact ones first
     std::vector<int> contradictory;               ///< whose rates are combinations of earlier ones', but not the rest (0 = g(q,t))
-    int integrals = 0;                            ///< independent functions that are constant in every motion
+    std::optional<int> integrals;                 ///< how many independent functions are constant in every motion
     /// Combinations Σ c_k w_k with rational coefficients that are integrable though their forms are not.
     std::vector<std::vector<GiNaC::numeric>> combinations;
     bool on_variety = true, exact = true;
