@@ -144,6 +144,12 @@ TEST_CASE("integrability: is decided where the holonomic constraints hold") {
     const Mechanism still = with({"x", "y", "z", "w"}, {"x - y", "z' - y*w'"});
     CHECK(audit_of(still).constraints[1].integrable == false);
     CHECK(audit_of(with({"x", "y", "z", "w"}, {"x - y", "z' - y*x'"})).constraints[1].integrable == true);
+    // With the gear c = a + b the second is (x − a + y − b)′ cos c, which makes the blade's two coordinates of three.
+    const std::vector<std::string> gear{"c - a - b", "x'*sin(c) - y'*cos(c)", "cos(c)*(x' - a') + (cos(a)*cos(b) - sin(a)*sin(b))*(y' - b')"};
+    const Audit turned = audit_of(with({"a", "b", "c = 0.6", "x", "y"}, gear));
+    CHECK(turned.constraints[1].integrable == true);
+    CHECK(turned.constraints[1].alone == false);
+    CHECK(turned.constraints[2].integrable == true);
 }
 
 TEST_CASE("integrability: where angles leave no exact point of the loop, no needs to be seen in numbers") {
@@ -209,6 +215,18 @@ TEST_CASE("variety: its points obey the constraints exactly, parameters and angl
     CHECK(look(build(read_scene(test::source_path("scenes/textbook/falling_ladder.toml")))));
     CHECK(look(with({"x", "y", "z", "w"}, {"x^2 + y^2 - 1", "(x - z)^2 + (y - w)^2 - 4"})));
     CHECK(look(with({"a", "b"}, {"sin(a) + 2*cos(a)*sin(b) - 1"})));
+    // The turn of c = 2a − 3b + 1 is the product of theirs.
+    const Mechanism gear = with({"a", "b", "c"}, {"c - 2*a + 3*b - 1", "sin(c) - sin(2*a)*cos(3*b - 1) + cos(2*a)*sin(3*b - 1)", "sin(c) - sin(2*a - 3*b)"});
+    CHECK(look(with({"a", "b", "c"}, {"c - 2*a + 3*b - 1"})));
+    Program program;
+    const std::vector<int> f = lower_expressions(program, gear, {*gear.constraints[0].position, *gear.constraints[1].position, *gear.constraints[2].position});
+    const Variety variety = variety_points(program, {f[0]}, {f[1], f[2]}, 2);
+    CHECK(variety.on_variety);
+    for (const ModularPoint& point : variety.points) {
+        const auto at = evaluate_mod(program, point, f);
+        CHECK(at->value[f[1]].is_zero());
+        CHECK(!at->value[f[2]].is_zero());
+    }
     CHECK(!look(with({"a", "b", "c"}, {"cos(a) + 2*cos(b) - 3*cos(c) - 1", "sin(a) + 2*sin(b) - 3*sin(c)"})));
 }
 

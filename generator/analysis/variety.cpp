@@ -13,9 +13,18 @@ namespace {
 
 using Key = std::pair<Variable::Kind, int>;
 
+enum class How {
+    plain,  ///< a coordinate outside angles, a parameter, t
+    sum,    ///< a coordinate inside angles that is a sum of whole multiples of variables
+    turn,   ///< the angle of a coordinate, not the coordinate itself
+};
+
 struct Unknown {
     Key key;
-    bool turn = false;  ///< the coordinate's angle is solved for, not the coordinate itself
+    How how = How::plain;
+    /// Of a sum: what it is made of, and the number among it.
+    std::vector<std::pair<Key, std::uint64_t>> multiples = {};  // modulo the order of the circle's group
+    std::uint64_t number = 0;
 };
 
 /// An equation and the unknown that it gives.
@@ -66,7 +75,7 @@ private:
     ModularPoint start(std::uint64_t seed) const { return {.seed = seed, .given = given_, .given_angles = {}, .halves = halves_}; }
 
     static void set(ModularPoint& point, const Unknown& unknown, Prime value) {
-        if (unknown.turn)
+        if (unknown.how == How::turn)
             point.given_angles[point.variable({unknown.key.first, unknown.key.second})] = Turn::rational(value);
         else
             point.given[unknown.key] = value;
@@ -79,7 +88,7 @@ private:
             set(point, unknown, k);
             const auto at = evaluate_mod(program_, point, std::array{f});
             if (!at || !at->exact) return std::nullopt;
-            value[k] = at->value[f] * (unknown.turn ? Prime(1 + k * k) : Prime(1));
+            value[k] = at->value[f] * (unknown.how == How::turn ? Prime(1 + k * k) : Prime(1));
             if (degree != nullptr) *degree = at->degree[f];
         }
         if (!(value[3] - 3 * value[2] + 3 * value[1] - value[0]).is_zero()) return std::nullopt;
@@ -93,10 +102,10 @@ private:
         for (std::size_t k = 0; k < positions_.size(); ++k) left.insert(static_cast<int>(k));
         while (!left.empty() && solvable_) {
             solvable_ = false;
-            for (const bool turn : {false, true})
+            for (const How how : {How::plain, How::sum, How::turn})
                 for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::parameter, Variable::Kind::time})
                     for (const int k : left)
-                        if (!solvable_ && (!turn || (turns_ && kind == Variable::Kind::coordinate)) && give(k, kind, turn, left)) {
+                        if (!solvable_ && possible(how, kind) && give(k, kind, how, left)) {
                             solvable_ = true;
                             left.erase(k);
                             break;
@@ -112,13 +121,18 @@ private:
         }
     }
 
-    bool give(int k, Variable::Kind kind, bool turn, const std::set<int>& left) {
+    bool possible(How how, Variable::Kind kind) const {
+        return how == How::plain || (kind == Variable::Kind::coordinate && (how == How::sum || turns_));
+    }
+
+    bool give(int k, Variable::Kind kind, How how, const std::set<int>& left) {
         for (const Key& key : depends_[k]) {
-            if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != turn) continue;
+            if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != (how != How::plain)) continue;
             if (std::any_of(left.begin(), left.end(), [&](int j) { return j != k && depends_[j].count(key) != 0; })) continue;
+            Step step{.position = positions_[k], .unknown = {.key = key, .how = how}};
+            if (how == How::sum && !find_multiples(step)) continue;
             const int former = halves_;
-            if (turn) halves_ = 0;  // then sin(v/2) makes every point unlucky
-            Step step{.position = positions_[k], .unknown = {.key = key, .turn = turn}};
+            if (how == How::turn) halves_ = 0;  // then sin(v/2) makes every point unlucky
             for (std::uint64_t seed = 1; seed <= 3; ++seed)
                 if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree); c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
                     steps_.push_back(step);
@@ -127,6 +141,42 @@ private:
             halves_ = former;
         }
         return false;
+    }
+
+    /// v = Σ c·x + number with whole c, from v + … = 0.
+    bool find_multiples(Step& step) const {
+        const Node* node = &program_[step.position];
+        while (node->is_scaled()) node = &program_[node->args[0]];
+        if (node->op != Op::sum) return false;
+        Rational own = 0;
+        const auto key_of = [&](int id) { return Key{program_[id].variable.kind, program_[id].variable.index}; };
+        for (std::size_t k = 0; k < node->args.size(); ++k) {
+            if (program_[node->args[k]].op != Op::variable) return false;
+            if (key_of(node->args[k]) == step.unknown.key) own = node->coefficients[k];
+        }
+        if (cln::zerop(own)) return false;
+        const auto whole = [&](const Rational& c) -> std::optional<std::uint64_t> {
+            const Rational ratio = -c / own;
+            if (cln::denominator(ratio) != 1) return std::nullopt;
+            return cln::cl_I_to_UQ(cln::ldb(cln::numerator(ratio), cln::cl_byte(61, 0)));
+        };
+        for (std::size_t k = 0; k < node->args.size(); ++k) {
+            if (key_of(node->args[k]) == step.unknown.key) continue;
+            const auto multiple = whole(node->coefficients[k]);
+            if (!multiple) return false;
+            step.unknown.multiples.emplace_back(key_of(node->args[k]), *multiple);
+        }
+        const auto number = whole(node->number);
+        step.unknown.number = number.value_or(0);
+        return number.has_value();
+    }
+
+    /// The angle of a sum is the product of the angles.
+    static void set_angle(ModularPoint& point, const Unknown& unknown, Prime value) {
+        Turn turn = point.angle(1).power(unknown.number);
+        for (const auto& [key, multiple] : unknown.multiples)
+            turn = turn * point.angle(point.variable({key.first, key.second})).power(multiple);
+        point.given_angles[value] = turn;
     }
 
     std::optional<ModularPoint> solved(std::uint64_t seed) const {
@@ -141,6 +191,7 @@ private:
             }
             if (!root) return std::nullopt;
             set(point, step.unknown, *root);
+            if (step.unknown.how == How::sum) set_angle(point, step.unknown, *root);
         }
         const auto at = evaluate_mod(program_, point, all_);
         if (!at) return std::nullopt;

@@ -6,8 +6,9 @@
 ///     const Variety variety = variety_points(program, positions, others, 3);
 ///     variety.on_variety && evaluate_mod(program, variety.points[0], positions)->value[positions[0]].is_zero()
 ///
-/// Every f is solved for an unknown of its own: a coordinate outside angles, the turn of a coordinate inside them
-/// (by the half-angle's tangent), a parameter or t, in which f is at most quadratic. Unknowns are given away one after the
+/// Every f is solved for an unknown of its own, in which it is at most quadratic: a coordinate outside angles, a parameter or t;
+/// a coordinate inside angles that is a sum of whole multiples of others (gears); the turn of a coordinate inside angles, by
+/// the half-angle's tangent. Unknowns are given away one after the
 /// other: one that occurs in a single constraint among those that are left is that constraint's. So the loop
 ///     a cos α + b cos β − c cos γ − d = 0,    a sin α + b sin β − c sin γ = 0
 /// gets its d from the first and then, before it, its a from the second. Points with solved parameters are generic points
