@@ -80,3 +80,58 @@ TEST_CASE("commands: audit reports what is wrong with the constraints before it 
     CHECK(Json::parse(broken.out)["constraints"][0]["residual"][0] == 0.25);
     CHECK(run({"audit", "nowhere.toml"}).exit == 3);
 }
+
+// z' = 0 comes out of the least-squares step as some 1e-18, beside which 1e-9 of the terms' sizes is nothing.
+TEST_CASE("commands: guesses that end at zero but for rounding have converged") {
+    const std::string disc = temporary("disc.toml", R"toml(
+[parameters]
+r = 0.3
+[coordinates]
+x = { initial = 0, rate_guess = 0 }
+y = { initial = 0, rate_guess = 0 }
+z = { guess = 0.3, rate_guess = 0 }
+psi = 0.2
+theta = 1.2
+phi = { initial = 0, rate = 2 }
+[[frame]]
+name = "L"
+rotate = [["z", "psi"], ["x", "theta"]]
+[[frame]]
+name = "D"
+parent = "L"
+rotate = [["z", "phi"]]
+[[body]]
+name = "disc"
+mass = 1
+inertia = ["r^2/4", "r^2/4", "r^2/2"]
+frame = "D"
+position = ["x", "y", "z"]
+[[point]]
+name = "C"
+from = "disc"
+offset = [0, "-r", 0]
+axes = "L"
+[[constraint]]
+name = "touch"
+holonomic = "dot(pos(C), ez(N))"
+[[constraint]]
+name = "rollx"
+nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ex(N))"
+[[constraint]]
+name = "rolly"
+nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ey(N))"
+[[constraint]]
+name = "rollz"
+nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
+)toml");
+    CHECK(run({"eval", disc}).exit == 0);
+    const auto result = run({"audit", disc, "--json"});
+    REQUIRE(result.exit == 0);
+    const Json json = Json::parse(result.out);
+    CHECK(json["rank"] == 3);
+    CHECK(json["degrees_of_freedom"] == 3);
+    CHECK(json["coordinates_free"] == 5);  // a disc that rolls reaches every place, heading, lean and turn
+    CHECK(json["constraints"][1]["integrable"] == false);
+    CHECK(json["constraints"][3]["redundant"] == true);
+    CHECK(json["constraints"][3]["integral"] == "z - r*sin(theta)");
+}

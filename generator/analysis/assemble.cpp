@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lower/lower.hpp"
 
@@ -74,17 +75,27 @@ private:
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
-        check(nodes, n > 0);
+        check(nodes, x, n > 0);
         for (const int i : free)
             if (x[i] != before[i])
                 moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
-    void check(const std::vector<int>& nodes, bool guessed) const {
+    /// What rounding leaves of a step: the terms themselves may all be zero.
+    double rounding(std::size_t k, const std::vector<double>& x, const std::vector<double>& value) const {
+        double row = 0, largest = 0;
+        for (int i = 0; i < m_.size(); ++i) {
+            row += std::abs(value[rows_[k * m_.q.size() + i]]);
+            largest = std::max(largest, std::abs(x[i]));
+        }
+        return 64 * std::numeric_limits<double>::epsilon() * row * largest;
+    }
+
+    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed) const {
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size(nodes[k], value)) continue;
+            if (misfit <= allowed * size(nodes[k], value) + (guessed ? rounding(k, x, value) : 0)) continue;
             if (!std::isfinite(misfit))
                 throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
                                              "a root or a logarithm of what has none; give other initial values",

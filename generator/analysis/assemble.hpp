@@ -17,7 +17,7 @@ namespace alembert {
 /// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least change,
 /// then the guessed rates until all rates obey them; gives a line for each value that moved. Names in `held` stay.
 /// Throws IntegrationError if guesses do not converge, ModelError if a constraint is broken by more than 1e-9 of the
-/// sum of the sizes of its terms and nothing may move.
+/// sum of the sizes of its terms (and, where something moves, by more than rounding) and nothing may move.
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held);
 

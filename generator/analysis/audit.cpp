@@ -87,9 +87,11 @@ private:
             settled_start_ = moved;
             result_.start = moved.state();
             for (int i = 0; i < n_; ++i) {
-                const std::string name = m_.q[i].get_name();
-                if (moved.q[i] != start.q[i]) result_.adjusted.push_back({name, start.q[i], moved.q[i]});
-                if (moved.qdot[i] != start.qdot[i]) result_.adjusted.push_back({name + "'", start.qdot[i], moved.qdot[i]});
+                const auto note = [&](const std::string& name, double from, double to) {
+                    if (std::abs(to - from) > 1e-15 * std::max(1.0, std::abs(from))) result_.adjusted.push_back({name, from, to});
+                };
+                note(m_.q[i].get_name(), start.q[i], moved.q[i]);
+                note(m_.q[i].get_name() + "'", start.qdot[i], moved.qdot[i]);
             }
         } catch (const ModelError& e) {
             result_.problem = e.what();
