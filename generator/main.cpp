@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
 
     verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
+    verb("audit", "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", alembert::audit);
 
     CLI::App* check = verb("check", "hold a hand derivation against the derived equations", alembert::check);
     check->add_option("claims", request.claims, "a file of claims, one equation a line; without it the scene's [[claim]]s");

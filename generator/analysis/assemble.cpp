@@ -7,6 +7,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -64,17 +67,31 @@ private:
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
-        check(nodes, n > 0);
+        check(nodes, x, n > 0);
         for (const int i : free)
             if (x[i] != before[i])
                 moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
-    void check(const std::vector<int>& nodes, bool guessed) const {
+    /// What rounding leaves of a step: the terms themselves may all be zero.
+    double rounding(std::size_t k, const std::vector<double>& x, const std::vector<double>& value) const {
+        double row = 0, largest = 0;
+        for (int i = 0; i < m_.size(); ++i) {
+            row += std::abs(value[rows_[k * m_.q.size() + i]]);
+            largest = std::max(largest, std::abs(x[i]));
+        }
+        return 64 * std::numeric_limits<double>::epsilon() * row * largest;
+    }
+
+    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed) const {
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size_of_terms(p_, nodes[k], value)) continue;
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (guessed ? rounding(k, x, value) : 0)) continue;
+            if (!std::isfinite(misfit))
+                throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
+                                             "a root or a logarithm of what has none; give other initial values",
+                                             m_.constraints[k].name));
             const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
                 throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "
@@ -110,6 +127,26 @@ std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, cons
                                   const Overrides& held, bool rates_must_obey) {
     if (mechanism.constraints.empty()) return {};
     return Assembly(start, mechanism, program, held).go(rates_must_obey);
+}
+
+Program constraint_program(const Mechanism& m) {
+    std::vector<GiNaC::ex> wanted;
+    for (const Mechanism::Constraint& c : m.constraints) {
+        wanted.insert(wanted.end(), c.row.begin(), c.row.end());
+        wanted.push_back(c.position.value_or(0));
+        GiNaC::exvector velocity{c.drift};
+        for (int i = 0; i < m.size(); ++i) velocity.push_back(c.row[i] * m.qdot[i]);
+        wanted.push_back(GiNaC::add(std::move(velocity)));
+    }
+    Program program;
+    const std::vector<int> nodes = lower_expressions(program, m, wanted);
+    auto node = nodes.begin();
+    for (const Mechanism::Constraint& c : m.constraints) {
+        for (int i = 0; i < m.size(); ++i) program.roots.push_back({"row", c.name, *node++});
+        program.roots.push_back({"position", c.name, *node++});
+        program.roots.push_back({"velocity", c.name, *node++});
+    }
+    return program;
 }
 
 }  // namespace alembert

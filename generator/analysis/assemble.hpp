@@ -19,11 +19,14 @@ namespace alembert {
 /// Rates that need not obey the constraints, because an impact is about to impose them, are left as they are where the
 /// guessed ones cannot reach them.
 /// Throws IntegrationError if guesses do not converge, ModelError if a constraint is broken by more than 1e-9 of the
-/// sum of the sizes of its terms and nothing may move.
+/// sum of the sizes of its terms (and, where something moves, by more than rounding) and nothing may move.
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey = true);
 
 /// Sum of the sizes of the terms of a node: what its value is to be measured by.
 double size_of_terms(const Program& program, int node, const std::vector<double>& value);
+
+/// What `assemble` needs and no more: groups "row", "position", "velocity" as in lower.hpp, without the dynamics.
+Program constraint_program(const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -2,11 +2,10 @@
 #include "analysis/redundancy.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <random>
 
 #include "analysis/assemble.hpp"
-#include "formalism/routh.hpp"
-#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -15,17 +14,17 @@ namespace {
 constexpr int states = 8;
 constexpr double negligible = 1e-9;
 
-/// Which rows are combinations of those before them (Gram-Schmidt, twice, in the order of declaration).
-std::vector<bool> dependent_rows(const Eigen::MatrixXd& A) {
-    std::vector<bool> result;
+/// Which rows are combinations of those before them in `order` (Gram-Schmidt, twice).
+std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order) {
+    std::vector<bool> result(order.size());
     std::vector<Eigen::RowVectorXd> basis;
-    for (Eigen::Index k = 0; k < A.rows(); ++k) {
+    for (const int k : order) {
         Eigen::RowVectorXd row = A.row(k);
         const double size = row.norm();
         for (int round = 0; round < 2; ++round)
             for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        result.push_back(!(row.norm() > negligible * size));
-        if (!result.back()) basis.push_back(row.normalized());
+        result[k] = !(row.norm() > negligible * size);
+        if (!result[k]) basis.push_back(row.normalized());
     }
     return result;
 }
@@ -34,9 +33,14 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A) {
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size()) return {};
-    const Program program = lower(mechanism, routh(mechanism), energy_of(mechanism));
+    const Program program = constraint_program(mechanism);
     const std::vector<int> rows = program.nodes_of("row");
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()), n = static_cast<Eigen::Index>(mechanism.size());
+    // A velocity constraint that follows from a position is the one to drop: it does not say where.
+    std::vector<int> order;
+    for (const bool holonomic : {true, false})
+        for (std::size_t k = 0; k < mechanism.constraints.size(); ++k)
+            if (mechanism.constraints[k].holonomic == holonomic) order.push_back(static_cast<int>(k));
     std::vector<bool> redundant(mechanism.constraints.size(), true);
     const auto look = [&](const Start& start) {
         const std::vector<double> value = interpret(program, start.state());
@@ -44,7 +48,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
         for (Eigen::Index k = 0; k < m; ++k)
             for (Eigen::Index i = 0; i < n; ++i) A(k, i) = value[rows[k * n + i]];
         if (!A.allFinite()) return;
-        const std::vector<bool> now = dependent_rows(A);
+        const std::vector<bool> now = dependent_rows(A, order);
         for (std::size_t k = 0; k < redundant.size(); ++k) redundant[k] = redundant[k] && now[k];
     };
     Mechanism loose = mechanism;
@@ -67,6 +71,35 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     std::vector<int> result;
     for (std::size_t k = 0; k < redundant.size(); ++k)
         if (redundant[k]) result.push_back(static_cast<int>(k));
+    return result;
+}
+
+std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
+                              const std::vector<State<double>>& states) {
+    const Program program = constraint_program(mechanism);
+    const std::vector<int> rows = program.nodes_of("row");
+    const Eigen::Index n = mechanism.size();
+    std::vector<int> kept;
+    for (int r = 0; r < static_cast<int>(mechanism.constraints.size()); ++r)
+        if (std::find(redundant.begin(), redundant.end(), r) == redundant.end()) kept.push_back(r);
+    if (kept.empty()) return {};
+    std::vector<bool> used(kept.size(), false);
+    for (const State<double>& state : states) {
+        const std::vector<double> value = interpret(program, state);
+        const auto row = [&](int r) {
+            Eigen::VectorXd result(n);
+            for (Eigen::Index i = 0; i < n; ++i) result[i] = value[rows[r * n + i]];
+            return result;
+        };
+        Eigen::MatrixXd basis(n, static_cast<Eigen::Index>(kept.size()));
+        for (std::size_t c = 0; c < kept.size(); ++c) basis.col(static_cast<Eigen::Index>(c)) = row(kept[c]);
+        const Eigen::VectorXd target = row(k), share = basis.completeOrthogonalDecomposition().solve(target);
+        for (Eigen::Index c = 0; c < share.size(); ++c)
+            if (std::abs(share[c]) * basis.col(c).norm() > 1e-7 * target.norm()) used[static_cast<std::size_t>(c)] = true;
+    }
+    std::vector<int> result;
+    for (std::size_t c = 0; c < kept.size(); ++c)
+        if (used[c]) result.push_back(kept[c]);
     return result;
 }
 

@@ -7,15 +7,20 @@
 
 #include <vector>
 
+#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {
 
-/// Positions (in Mechanism::constraints) of those whose row of A is a combination of earlier rows at the initial state
+/// Positions (in Mechanism::constraints) of those whose row of A is a combination of earlier rows, all holonomic ones coming first, at the initial state
 /// and at eight further states of the constraint variety, sampled near it with a fixed seed. A sampled answer, in
 /// floating point: a row counts as dependent if less than 1e-9 of it is left beside the others. Nothing where the
 /// initial state cannot be assembled.
 std::vector<int> redundant_constraints(const Mechanism& mechanism);
+
+/// The constraints, none of them redundant, whose rows row k is made of at any of these states.
+std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
+                              const std::vector<State<double>>& states);
 
 /// The mechanism without these; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);

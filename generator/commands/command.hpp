@@ -26,6 +26,7 @@ struct Request {
 };
 
 int agree(const Request& request);
+int audit(const Request& request);
 int check(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);

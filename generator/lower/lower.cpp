@@ -115,8 +115,10 @@ private:
 
     int symbol(const GiNaC::symbol& s) {
         if (const Intermediates::Entry* entry = m_.z->find(s)) {
+            // A copy: the derivative of an input adds entries to the table, and moves it.
+            const ex definition = entry->definition;
             const std::vector<int> former = program_.set_sources(entry->sources);
-            const int node = (*this)(entry->definition);
+            const int node = (*this)(definition);
             program_.set_sources(former);
             return node;
         }

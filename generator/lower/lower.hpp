@@ -25,6 +25,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.
 int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);
+
 /// The same for several expressions, in the state too. `given`: symbols that are no part of the scene's state, each with its node.
 std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<GiNaC::ex>& list,
                                    const std::vector<std::pair<GiNaC::symbol, int>>& given = {});
