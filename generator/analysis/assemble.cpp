@@ -30,11 +30,46 @@ public:
 
     std::vector<std::string> go() {
         settle("position", start_.q, q_free_, "");
+        if (!start_.speeds.empty()) {
+            solve_for_rates();
+            check(p_.nodes_of("velocity"), false);
+            return std::move(moved_);
+        }
         settle("velocity", start_.qdot, u_free_, "'");
         return std::move(moved_);
     }
 
 private:
+    /// All rates from the initial speeds and the constraints, which are linear in them.
+    void solve_for_rates() {
+        std::vector<int> nodes = p_.nodes_of("velocity"), rows = rows_;
+        const std::vector<int> speeds = p_.nodes_of("speed"), forms = p_.nodes_of("form_row");
+        nodes.insert(nodes.end(), speeds.begin(), speeds.end());
+        rows.insert(rows.end(), forms.begin(), forms.end());
+        const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(m_.size());
+        const auto constraints = m - static_cast<Eigen::Index>(speeds.size());
+        start_.qdot.assign(start_.qdot.size(), 0);
+        for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd misfit(m);
+            Eigen::MatrixXd J(m, n);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
+                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
+            }
+            const Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(misfit);
+            for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
+        }
+        const std::vector<double> value = interpret(p_, start_.state());
+        for (std::size_t k = 0; k < speeds.size(); ++k) {
+            const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
+            if (!(misfit <= allowed * (size(speeds[k], value) + std::abs(start_.speeds[k]))))
+                throw ModelError(fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
+                                             "constraints leave it off by {:.6g} at these coordinates",
+                                             m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+        }
+    }
+
     /// Sum of the sizes of the terms of a node.
     double size(int id, const std::vector<double>& value) const {
         const Node* node = &p_[id];
@@ -103,7 +138,7 @@ private:
 
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held) {
-    if (mechanism.constraints.empty()) return {};
+    if (mechanism.constraints.empty() && start.speeds.empty()) return {};
     return Assembly(start, mechanism, program, held).go();
 }
 

@@ -4,7 +4,7 @@
 /// An initial state that obeys the constraints: guesses are moved, everything else is checked.
 ///
 ///     Start start = start_of(mechanism);
-///     const std::vector<std::string> moved = assemble(start, mechanism, program, {});
+///     const std::vector<std::string> moved = assemble(start, mechanism, lower_constraints(mechanism), {});
 
 #include <string>
 #include <vector>
@@ -15,9 +15,9 @@
 namespace alembert {
 
 /// Moves the coordinates that are guesses until all holonomic constraints hold, by Gauss-Newton steps of least change,
-/// then the guessed rates until all rates obey them; gives a line for each value that moved. Names in `held` stay.
+/// then the guessed rates until all rates obey them (where the scene gives speeds, all rates until these hold too); gives a line for each value that moved. Names in `held` stay.
 /// Throws IntegrationError if guesses do not converge, ModelError if a constraint is broken by more than 1e-9 of the
-/// sum of the sizes of its terms and nothing may move.
+/// sum of the sizes of its terms and nothing may move, or if the initial speeds cannot be had.
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held);
 

@@ -11,7 +11,11 @@ namespace alembert {
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
     const std::vector<double> value = interpret(program, state);
     const std::vector<int> lower = program.nodes_of("mass");
-    const auto n = static_cast<Eigen::Index>(program.coordinates.size());
+    std::vector<std::string> names;
+    for (const Quantity& speed : program.speeds) names.push_back(speed.name);
+    for (const Quantity& q : program.coordinates)
+        if (program.speeds.empty()) names.push_back(q.name + "'");
+    const auto n = static_cast<Eigen::Index>(names.size());
     Eigen::MatrixXd M(n, n);
     for (Eigen::Index i = 0, k = 0; i < n; ++i)
         for (Eigen::Index j = 0; j <= i; ++j, ++k) M(i, j) = M(j, i) = value[lower[k]];
@@ -39,7 +43,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
         if (std::abs(c) < 1e-9) continue;
         const std::string number = std::abs(std::abs(c) - 1) < 1e-9 ? "" : fmt::format("{:.4g}*", std::abs(c));
         text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-        text += number + program.coordinates[i].name + "'";
+        text += number + names[i];
     }
     return text;
 }

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "analysis/assemble.hpp"
-#include "formalism/routh.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -34,7 +33,7 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A) {
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size()) return {};
-    const Program program = lower(mechanism, routh(mechanism), energy_of(mechanism));
+    const Program program = lower_constraints(mechanism);
     const std::vector<int> rows = program.nodes_of("row");
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()), n = static_cast<Eigen::Index>(mechanism.size());
     std::vector<bool> redundant(mechanism.constraints.size(), true);

@@ -265,6 +265,7 @@ Program Program::shell() const {
     result.name = name;
     result.parameters = parameters;
     result.coordinates = coordinates;
+    result.speeds = speeds;
     result.formulation = formulation;
     result.singular = singular;
     return result;

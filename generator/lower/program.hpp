@@ -127,6 +127,7 @@ public:
     std::vector<std::string> source_labels;
     std::string name;                                  ///< of the scene, a file's stem
     std::vector<Quantity> parameters, coordinates;     ///< what the variables' indices mean
+    std::vector<Quantity> speeds;                      ///< of the state beside the coordinates; empty: their rates
     std::string formulation;                           ///< formalism and form, for people
     bool singular = false;     ///< no state makes the mass matrix regular; the accelerations are missing
 

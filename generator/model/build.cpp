@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "model/energy.hpp"
 #include "model/parameter_values.hpp"
@@ -48,6 +49,7 @@ public:
         add_links();
         add_forces();
         add_energy();
+        add_speeds();
         add_constraints();
         add_outputs();
         add_run();
@@ -107,6 +109,18 @@ private:
             m_.q_is_guess.push_back(c.initial_is_guess);
             m_.qdot_is_guess.push_back(c.rate_is_guess);
         }
+        for (std::size_t i = 0; i < scene_.speeds.size(); ++i) {
+            const Speed& s = scene_.speeds[i];
+            const int index = static_cast<int>(i);
+            m_.speeds.push_back({.u = m_.symbols->declare(s.name.text, Kind::speed, index, 0),
+                                 .udot = m_.symbols->declare(s.name.text, Kind::speed, index, 1),
+                                 .form = 0,
+                                 .row = {},
+                                 .drift = 0,
+                                 .start = {},
+                                 .unit = s.unit,
+                                 .place = s.name.place});
+        }
         for (const Coordinate& c : scene_.coordinates) {
             m_.q_start.emplace_back(0);
             m_.qdot_start.emplace_back(0);
@@ -118,6 +132,11 @@ private:
     }
 
     void define() {
+        for (const Speed& s : scene_.speeds)
+            translator_.know_later(s.name.text, [this, &s] {
+                SourceScope source(*m_.z, "speed " + s.name.text);
+                return m_.z->name(translator_.scalar(s.form));
+            });
         for (const Definition& d : scene_.definitions)
             translator_.know_later(d.name.text, [this, &d] {
                 SourceScope source(*m_.z, "definition " + d.name.text);
@@ -159,6 +178,8 @@ private:
             require(c.initial, "the initial value of '" + c.name.text + "'", false);
             require(c.rate, "the initial rate of '" + c.name.text + "'", false);
         }
+        for (const Speed& s : scene_.speeds)
+            if (s.initial) require(s.initial, "the initial value of '" + s.name.text + "'", false);
         for (const Particle& p : scene_.particles) require(p.mass, "the mass of particle '" + p.name.text + "'", true);
         for (const Body& b : scene_.bodies) {
             require(b.mass, "the mass of body '" + b.name.text + "'", true);
@@ -352,6 +373,41 @@ private:
             });
     }
 
+    /// Coefficients of the rates, and what stands beside them.
+    std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place place) {
+        Intermediates& z = *m_.z;
+        const std::vector<ex> row = z.pull_back({{value, 1}}, m_.qdot);
+        GiNaC::exvector rest{value};
+        for (int i = 0; i < m_.size(); ++i) {
+            if (z.depends(row[i], m_.qdot) && is_nonlinear(row[i]))
+                throw SceneMistake{{place, fmt::format("{} is not linear in the rates; expected a sum of coefficients "
+                                                       "times rates", what)}};
+            rest.push_back(-row[i] * m_.qdot[i]);
+        }
+        const ex drift = z.name(GiNaC::add(std::move(rest)));
+        return {row, is_identically_zero(drift, m_) ? ex(0) : drift};
+    }
+
+    static bool all_zero(const std::vector<ex>& row) {
+        return std::all_of(row.begin(), row.end(), [](const ex& e) { return e.is_zero(); });
+    }
+
+    // u = W q' + w
+    void add_speeds() {
+        const bool has_start = std::any_of(scene_.speeds.begin(), scene_.speeds.end(), [](const Speed& s) { return !!s.initial; });
+        for (std::size_t i = 0; i < scene_.speeds.size(); ++i)
+            attempt([&] {
+                const Speed& s = scene_.speeds[i];
+                const std::string what = "speed '" + s.name.text + "'";
+                SourceScope source(*m_.z, "speed " + s.name.text);
+                Mechanism::Speed& made = m_.speeds[i];
+                made.form = m_.z->name(translator_.scalar(s.form));
+                std::tie(made.row, made.drift) = linear_form(made.form, what, s.form.place());
+                if (all_zero(made.row)) throw SceneMistake{{s.form.place(), what + " contains no rate"}};
+                if (has_start) made.start = s.initial ? m_.z->expand(translator_.scalar(s.initial)) : ex(0);
+            });
+    }
+
     // f(q,t) = 0 or a·q' + b = 0, as rows (mechanism.hpp).
     void add_constraints() {
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
@@ -378,20 +434,9 @@ private:
             made.drift = m_.explicit_time_derivative({value})[0];
             velocity = m_.time_derivative({value})[0];
         } else {
-            made.row = z.pull_back({{value, 1}}, m_.qdot);
-            GiNaC::exvector rest{value};
-            for (int i = 0; i < m_.size(); ++i) {
-                if (z.depends(made.row[i], m_.qdot) && is_nonlinear(made.row[i]))
-                    throw SceneMistake{{rule.equation.lhs.place(),
-                                        fmt::format("constraint '{}' is not linear in the rates; expected a sum of "
-                                                    "coefficients times rates",
-                                                    rule.name.text)}};
-                rest.push_back(-made.row[i] * m_.qdot[i]);
-            }
-            made.drift = z.name(GiNaC::add(std::move(rest)));
-            if (is_identically_zero(made.drift, m_)) made.drift = 0;
+            std::tie(made.row, made.drift) = linear_form(value, "constraint '" + rule.name.text + "'", rule.equation.lhs.place());
         }
-        if (std::all_of(made.row.begin(), made.row.end(), [](const ex& e) { return e.is_zero(); }))
+        if (all_zero(made.row))
             throw SceneMistake{{rule.equation.lhs.place(),
                                 fmt::format("constraint '{}' contains no {}", rule.name.text,
                                             rule.holonomic ? "coordinate" : "rate")}};
