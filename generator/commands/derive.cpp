@@ -67,7 +67,7 @@ std::string escaped(const std::string& words, bool xml) {
 std::string text_left(const Statement& s) {
     switch (s.kind) {
         case Statement::Kind::partial: return fmt::format("d{}/d({})", s.letter, text(*s.by));
-        case Statement::Kind::force: return fmt::format("Q({})", text(*s.by));
+        case Statement::Kind::force: return fmt::format("{}({})", s.letter, text(*s.by));
         case Statement::Kind::work: return fmt::format("Q({}) of {}", text(*s.by), s.of);
         default: return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
     }
@@ -79,7 +79,7 @@ std::string latex_left(const Statement& s) {
         case Statement::Kind::partial:
             return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", s.letter, latex(*s.by));
         case Statement::Kind::force:
-        case Statement::Kind::work: return fmt::format("Q_{{{}}}{}", latex(*s.by), of);
+        case Statement::Kind::work: return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
         default: return s.letter + of;
     }
 }
@@ -302,6 +302,8 @@ int derive(const Request& request) {
         blocks.push_back({"with the rates of the coordinates:", {}});
         for (const auto& [rate, value] : shown.kinematics) blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
     }
+    for (const Phrase& pole : shown.poles)
+        blocks.push_back({fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
     if (!shown.constraints.empty()) {
         const bool all = d.equations.A.empty();
         blocks.push_back({all ? "The constraints, which the speeds obey:"

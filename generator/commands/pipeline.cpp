@@ -56,6 +56,9 @@ Derived derived(const Request& request) {
     mechanism = without_constraints(std::move(mechanism), redundant);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
+    if (mechanism.speeds.empty() && !equations.poles.empty())
+        std::cerr << "warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
+                     "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n";
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }
 

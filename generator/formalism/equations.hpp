@@ -42,6 +42,7 @@ struct Equations {
         GiNaC::ex multiplier;             ///< in q, q', q'', t and the lambdas above
     };
     std::vector<Eliminated> eliminated = {};
+    std::vector<GiNaC::ex> poles = {};    ///< where one of these vanishes h has no value
 
     int size() const { return static_cast<int>(u.size()); }
     /// Positions in Mechanism::constraints of the rows of A.

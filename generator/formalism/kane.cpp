@@ -23,29 +23,31 @@ Vector3 times(const std::array<ex, 6>& I, const Vector3& w, Intermediates& z) {
 bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
 
 /// Velocities as functions of q, u and t, and derivatives along the motion that they make.
-class Motion {
-public:
-    explicit Motion(const Mechanism& m) : m_(m), k(kinematics(m)) {
-        for (std::size_t i = 0; i < k.h.size(); ++i)
-            if (!k.h[i].is_equal(m.qdot[i])) by_[m.qdot[i]] = k.h[i];
-    }
-    /// u = q', whatever the scene says.
-    Motion(const Mechanism& m, Kinematics rates) : m_(m), k(std::move(rates)) {}
+struct Motion {
+    const Mechanism& m;
+    Kinematics k;
+    GiNaC::exmap by = {};  ///< q' → h
 
-    std::vector<ex> in_speeds(const std::vector<ex>& values) const { return by_.empty() ? values : substitute(*m_.z, values, by_); }
-    Vector3 in_speeds(const Vector3& v) const {
-        const std::vector<ex> values = in_speeds(std::vector<ex>(v.begin(), v.end()));
+    std::vector<ex> in_speeds(const std::vector<ex>& values) const { return by.empty() ? values : substitute(*m.z, values, by); }
+    /// What cancels must be seen to cancel: w = w₁ x + w₂ y + w₃ z has no derivative in the body at u' = 0.
+    std::vector<ex> short_in_speeds(const std::vector<ex>& values) const {
+        std::vector<ex> result = in_speeds(values);
+        for (ex& value : result) value = by.empty() ? value : short_form(value, m);
+        return result;
+    }
+    Vector3 short_in_speeds(const Vector3& v) const {
+        const std::vector<ex> values = short_in_speeds(std::vector<ex>(v.begin(), v.end()));
         return {values[0], values[1], values[2]};
     }
 
     /// d/dt at u' = 0 of what is in speeds.
     std::vector<ex> without_acceleration(const std::vector<ex>& values) const {
-        if (k.h.empty()) return m_.time_derivative_without_acceleration(values);
-        std::vector<ex> parts = m_.explicit_time_derivative(values);
+        if (k.h.empty()) return m.time_derivative_without_acceleration(values);
+        std::vector<ex> parts = m.explicit_time_derivative(values);
         Intermediates::Direction along;
-        for (int i = 0; i < m_.size(); ++i) along.emplace_back(m_.q[i], k.h[i]);
-        const std::vector<ex> convected = m_.z->push_forward(values, along);
-        for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = m_.z->name(parts[i] + convected[i]);
+        for (int i = 0; i < m.size(); ++i) along.emplace_back(m.q[i], k.h[i]);
+        const std::vector<ex> convected = m.z->push_forward(values, along);
+        for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = m.z->name(parts[i] + convected[i]);
         return parts;
     }
     Vector3 without_acceleration(const Vector3& v) const {
@@ -58,16 +60,16 @@ public:
         const std::vector<ex> v = in_speeds(velocities), F = in_speeds(forces);
         std::vector<std::pair<ex, ex>> pairs;
         for (std::size_t i = 0; i < v.size(); ++i) pairs.emplace_back(v[i], F[i]);
-        return m_.z->pull_back(pairs, k.u);
+        return m.z->pull_back(pairs, k.u);
     }
-
-private:
-    const Mechanism& m_;
-    GiNaC::exmap by_;
-
-public:
-    Kinematics k;
 };
+
+Motion motion_of(const Mechanism& m, Kinematics k) {
+    Motion motion{m, std::move(k)};
+    for (std::size_t i = 0; i < motion.k.h.size(); ++i)
+        if (!motion.k.h[i].is_equal(m.qdot[i])) motion.by[m.qdot[i]] = motion.k.h[i];
+    return motion;
+}
 
 /// F_r of forces on places, v being the rate of the place.
 std::vector<ex> active(const Motion& motion, const Mechanism& m, const std::vector<PlacedForce>& placed) {
@@ -99,7 +101,7 @@ PartialVelocities partials(const Motion& motion, const Mechanism& m) {
         if (body.rotation)
             velocities.insert(velocities.end(), body.rotation->w_NB_B.begin(), body.rotation->w_NB_B.end());
     }
-    velocities = motion.in_speeds(velocities);
+    velocities = motion.short_in_speeds(velocities);
     for (const GiNaC::symbol& u : motion.k.u) {
         const std::vector<ex> partial = m.z->push_forward(velocities, {{u, 1}});
         auto next = partial.begin();
@@ -136,10 +138,10 @@ KaneForces forces_of(const Motion& motion, const Mechanism& m) {
             }
         };
         add_share(partial.bodies[b].velocity, [&](const Vector3& v) { return scale(body.mass, v, z); },
-                  scale(body.mass, motion.without_acceleration(motion.in_speeds(body.velocity)), z));
+                  scale(body.mass, motion.without_acceleration(motion.short_in_speeds(body.velocity)), z));
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
-        const Vector3 w = motion.in_speeds(body.rotation->w_NB_B);
+        const Vector3 w = motion.short_in_speeds(body.rotation->w_NB_B);
         add_share(partial.bodies[b].angular, [&](const Vector3& v) { return times(I, v, z); },
                   add(times(I, motion.without_acceleration(w), z), cross(w, times(I, w, z), z), z));
     }
@@ -186,7 +188,7 @@ void attach_kept(const Motion& motion, const Mechanism& m, Equations& equations)
 void recover(const Mechanism& m, Equations& equations) {
     if (equations.eliminated.empty()) return;
     Intermediates& z = *m.z;
-    const KaneForces all = forces_of(Motion(m, {.u = m.qdot, .udot = m.qddot, .form = {}, .h = {}, .eliminated = {}}), m);
+    const KaneForces all = forces_of(motion_of(m, {.u = m.qdot, .udot = m.qddot}), m);
     std::vector<ex> reaction;
     for (int i = 0; i < m.size(); ++i) {
         GiNaC::exvector terms{-all.inertia[i], -all.conservative[i], -all.dissipative[i], -all.applied[i]};
@@ -213,13 +215,13 @@ void recover(const Mechanism& m, Equations& equations) {
 
 }  // namespace
 
-PartialVelocities partial_velocities(const Mechanism& m) { return partials(Motion(m), m); }
+PartialVelocities partial_velocities(const Mechanism& m) { return partials(motion_of(m, kinematics(m)), m); }
 
-KaneForces kane_forces(const Mechanism& m) { return forces_of(Motion(m), m); }
+KaneForces kane_forces(const Mechanism& m) { return forces_of(motion_of(m, kinematics(m)), m); }
 
 Equations kane(const Mechanism& m) {
     check_masses_known(m, "Kane's equations");
-    const Motion motion(m);
+    const Motion motion = motion_of(m, kinematics(m));
     const KaneForces forces = forces_of(motion, m);
     Equations equations = equations_without_terms("kane", m);
     equations.u = forces.u;
@@ -230,6 +232,7 @@ Equations kane(const Mechanism& m) {
     for (int r = 0; r < equations.size(); ++r) equations.own.push_back(m.z->name(forces.inertia[r] + forces.conservative[r]));
     equations.h = motion.k.h;
     if (!motion.k.h.empty()) equations.form = motion.k.form;
+    equations.poles = motion.k.poles;
     for (const int c : motion.k.eliminated) equations.eliminated.push_back({c, 0});
     attach_kept(motion, m, equations);
     recover(m, equations);

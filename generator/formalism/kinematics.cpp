@@ -26,8 +26,10 @@ bool is_number(const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }
 
 class Elimination {
 public:
-    Elimination(matrix S, matrix right, const Mechanism& m, std::string who)
-        : m_(m), z_(*m.z), S_(std::move(S)), right_(std::move(right)), who_(std::move(who)), n_(S_.rows()), x_(n_, right_.cols()) {}
+    Elimination(matrix S, matrix right, const Mechanism& m, std::string message)
+        : m_(m), z_(*m.z), S_(std::move(S)), right_(std::move(right)), message_(std::move(message)), n_(S_.rows()), x_(n_, right_.cols()) {}
+
+    std::vector<ex> poles;
 
     matrix solve() {
         for (unsigned i = 0; i < n_; ++i) {
@@ -89,10 +91,11 @@ private:
             }
         std::sort(block.begin(), block.end());
         std::sort(columns.begin(), columns.end());
-        if (block.size() > largest_block) throw ModelError(who_ + ": too many of them are tied to each other to be solved in symbols");
+        if (block.size() > largest_block) throw ModelError(message_ + ", in symbols: too many of them are tied to each other");
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
-        if (det.is_zero() || is_identically_zero(det, m_)) throw ModelError(who_);
+        if (det.is_zero() || is_identically_zero(det, m_)) throw ModelError(message_);
+        if (z_.depends(det, m_.moving())) poles.push_back(det);
         for (std::size_t c = 0; c < columns.size(); ++c)
             for (std::size_t r = 0; r < block.size(); ++r) {
                 std::vector<unsigned> other_rows = block, other_columns = columns;
@@ -127,7 +130,7 @@ private:
     const Mechanism& m_;
     Intermediates& z_;
     matrix S_, right_;
-    std::string who_;
+    std::string message_;
     unsigned n_;
     matrix x_;
     std::vector<unsigned> rows_, columns_;                    // not yet solved for
@@ -143,8 +146,8 @@ std::vector<int> nonholonomic(const Mechanism& m) {
 }
 
 /// h for u as the speeds: S (q') = (u − w, −b), columns of the right side for each u and for 1.
-void solve_for_rates(const Mechanism& m, const matrix& S, const matrix& right, const std::string& who, Kinematics& k) {
-    const matrix x = solve_exactly(S, right, m, who);
+void solve_for_rates(const Mechanism& m, const matrix& S, const matrix& right, const std::string& message, Kinematics& k) {
+    const matrix x = solve_exactly(S, right, m, message, &k.poles);
     for (int i = 0; i < m.size(); ++i) {
         GiNaC::exvector terms{x(i, right.cols() - 1)};
         for (std::size_t r = 0; r < k.u.size(); ++r) terms.push_back(x(i, r) * k.u[r]);
@@ -190,12 +193,9 @@ std::vector<int> dependent_rates(const Mechanism& m, const std::vector<int>& con
     const ParameterValues values(m);
     GiNaC::exmap start{{m.t, m.run.start.value_or(0)}};
     for (int i = 0; i < m.size(); ++i) start[m.q[i]] = m.q_start[i];
-    std::vector<GiNaC::symbol> moving = m.q;
-    moving.push_back(m.t);
-    for (const Mechanism::Input& input : m.inputs) {
+    const std::vector<GiNaC::symbol> moving = m.moving();
+    for (const Mechanism::Input& input : m.inputs)
         start[input.derivative[0]] = m.z->expand(input.value).subs(start, GiNaC::subs_options::no_pattern);
-        moving.push_back(input.derivative[0]);
-    }
     std::vector<std::vector<double>> rows, kind;
     for (const int c : constraints) {
         rows.emplace_back();
@@ -254,7 +254,7 @@ Kinematics with_remaining_rates(const Mechanism& m, const std::vector<int>& cons
         for (unsigned c = 0; c + 1 < columns; ++c) right(r, c) = -constraint.row[free[c]];
         right(r, columns - 1) = -constraint.drift;
     }
-    const matrix x = solve_exactly(S, right, m, "Kane's equations: the nonholonomic constraints depend on each other");
+    const matrix x = solve_exactly(S, right, m, "Kane's equations: the nonholonomic constraints depend on each other", &k.poles);
     k.h.assign(m.qdot.begin(), m.qdot.end());
     for (unsigned r = 0; r < count; ++r) {
         GiNaC::exvector terms{x(r, columns - 1)};
@@ -281,8 +281,12 @@ std::vector<ex> accelerations(const Mechanism& m, const Equations& e) {
     return result;
 }
 
-matrix solve_exactly(const matrix& S, const matrix& right, const Mechanism& m, const std::string& who) {
-    return Elimination(S, right, m, who).solve();
+matrix solve_exactly(const matrix& S, const matrix& right, const Mechanism& m, const std::string& message,
+                     std::vector<ex>* poles) {
+    Elimination elimination(S, right, m, message);
+    matrix x = elimination.solve();
+    if (poles != nullptr) *poles = std::move(elimination.poles);
+    return x;
 }
 
 std::vector<int> allowed_speeds(const Mechanism& m) {
@@ -295,7 +299,7 @@ std::vector<int> allowed_speeds(const Mechanism& m) {
 Kinematics kinematics(const Mechanism& m) {
     if (!m.speeds.empty()) return with_given_speeds(m);
     if (const std::vector<int> constraints = nonholonomic(m); !constraints.empty()) return with_remaining_rates(m, constraints);
-    return {.u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {}, .eliminated = {}};
+    return {.u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}};
 }
 
 }  // namespace alembert

@@ -17,9 +17,10 @@ namespace alembert {
 
 struct Kinematics {
     std::vector<GiNaC::symbol> u, udot;
-    std::vector<GiNaC::ex> form;       ///< u in q, q', t
-    std::vector<GiNaC::ex> h;          ///< q' in q, u, t; empty: u = q'
-    std::vector<int> eliminated;       ///< positions in Mechanism::constraints
+    std::vector<GiNaC::ex> form = {};  ///< u in q, q', t
+    std::vector<GiNaC::ex> h = {};     ///< q' in q, u, t; empty: u = q'
+    std::vector<int> eliminated = {};  ///< positions in Mechanism::constraints
+    std::vector<GiNaC::ex> poles = {};  ///< where one of these vanishes u does not determine q'
 };
 
 /// Throws ModelError for a number of speeds that is none of the three, and where they do not determine the rates.
@@ -33,8 +34,8 @@ std::vector<int> allowed_speeds(const Mechanism& mechanism);
 
 /// x with S x = right, right having several columns: rows whose pivots are numbers are eliminated; what is left is split
 /// into independent blocks and solved by minors, so that nothing is divided by but a block's determinant. Throws
-/// ModelError, beginning with `who`, if a determinant vanishes identically.
+/// ModelError with `message` if a determinant vanishes identically; `poles` gets those that depend on the state.
 GiNaC::matrix solve_exactly(const GiNaC::matrix& S, const GiNaC::matrix& right, const Mechanism& mechanism,
-                            const std::string& who);
+                            const std::string& message, std::vector<GiNaC::ex>* poles = nullptr);
 
 }  // namespace alembert

@@ -50,6 +50,14 @@ public:
         shown_.sections.push_back(std::move(section));
     }
 
+    void lagrange1() {
+        Section section{.words = "Newton's law for each Cartesian coordinate, m x'' = F + A^T lambda, with the forces:"};
+        for (int i = 0; i < m_.size(); ++i)
+            if (const auto f = normal(e_.forcing(i)))
+                section.statements.push_back({Statement::Kind::force, "F", "", symbol_of(m_.q[i]), readable(*f)});
+        shown_.sections.push_back(std::move(section));
+    }
+
     void dalembert() {
         works("Virtual work of the applied forces, dW = sum of Q dq, and of the inertia forces, dW* = sum of Q* dq; "
               "Q + Q* = 0:",
@@ -255,6 +263,7 @@ void show_own_steps(Derivation& shown, const Mechanism& mechanism, const Equatio
     if (!shown.definitions.empty()) return;
     Showing showing(shown, mechanism, equations);
     if (equations.formalism == "kane") showing.kane();
+    if (equations.formalism == "lagrange1") showing.lagrange1();
     if (equations.formalism == "dalembert") showing.dalembert();
     if (equations.formalism == "hamilton") showing.hamilton();
     if (equations.formalism == "routhian") showing.routhian();

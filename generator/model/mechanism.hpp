@@ -135,6 +135,9 @@ struct Mechanism {
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
 
+    /// What changes with time, but for the rates: coordinates, t, inputs.
+    std::vector<GiNaC::symbol> moving() const;
+
     GiNaC::ex kinetic_energy() const;
     GiNaC::ex potential_energy() const;
     /// T − V, or the Lagrangian that the scene gives.

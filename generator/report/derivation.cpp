@@ -23,6 +23,9 @@ public:
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
         if (!e_.h.empty() && m_.speeds.empty()) choice();
+        for (const ex& pole : e_.poles)
+            if (const auto f = normal(pole))
+                result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
         if (!readable_equations() || !energies()) return with_definitions();
         forces();
         derivatives();
