@@ -5,6 +5,7 @@
 //   M_rs = Σ m ∂v/∂u_r·∂v/∂u_s + ∂ω/∂u_r·I ∂ω/∂u_s,   f_r = F_r − Σ m a₀·∂v/∂u_r + (I α₀ + ω × I ω)·∂ω/∂u_r.
 #include "formalism/kane.hpp"
 
+#include "formalism/cancel.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/kinematics.hpp"
 #include "model/geometry.hpp"
@@ -32,9 +33,10 @@ struct Motion {
     /// What cancels must be seen to cancel: w = w₁ x + w₂ y + w₃ z has no derivative in the body at u' = 0.
     std::vector<ex> short_in_speeds(const std::vector<ex>& values) const {
         std::vector<ex> result = in_speeds(values);
-        for (ex& value : result) value = by.empty() ? value : short_form(value, m);
+        for (ex& value : result) value = by.empty() ? value : shortened(value);
         return result;
     }
+    ex shortened(const ex& value) const { return k.poles.empty() ? short_form(value, m) : cancelled(short_form(value, m), m); }
     Vector3 short_in_speeds(const Vector3& v) const {
         const std::vector<ex> values = short_in_speeds(std::vector<ex>(v.begin(), v.end()));
         return {values[0], values[1], values[2]};
@@ -51,7 +53,8 @@ struct Motion {
         return parts;
     }
     Vector3 without_acceleration(const Vector3& v) const {
-        const std::vector<ex> a = without_acceleration(std::vector<ex>{v[0], v[1], v[2]});
+        std::vector<ex> a = without_acceleration(std::vector<ex>{v[0], v[1], v[2]});
+        for (ex& component : a) component = k.poles.empty() ? component : shortened(component);
         return {a[0], a[1], a[2]};
     }
 
@@ -157,10 +160,11 @@ KaneForces forces_of(const Motion& motion, const Mechanism& m) {
     result.applied = active(motion, m, false);
     result.conservative = active(motion, m, conservative_forces(m));
     const std::vector<ex> rest = motion.generalized({m.qdot.begin(), m.qdot.end()}, potential_without_forces(m));
+    const auto final = [&](const ex& e) { return motion.k.poles.empty() ? e : cancelled(z.name(e), m); };
     for (int r = 0; r < n; ++r) {
         for (int s = 0; s <= r; ++s)
-            result.M(r, s) = result.M(s, r) = z.name(GiNaC::add(GiNaC::exvector(mass[r * n + s])));
-        result.inertia.push_back(GiNaC::add(GiNaC::exvector(inertia[r])));
+            result.M(r, s) = result.M(s, r) = final(z.name(GiNaC::add(GiNaC::exvector(mass[r * n + s]))));
+        result.inertia.push_back(final(GiNaC::add(GiNaC::exvector(inertia[r]))));
         result.conservative[r] += rest[r];
     }
     return result;
