@@ -217,7 +217,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "theta", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "M", "m", "l", "b", "F0", "w", "g", nullptr};
 constexpr const char* output_names[] = { "height", "power", nullptr};

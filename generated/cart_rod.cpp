@@ -208,7 +208,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "phi", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "l", "g", nullptr};
 constexpr const char* output_names[] = { "tip_x", "tip_y", "momentum", nullptr};

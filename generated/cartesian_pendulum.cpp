@@ -197,7 +197,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "l", "g", nullptr};
 constexpr const char* output_names[] = { "tension", nullptr};

@@ -194,7 +194,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "r", "phi", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "k", nullptr};
 constexpr const char* output_names[] = { "x", "y", "areal", nullptr};

@@ -256,7 +256,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "phi", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "J", "a", nullptr};
 constexpr const char* output_names[] = { "v", nullptr};

@@ -185,7 +185,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x1", "x2", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "k1", "k2", "k3", "c1", "c2", nullptr};
 constexpr const char* output_names[] = { "loss", nullptr};

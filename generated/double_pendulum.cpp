@@ -228,7 +228,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "theta1", "theta2", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "l1", "l2", "g", nullptr};
 constexpr const char* output_names[] = { nullptr};

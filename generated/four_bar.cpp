@@ -329,7 +329,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "alpha", "beta", "gamma", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "a", "b", "c", "d", "m1", "m2", "m3", nullptr};
 constexpr const char* output_names[] = { nullptr};

@@ -180,7 +180,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "z", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "q", "B", "E", nullptr};
 constexpr const char* output_names[] = { "speed", nullptr};

@@ -216,7 +216,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "phi", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "l", "a", "gamma", "g", nullptr};
 constexpr const char* output_names[] = { "reach", nullptr};

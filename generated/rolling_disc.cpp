@@ -176,7 +176,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "phi", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "r", "g", "beta", nullptr};
 constexpr const char* output_names[] = { nullptr};

@@ -202,7 +202,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "theta", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "R", "Omega", "g", nullptr};
 constexpr const char* output_names[] = { "height", "speed_on_hoop", "drive", nullptr};

@@ -205,7 +205,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "r", "theta", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "M", "d", "rope", "g", nullptr};
 constexpr const char* output_names[] = { "x", "y", nullptr};

@@ -211,7 +211,6 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "alpha", nullptr};
-
 constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "M", "l", "Omega", "g", nullptr};
 constexpr const char* output_names[] = { "lift", "spin", nullptr};

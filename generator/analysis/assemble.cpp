@@ -57,7 +57,12 @@ private:
                 misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
                 for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
             }
-            const Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(misfit);
+            const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(J);
+            if (solver.rank() < n)
+                throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
+                                       "at these coordinates; start elsewhere, or choose other coordinates",
+                                       start_.t, start_.q);
+            const Eigen::VectorXd step = solver.solve(misfit);
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
         }
         const std::vector<double> value = interpret(p_, start_.state());

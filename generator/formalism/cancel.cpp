@@ -12,7 +12,7 @@ using GiNaC::symbol;
 
 namespace {
 
-constexpr double largest_tree = 3000;
+constexpr double largest_tree = 1500;
 
 bool is_circular(const ex& e) {
     if (!GiNaC::is_a<GiNaC::function>(e)) return false;
@@ -27,11 +27,15 @@ bool has_circular(const ex& e) {
     return false;
 }
 
-bool divides_by_circular(const ex& e) {
-    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::negative) && has_circular(e.op(0))) return true;
-    for (const ex& part : e)
-        if (divides_by_circular(part)) return true;
-    return false;
+/// What `e` divides by: a sine or cosine, and sums of such, which are no powers to be cancelled.
+struct Divisors {
+    bool wave = false, sum = false;
+};
+
+void gather(const ex& e, Divisors& found) {
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::negative))
+        (is_circular(e.op(0)) ? found.wave : found.sum) |= has_circular(e.op(0));
+    for (const ex& part : e) gather(part, found);
 }
 
 int size(const ex& e) {
@@ -107,7 +111,9 @@ private:
 ex cancelled(const ex& e, const Mechanism& m) {
     if (m.z->tree_size(e) > largest_tree) return e;
     const ex plain = m.z->expand(e);
-    if (!divides_by_circular(plain)) return e;
+    Divisors found;
+    gather(plain, found);
+    if (!found.wave || found.sum) return e;
     Circle circle;
     try {
         const ex quotient = circle.in_letters(plain).numer_denom();

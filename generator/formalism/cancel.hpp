@@ -11,7 +11,7 @@
 namespace alembert {
 
 /// `e` as a quotient without common powers of a sine or cosine, where that is shorter; `e` itself otherwise, and where it holds
-/// no such division or is beyond the readable size.
+/// no such division or one by a sum, and where it is beyond the readable size.
 GiNaC::ex cancelled(const GiNaC::ex& e, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -36,7 +36,10 @@ struct Motion {
         for (ex& value : result) value = by.empty() ? value : shortened(value);
         return result;
     }
-    ex shortened(const ex& value) const { return k.poles.empty() ? short_form(value, m) : cancelled(short_form(value, m), m); }
+    ex shortened(const ex& value) const {
+        if (m.z->tree_size(value) > 400) return value;  // beyond, looking for a short form costs more than it wins
+        return k.poles.empty() ? short_form(value, m) : cancelled(short_form(value, m), m);
+    }
     Vector3 short_in_speeds(const Vector3& v) const {
         const std::vector<ex> values = short_in_speeds(std::vector<ex>(v.begin(), v.end()));
         return {values[0], values[1], values[2]};

@@ -92,6 +92,10 @@ Start start_of(const Mechanism& m, const Overrides& overrides) {
 State<double> state_of(const Start& start, const Mechanism& m, const Equations& equations) {
     State<double> state = start.state();
     if (equations.h.empty()) return state;
+    if (!start.speeds.empty()) {
+        state.qdot = start.speeds;
+        return state;
+    }
     Program program;
     std::vector<int> nodes;
     for (const GiNaC::ex& form : equations.form) nodes.push_back(lower_expression(program, m, form));
