@@ -63,7 +63,7 @@ struct Motion {
 
     /// Σ force·∂velocity/∂u_r of velocities and forces in q'.
     std::vector<ex> generalized(const std::vector<ex>& velocities, const std::vector<ex>& forces) const {
-        const std::vector<ex> v = in_speeds(velocities), F = in_speeds(forces);
+        const std::vector<ex> v = short_in_speeds(velocities), F = short_in_speeds(forces);
         std::vector<std::pair<ex, ex>> pairs;
         for (std::size_t i = 0; i < v.size(); ++i) pairs.emplace_back(v[i], F[i]);
         return m.z->pull_back(pairs, k.u);

@@ -95,7 +95,7 @@ private:
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) throw ModelError(message_);
-        if (z_.depends(det, m_.moving())) poles.push_back(det);
+        if (z_.depends(det, m_.moving())) poles.push_back(moving_factors(det));
         for (std::size_t c = 0; c < columns.size(); ++c)
             for (std::size_t r = 0; r < block.size(); ++r) {
                 std::vector<unsigned> other_rows = block, other_columns = columns;
@@ -108,6 +108,22 @@ private:
             for (unsigned k = 0; k < right_.cols(); ++k) x_(c, k) = tidy(x_(c, k));
         for (const unsigned r : block) std::erase(rows_, r);
         for (const unsigned c : columns) std::erase(columns_, c);
+    }
+
+    /// 2 l cos²φ vanishes where cos φ does.
+    ex moving_factors(const ex& det) const {
+        const ex plain = z_.tree_size(det) < 300 ? z_.expand(det) : det;
+        if (!GiNaC::is_a<GiNaC::mul>(plain) && !GiNaC::is_a<GiNaC::power>(plain)) return det;
+        ex result = 1;
+        const auto take = [&](const ex& factor) {
+            const bool is_power = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
+            if (z_.depends(factor, m_.moving())) result *= is_power ? factor.op(0) : factor;
+        };
+        if (GiNaC::is_a<GiNaC::mul>(plain))
+            for (const ex& factor : plain) take(factor);
+        else
+            take(plain);
+        return z_.name(result);
     }
 
     ex minor(const std::vector<unsigned>& rows, const std::vector<unsigned>& columns) {
