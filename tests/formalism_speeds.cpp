@@ -67,6 +67,17 @@ TEST_CASE("kane: without speeds nonholonomic constraints are solved for a rate w
     CHECK(agree({routh(m), equations}, m).verdict == Agreement::Verdict::proved);
 }
 
+TEST_CASE("kane: without speeds a blade leaves the one combination of rates that it does not hold") {
+    const Mechanism m = textbook("chaplygin_sleigh");
+    const Derivation shown = derivation_of(m, kane(m));
+    REQUIRE(shown.speeds.size() == 1);
+    CHECK(text(shown.speeds[0].second) == "x'*cos(phi) + y'*sin(phi)");
+    CHECK(equations_of(m) == "u1' - a*phi'^2 = 0\n(J+m*a^2)*phi'' + m*a*u1*phi' = 0\nx' = u1*cos(phi)\ny' = u1*sin(phi)\n");
+    CHECK(kane(m).poles.empty());
+    CHECK(kane(m).u == kane(m).u);  // the same symbols each time
+    CHECK(agree({routh(m), kane(m)}, m).verdict == Agreement::Verdict::proved);
+}
+
 TEST_CASE("kane: speeds whose number is n keep the multipliers, and agree with Routh's equations") {
     Scene scene = read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"));
     std::string text = scene.text;

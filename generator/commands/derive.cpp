@@ -257,11 +257,9 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
         for (const auto& [rate, value] : shown.kinematics)
             result["kinematics"].push_back({{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
     }
-    if (!shown.definitions.empty()) {
-        result["definitions"] = Json::array();
-        for (const auto& [name, value] : shown.definitions)
+    for (const auto* list : {&shown.speeds, &shown.definitions})
+        for (const auto& [name, value] : *list)
             result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
-    }
     return result;
 }
 
@@ -290,6 +288,7 @@ int derive(const Request& request) {
     }
     const bool free = d.mechanism.constraints.empty();
     if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
+    for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
                                   shown.title,
                                   !request.by.empty()        ? ""

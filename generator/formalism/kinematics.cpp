@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "formalism/elements.hpp"
 #include "model/energy.hpp"
 #include "model/parameter_values.hpp"
+#include "symbolic/fourier.hpp"
 
 namespace alembert {
 
@@ -161,47 +163,46 @@ std::vector<int> nonholonomic(const Mechanism& m) {
     return result;
 }
 
-/// h for u as the speeds: S (q') = (u − w, −b), columns of the right side for each u and for 1.
-void solve_for_rates(const Mechanism& m, const matrix& S, const matrix& right, const std::string& message, Kinematics& k) {
+/// h for these speeds: [W; A] q' = (u − w, −b), columns of the right side for each u and for 1.
+Kinematics solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds, const std::vector<int>& eliminated,
+                            const std::string& message) {
+    const int n = m.size(), count = static_cast<int>(speeds.size());
+    Kinematics k;
+    k.eliminated = eliminated;
+    matrix S(n, n), right(n, count + 1);
+    for (int r = 0; r < count; ++r) {
+        k.u.push_back(speeds[r].u);
+        k.udot.push_back(speeds[r].udot);
+        k.form.push_back(speeds[r].form);
+        for (int i = 0; i < n; ++i) S(r, i) = speeds[r].row[i];
+        right(r, r) = 1;
+        right(r, count) = -speeds[r].drift;
+    }
+    for (int r = count; r < n; ++r) {
+        const Mechanism::Constraint& constraint = m.constraints[eliminated[r - count]];
+        for (int i = 0; i < n; ++i) S(r, i) = constraint.row[i];
+        right(r, count) = -constraint.drift;
+    }
     const matrix x = solve_exactly(S, right, m, message, &k.poles);
-    for (int i = 0; i < m.size(); ++i) {
-        GiNaC::exvector terms{x(i, right.cols() - 1)};
-        for (std::size_t r = 0; r < k.u.size(); ++r) terms.push_back(x(i, r) * k.u[r]);
+    for (int i = 0; i < n; ++i) {
+        GiNaC::exvector terms{x(i, count)};
+        for (int r = 0; r < count; ++r) terms.push_back(x(i, r) * k.u[r]);
         k.h.push_back(m.z->name(GiNaC::add(std::move(terms))));
     }
+    return k;
 }
 
 Kinematics with_given_speeds(const Mechanism& m) {
     const int n = m.size(), count = static_cast<int>(m.speeds.size());
-    Kinematics k;
-    if (count != n) k.eliminated = nonholonomic(m);
-    if (count + static_cast<int>(k.eliminated.size()) != n) {
-        k.eliminated.clear();
-        for (std::size_t c = 0; c < m.constraints.size(); ++c) k.eliminated.push_back(static_cast<int>(c));
-    }
-    if (count + static_cast<int>(k.eliminated.size()) != n && count != n) {
+    std::vector<int> eliminated, all;
+    for (std::size_t c = 0; c < m.constraints.size(); ++c) all.push_back(static_cast<int>(c));
+    if (count != n) eliminated = count + static_cast<int>(all.size()) == n ? all : nonholonomic(m);
+    if (count + static_cast<int>(eliminated.size()) != n) {
         std::string numbers;
         for (const int allowed : allowed_speeds(m)) numbers += (numbers.empty() ? "" : " or ") + std::to_string(allowed);
         throw ModelError(fmt::format("the scene has {} generalized speed{}; expected {}", count, count == 1 ? "" : "s", numbers));
     }
-    if (count == n) k.eliminated.clear();
-    matrix S(n, n), right(n, count + 1);
-    for (int r = 0; r < count; ++r) {
-        const Mechanism::Speed& speed = m.speeds[r];
-        k.u.push_back(speed.u);
-        k.udot.push_back(speed.udot);
-        k.form.push_back(speed.form);
-        for (int i = 0; i < n; ++i) S(r, i) = speed.row[i];
-        right(r, r) = 1;
-        right(r, count) = -speed.drift;
-    }
-    for (int r = count; r < n; ++r) {
-        const Mechanism::Constraint& constraint = m.constraints[k.eliminated[r - count]];
-        for (int i = 0; i < n; ++i) S(r, i) = constraint.row[i];
-        right(r, count) = -constraint.drift;
-    }
-    solve_for_rates(m, S, right, "the speeds, with the constraints, do not determine the rates of the coordinates", k);
-    return k;
+    return solved_for_rates(m, m.speeds, eliminated, "the speeds, with the constraints, do not determine the rates of the coordinates");
 }
 
 /// The rate that each constraint is solved for: rows are reduced in floating point at the start, pivots as the header says.
@@ -255,34 +256,94 @@ std::vector<int> dependent_rates(const Mechanism& m, const std::vector<int>& con
     return result;
 }
 
+Mechanism::Speed rate_as_speed(const Mechanism& m, int i) {
+    Mechanism::Speed speed{.u = m.qdot[i], .udot = m.qddot[i], .form = m.qdot[i], .row = {}, .drift = 0, .start = {}, .unit = {}, .place = {}};
+    speed.row.assign(m.q.size(), 0);
+    speed.row[i] = 1;
+    return speed;
+}
+
+/// u1, u2 … with their rates, but for names that the scene has; the same each time.
+std::pair<GiNaC::symbol, GiNaC::symbol> fresh_speed(const Mechanism& m, int& number) {
+    for (;;) {
+        const std::string name = "u" + std::to_string(++number);
+        std::vector<GiNaC::symbol> own;
+        bool taken = false;
+        for (const GiNaC::symbol& s : m.symbols->all()) {
+            if (m.symbols->info(s).name != name) continue;
+            if (m.symbols->info(s).kind == SymbolInfo::Kind::speed)
+                own.push_back(s);
+            else
+                taken = true;
+        }
+        if (taken) continue;
+        for (int order = static_cast<int>(own.size()); order < 2; ++order)
+            own.push_back(m.symbols->declare(name, SymbolInfo::Kind::speed, number - 1, order));
+        return {own[0], own[1]};
+    }
+}
+
+/// Constraints and coordinates that hang together: k rows in k + 1 rates leave one combination of these, Σ N_j q'_j with N_j the
+/// minors of the rows. It is a speed wherever the rows are independent.
+std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vector<int>& constraints) {
+    std::vector<Mechanism::Speed> speeds;
+    std::vector<char> done(m.q.size(), 0);
+    int number = 0;
+    for (int i = 0; i < m.size(); ++i) {
+        if (done[i] != 0) continue;
+        std::vector<int> columns{i}, rows;
+        done[i] = 1;
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            for (const int r : constraints) {
+                const std::vector<ex>& row = m.constraints[r].row;
+                if (row[columns[c]].is_zero() || std::find(rows.begin(), rows.end(), r) != rows.end()) continue;
+                rows.push_back(r);
+                for (int j = 0; j < m.size(); ++j)
+                    if (!row[j].is_zero() && done[j] == 0) {
+                        done[j] = 1;
+                        columns.push_back(j);
+                    }
+            }
+        std::sort(columns.begin(), columns.end());
+        if (rows.empty()) {
+            speeds.push_back(rate_as_speed(m, i));
+            continue;
+        }
+        const auto k = static_cast<unsigned>(rows.size());
+        if (columns.size() != k + 1 || k > 4) return std::nullopt;
+        Mechanism::Speed speed = rate_as_speed(m, i);
+        std::tie(speed.u, speed.udot) = fresh_speed(m, number);
+        speed.row.assign(m.q.size(), 0);
+        GiNaC::exvector terms;
+        int sign = 0;  // the first coefficient begins with a plus
+        for (unsigned j = 0; j <= k; ++j) {
+            matrix minor(k, k);
+            for (unsigned r = 0; r < k; ++r)
+                for (unsigned c = 0; c < k; ++c) minor(r, c) = m.z->expand(m.constraints[rows[r]].row[columns[c < j ? c : c + 1]]);
+            const ex entry = short_form(m.z->name((j % 2 == 0 ? 1 : -1) * minor.determinant()), m);
+            if (sign == 0 && !entry.is_zero()) {
+                const auto f = fourier(m.z->expand(entry), *m.symbols, 200);
+                sign = f && f->size() > 0 && f->terms()[0].coefficient < 0 ? -1 : 1;
+            }
+            speed.row[columns[j]] = sign < 0 ? m.z->name(-entry) : entry;
+            terms.push_back(speed.row[columns[j]] * m.qdot[columns[j]]);
+        }
+        speed.form = m.z->name(GiNaC::add(std::move(terms)));
+        speeds.push_back(std::move(speed));
+    }
+    Kinematics result = solved_for_rates(m, speeds, constraints, "Kane's equations: the nonholonomic constraints depend on each other");
+    if (!result.poles.empty()) return std::nullopt;
+    return result;
+}
+
 Kinematics with_remaining_rates(const Mechanism& m, const std::vector<int>& constraints) {
     const std::vector<int> dependent = dependent_rates(m, constraints);
-    Kinematics k;
-    k.eliminated = constraints;
-    std::vector<int> free;
+    std::vector<Mechanism::Speed> speeds;
     for (int i = 0; i < m.size(); ++i)
-        if (std::find(dependent.begin(), dependent.end(), i) == dependent.end()) free.push_back(i);
-    const unsigned count = static_cast<unsigned>(dependent.size()), columns = static_cast<unsigned>(free.size()) + 1;
-    matrix S(count, count), right(count, columns);
-    for (unsigned r = 0; r < count; ++r) {
-        const Mechanism::Constraint& constraint = m.constraints[constraints[r]];
-        for (unsigned c = 0; c < count; ++c) S(r, c) = constraint.row[dependent[c]];
-        for (unsigned c = 0; c + 1 < columns; ++c) right(r, c) = -constraint.row[free[c]];
-        right(r, columns - 1) = -constraint.drift;
-    }
-    const matrix x = solve_exactly(S, right, m, "Kane's equations: the nonholonomic constraints depend on each other", &k.poles);
-    k.h.assign(m.qdot.begin(), m.qdot.end());
-    for (unsigned r = 0; r < count; ++r) {
-        GiNaC::exvector terms{x(r, columns - 1)};
-        for (unsigned c = 0; c + 1 < columns; ++c) terms.push_back(x(r, c) * m.qdot[free[c]]);
-        k.h[dependent[r]] = m.z->name(GiNaC::add(std::move(terms)));
-    }
-    for (const int i : free) {
-        k.u.push_back(m.qdot[i]);
-        k.udot.push_back(m.qddot[i]);
-        k.form.emplace_back(m.qdot[i]);
-    }
-    return k;
+        if (std::find(dependent.begin(), dependent.end(), i) == dependent.end()) speeds.push_back(rate_as_speed(m, i));
+    Kinematics rates = solved_for_rates(m, speeds, constraints, "Kane's equations: the nonholonomic constraints depend on each other");
+    if (rates.poles.empty()) return rates;
+    return with_null_vectors(m, constraints).value_or(rates);
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 ///
 /// With [speeds] u = W q' + w: n of them, n − m with m all constraints, or n − m with m the nonholonomic ones. Without,
 /// u = q'; under nonholonomic constraints, those rates that remain when each constraint has been solved for one: for one
-/// whose coefficient is a number, then one in parameters alone, then the largest at the start.
+/// whose coefficient is a number, then one in parameters alone, then the largest at the start. Where that would fail at some pose
+/// and k constraints tie k + 1 rates, the one combination u1 = N·q' that they leave free takes the place of these rates: for the
+/// sleigh's −x' sin phi + y' cos phi = 0 it is x' cos phi + y' sin phi.
 
 #include <vector>
 

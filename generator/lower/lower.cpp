@@ -227,7 +227,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     std::vector<int> udot;
     for (int k = 0; k < n && has_speeds; ++k) {
         const bool is_rate = m.symbols->info(equations.u[k]).kind == SymbolInfo::Kind::coordinate;
-        program.speeds.push_back({equations.u[k].get_name() + (is_rate ? "'" : ""), is_rate ? "" : m.speeds[k].unit});
+        program.speeds.push_back({equations.u[k].get_name() + (is_rate ? "'" : ""), m.speeds.empty() ? "" : m.speeds[k].unit});
         udot.push_back(program.variable({Variable::Kind::acceleration, k}));
     }
     define_rates(lowering, program, m, equations, udot);

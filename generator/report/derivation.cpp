@@ -68,11 +68,20 @@ private:
         return true;
     }
 
+    /// Speeds that the program chose.
     void choice() {
         std::string kept, solved;
-        const auto append = [](std::string& list, const GiNaC::symbol& q) { list += (list.empty() ? "" : ", ") + q.get_name() + "'"; };
-        for (int i = 0; i < m_.size(); ++i) append(e_.h[i].is_equal(m_.qdot[i]) ? kept : solved, m_.q[i]);
-        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept + ".";
+        for (int i = 0; i < m_.size(); ++i) {
+            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(), [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
+            if (!is_free) solved += (solved.empty() ? "" : ", ") + m_.q[i].get_name() + "'";
+        }
+        for (int k = 0; k < e_.size(); ++k) {
+            kept += (kept.empty() ? "" : ", ") + m_.symbols->info(e_.u[k]).text();
+            if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
+            if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
+        }
+        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept +
+                         (result_.speeds.empty() ? "." : ", with");
     }
 
     bool add(std::vector<Statement>& to, Statement statement, const ex& value) {

@@ -51,6 +51,7 @@ struct Derivation {
     std::vector<Phrase> rows;              ///< whose equation each is: coordinates, or speeds
     std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty where u = q'
     std::vector<Phrase> poles;             ///< where one of these vanishes the rates do not follow from the speeds
+    std::vector<std::pair<Phrase, Phrase>> speeds;      ///< chosen by the program: u = N(q,t) q'
     std::string choice;                    ///< in words, where the speeds were chosen by the program
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
 };
