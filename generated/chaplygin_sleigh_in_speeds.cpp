@@ -3,7 +3,7 @@
 //
 //   state  x [m], y [m], phi [rad], then v [m/s], w [rad/s]
 //   par    m [kg], J [kg*m^2], a [m]
-//   cost   5 operations a right-hand side: 0 additions, 5 multiplications, 0 divisions, 0 functions
+//   cost   9 operations a right-hand side: 0 additions, 7 multiplications, 0 divisions, 2 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 

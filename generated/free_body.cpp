@@ -3,7 +3,7 @@
 //
 //   state  psi [rad], theta [rad], phi [rad], then w1, w2, w3
 //   par    m [kg], I1 [kg*m^2], I2 [kg*m^2], I3 [kg*m^2]
-//   cost   9 operations a right-hand side: 0 additions, 9 multiplications, 0 divisions, 0 functions
+//   cost   24 operations a right-hand side: 3 additions, 16 multiplications, 1 divisions, 4 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
@@ -68,10 +68,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Kinematics q' = h(q, u, t)
     const Real z0 = Real(1) / sin_theta;
-    const Real psi_dot = w1 * z0 * sin_phi + w2 * z0 * cos_phi;
-    const Real z1 = w1 * cos_theta * z0 * sin_phi;
-    const Real phi_dot = w3 - z1 - w2 * cos_theta * z0 * cos_phi;
+    const Real z1 = w1 * sin_phi + w2 * cos_phi;
+    const Real psi_dot = z0 * z1;
     const Real theta_dot = w1 * cos_phi - w2 * sin_phi;
+    const Real phi_dot = w3 - z0 * cos_theta * z1;
 
     // Forcing f
     const Real f0 = k0 * w2 * w3;
@@ -128,16 +128,16 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 
     // Energy
     const Real z0 = Real(1) / sin_theta;
-    const Real z1 = w1 * z0 * sin_phi + w2 * z0 * cos_phi;
-    const Real z2 = w1 * cos_theta * z0 * sin_phi;
-    const Real z3 = w3 - z2 - w2 * cos_theta * z0 * cos_phi;
-    const Real z4 = w1 * cos_phi - w2 * sin_phi;
-    const Real z5 = (I1 * cos_phi * cos_phi + I2 * sin_phi * sin_phi) * z4 * z4;
-    const Real z6 = (I1 * sin_phi * sin_phi + I2 * cos_phi * cos_phi) * sin_theta * sin_theta;
-    const Real z7 = (z6 + I3 * cos_theta * cos_theta) * z1 * z1;
-    const Real z8 = k2 * sin_theta * z1 * sin_phi * cos_phi * z4;
-    const Real z9 = I3 * cos_theta * z1 * z3;
-    const Real T = Real(0.5) * z5 + Real(0.5) * z7 + z8 + k6 * z3 * z3 + z9;
+    const Real z1 = w1 * sin_phi + w2 * cos_phi;
+    const Real z2 = z0 * z1;
+    const Real z3 = w1 * cos_phi - w2 * sin_phi;
+    const Real z4 = w3 - z0 * cos_theta * z1;
+    const Real z5 = (I1 * cos_phi * cos_phi + I2 * sin_phi * sin_phi) * z3 * z3;
+    const Real z6 = k2 * sin_theta * sin_phi * cos_phi * z3;
+    const Real z7 = (I1 * sin_phi * sin_phi + I2 * cos_phi * cos_phi) * sin_theta * sin_theta;
+    const Real z8 = (z7 + I3 * cos_theta * cos_theta) * z2;
+    const Real z9 = (z6 + Real(0.5) * z8 + I3 * cos_theta * z4) * z2;
+    const Real T = (Real(0.5) * z5 + k6 * z4 * z4) + z9;
 
     // Result
     energy[0] = T;

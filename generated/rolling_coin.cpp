@@ -3,7 +3,7 @@
 //
 //   state  x [m], y [m], phi [rad], theta [rad], then spin, roll
 //   par    m [kg], r [m], g [m/s^2], beta [rad]
-//   cost   3 operations a right-hand side: 0 additions, 2 multiplications, 0 divisions, 1 functions
+//   cost   8 operations a right-hand side: 0 additions, 6 multiplications, 0 divisions, 2 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 

@@ -4,15 +4,18 @@
 
 #include <cmath>
 
+#include "alembert/compile.hpp"
+#include "alembert/rhs.hpp"
 #include "analysis/agree.hpp"
 #include "analysis/speeds.hpp"
+#include "emit/emit.hpp"
 #include "formalism/cancel.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/kinematics.hpp"
 #include "formalism/lagrange1.hpp"
-#include "model/energy.hpp"
-#include "model/parameter_values.hpp"
 #include "formalism/routh.hpp"
+#include "lower/choose.hpp"
+#include "model/energy.hpp"
 #include "report/derivation.hpp"
 #include "report/text.hpp"
 #include "scenes.hpp"
@@ -164,6 +167,56 @@ TEST_CASE("kinematics: q' = h(q,u,t) inverts the forms and obeys what was elimin
                 CHECK(zero(velocity));
             }
         }
+    }
+}
+
+TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
+    for (const char* name : {"scenes/textbook/ball_on_turntable.toml", "tests/odd/speeds_oblique.toml",
+                             "tests/odd/speeds_with_multipliers.toml", "tests/odd/speeds_all_eliminated.toml"}) {
+        CAPTURE(name);
+        const Mechanism m = build(read_scene(test::source_path(name)));
+        const Program program = choose(m, kane(m)).program;
+        const Module module = load(compile(emit(program).text, program.name, {}).object);
+        const Start start = start_of(m);
+        const Rhs rhs = make_rhs(module, start.parameters);
+        const std::vector<double> par = prepared(module, start.parameters);
+        const std::size_t n = m.q.size(), s = program.speeds.size(), c = m.constraints.size();
+        REQUIRE(rhs.dimension == static_cast<int>(n + s));
+        CHECK(rhs.names.back() == program.speeds.back().name);
+        const unsigned seed = 7;
+        CAPTURE(seed);
+        std::mt19937_64 random(seed);
+        int compared = 0;
+        for (int k = 0; k < 32; ++k) {
+            State<double> state = test::random_state(start, random);
+            state.qdot.resize(s);
+            std::vector<double> value = interpret(program, state), y = state.q, rate(n + s);
+            for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+            value = interpret(program, state);
+            y.insert(y.end(), state.qdot.begin(), state.qdot.end());
+            rhs(state.t, y.data(), rate.data());
+            std::vector<double> found = rate, expected, position(c), velocity(c), rows(c * (n + s)), lambda(c), mass(s * s), forcing(s);
+            const auto expect = [&](const char* group) {
+                for (const int id : program.nodes_of(group)) expected.push_back(value[id]);
+            };
+            const auto take = [&](const std::vector<double>& numbers) { found.insert(found.end(), numbers.begin(), numbers.end()); };
+            expect("rate");
+            expect("acceleration");
+            module.table().constraints_at(state.t, y.data(), par.data(), position.data(), velocity.data(), rows.data());
+            module.table().multipliers_at(state.t, y.data(), par.data(), lambda.data());
+            module.table().mass_forcing(state.t, y.data(), par.data(), mass.data(), forcing.data());
+            std::vector<double> outputs(program.nodes_of("output").size() + m.speeds.size());
+            module.table().outputs_at(state.t, y.data(), rate.data(), par.data(), outputs.data());
+            for (const auto* numbers : {&position, &velocity, &rows, &lambda, &forcing, &outputs}) take(*numbers);
+            for (const char* group : {"position", "velocity", "row", "speed_row", "multiplier", "forcing", "output", "speed"}) expect(group);
+            REQUIRE(found.size() == expected.size());
+            double size = 1;
+            for (const double x : expected) size = std::max(size, std::abs(x));
+            if (!std::isfinite(size)) continue;
+            ++compared;
+            for (std::size_t i = 0; i < found.size(); ++i) CHECK(std::abs(found[i] - expected[i]) <= 1e-12 * size);
+        }
+        CHECK(compared > 16);
     }
 }
 

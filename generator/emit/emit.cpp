@@ -60,7 +60,7 @@ public:
     }
 
     Source emit() {
-        const std::vector<int> rhs = p_.nodes_of("acceleration");
+        const std::vector<int> rhs = p_.right_hand_side();
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
         functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()

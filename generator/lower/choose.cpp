@@ -75,7 +75,7 @@ Energy readable_energy(const Mechanism& m, const Energy& energy) {
     return result;
 }
 
-int operations(const Program& program) { return program.count(program.nodes_of("acceleration")).total(); }
+int operations(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
 }  // namespace
 

@@ -259,6 +259,13 @@ std::vector<int> Program::needed(std::span<const int> roots) const {
     return result;
 }
 
+std::vector<int> Program::right_hand_side() const {
+    std::vector<int> nodes = nodes_of("acceleration");
+    const std::vector<int> rates = nodes_of("rate");
+    nodes.insert(nodes.end(), rates.begin(), rates.end());
+    return nodes;
+}
+
 Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;

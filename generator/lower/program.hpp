@@ -108,6 +108,8 @@ public:
     /// All nodes that `roots` need, arguments first.
     std::vector<int> needed(std::span<const int> roots) const;
     std::vector<int> nodes_of(const std::string& group) const;
+    /// What a step of an integration evaluates: "acceleration", and "rate" where the speeds are not the rates.
+    std::vector<int> right_hand_side() const;
 
     /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
     Operations count(std::span<const int> roots) const;
