@@ -190,6 +190,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -198,6 +199,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -215,14 +217,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "theta", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "M", "m", "l", "b", "F0", "w", "g", nullptr};
 constexpr const char* output_names[] = { "height", "power", nullptr};
 constexpr const char* event_names[] = { "pole_level", nullptr};
 constexpr double parameter_values[] = { 1, 0.3, 0.5, 0.2, 2, 4, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    2, 2, 7, 7, 2, 1, 0, "cart_pole", "lagrange, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 2, 2, 7, 7, 2, 1, 0, "cart_pole", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

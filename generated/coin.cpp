@@ -223,6 +223,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -231,6 +232,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -248,14 +250,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "theta", "phi", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "r", "J1", "J3", "beta", "g", nullptr};
 constexpr const char* output_names[] = { nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.02, 0.015, 2.25e-06, 1.125e-06, 0.1, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    2, 4, 6, 8, 0, 0, 2, "coin", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 4, 4, 6, 8, 0, 0, 2, "coin", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

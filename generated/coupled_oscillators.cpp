@@ -158,6 +158,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -166,6 +167,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -183,14 +185,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x1", "x2", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "k1", "k2", "k3", "c1", "c2", nullptr};
 constexpr const char* output_names[] = { "loss", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 0.5, 20, 5, 15, 0.05, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    2, 2, 7, 2, 1, 0, 0, "coupled_oscillators", "lagrange, intermediate symbols",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 2, 2, 7, 2, 1, 0, 0, "coupled_oscillators", "lagrange, intermediate symbols",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

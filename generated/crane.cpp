@@ -212,6 +212,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -220,6 +221,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -237,14 +239,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "l", "theta", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "M", "m", "g", "F0", "S0", "w", nullptr};
 constexpr const char* output_names[] = { "load_x", "load_y", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 50, 20, 9.81, 30, 4, 1.5, 0};
 
 constexpr alembert_solver_table table{
-    2, 3, 6, 6, 2, 0, 0, "crane", "lagrange, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 3, 3, 6, 6, 2, 0, 0, "crane", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

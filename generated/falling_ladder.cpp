@@ -208,6 +208,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -216,6 +217,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -233,14 +235,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "phi", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "l", "g", nullptr};
 constexpr const char* output_names[] = { nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 10, 2, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    2, 3, 3, 7, 0, 0, 2, "falling_ladder", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 3, 3, 3, 7, 0, 0, 2, "falling_ladder", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

@@ -302,6 +302,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -310,6 +311,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -327,14 +329,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "alpha", "beta", "gamma", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "a", "b", "c", "d", "m1", "m2", "m3", nullptr};
 constexpr const char* output_names[] = { nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 4, 3.5, 3, 1, 2, 1.5, 0};
 
 constexpr alembert_solver_table table{
-    2, 3, 7, 9, 0, 0, 2, "four_bar", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 3, 3, 7, 9, 0, 0, 2, "four_bar", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

@@ -287,6 +287,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -295,6 +296,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -312,14 +314,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x1", "y1", "x2", "y2", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "l", "beta", "g", nullptr};
 constexpr const char* output_names[] = { "tension", "turn", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1.5, 1, 0.2, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    2, 4, 5, 10, 2, 0, 2, "linked_particles", "routh, intermediate symbols",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 4, 4, 5, 10, 2, 0, 2, "linked_particles", "routh, intermediate symbols",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

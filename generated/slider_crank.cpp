@@ -292,6 +292,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -300,6 +301,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -317,14 +319,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "alpha", "beta", "x", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "m3", "r", "l", "g", nullptr};
 constexpr const char* output_names[] = { nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.2, 0.8, 2, 0.15, 0.4, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    2, 3, 6, 10, 0, 0, 2, "slider_crank", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 3, 3, 6, 10, 0, 0, 2, "slider_crank", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

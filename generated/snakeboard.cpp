@@ -310,6 +310,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -318,6 +319,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -335,14 +337,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "theta", "psi", "phi", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "l", "J", "Jr", "Jw", "A", "B", "w", nullptr};
 constexpr const char* output_names[] = { "v", "p", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 6, 0.2, 0.016, 0.072, 0.0013, 0.7, 0.3, 1, 0};
 
 constexpr alembert_solver_table table{
-    2, 5, 8, 12, 2, 0, 2, "snakeboard", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 5, 5, 8, 12, 2, 0, 2, "snakeboard", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

@@ -382,6 +382,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -390,6 +391,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -407,14 +409,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "x", "y", "psi", "theta", "phi", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "a", "Omega", nullptr};
 constexpr const char* output_names[] = { "spin", "centre_x", "centre_y", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.5, 0.2, 3.5, 0};
 
 constexpr alembert_solver_table table{
-    2, 5, 3, 6, 3, 0, 2, "turntable_ball", "routh, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 5, 5, 3, 6, 3, 0, 2, "turntable_ball", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

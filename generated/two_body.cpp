@@ -199,6 +199,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 struct alembert_solver_table {
     int abi;
     int coordinates;
+    int speeds;
     int parameters;
     int constants;
     int outputs;
@@ -207,6 +208,7 @@ struct alembert_solver_table {
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -224,14 +226,15 @@ struct alembert_solver_table {
 };
 
 constexpr const char* coordinate_names[] = { "r", "phi", "X", "Y", nullptr};
+constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m1", "m2", "a", "ecc", nullptr};
 constexpr const char* output_names[] = { "areal", "x1", "y1", "x2", "y2", nullptr};
 constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.1, 0.9, 2, 0.5, 0};
 
 constexpr alembert_solver_table table{
-    2, 4, 4, 9, 5, 0, 0, "two_body", "lagrange, textbook form",
-    coordinate_names, parameter_names, output_names, event_names, parameter_values,
+    3, 4, 4, 4, 9, 5, 0, 0, "two_body", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
     [](double t, const double* state, const double* par, double* mass, double* forcing) {

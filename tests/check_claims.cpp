@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "analysis/check.hpp"
-#include "formalism/routh.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 
@@ -15,7 +14,7 @@ namespace {
 
 Checked checked(Scene scene) {
     const Mechanism m = build(scene);
-    return check(scene, m, routh(m));
+    return check(scene, m);
 }
 
 /// A textbook scene with these claims in place of its own.

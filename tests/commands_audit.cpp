@@ -26,7 +26,7 @@ TEST_CASE("commands: audit tells the rolling disc's integral in text and JSON") 
     CHECK(plain.exit == 0);
     CHECK(plain.out.find("rolling: x - r*phi = const\n") != std::string::npos);
     CHECK(plain.out.find("rolling: declared nonholonomic, but it is integrable") != std::string::npos);
-    CHECK(plain.out.starts_with("2 coordinates, rank 1: 1 degrees of freedom\n"));
+    CHECK(plain.out.starts_with("2 coordinates, rank 1: 1 degree of freedom\n"));
     const auto result = run({"audit", disc, "--json"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);

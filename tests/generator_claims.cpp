@@ -33,6 +33,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     Mechanism mechanism = build(parse_scene(text, scene.file));
     mechanism.q_is_guess.assign(mechanism.q.size(), true);  // random states move to the constraints
     mechanism.qdot_is_guess.assign(mechanism.q.size(), true);
+    for (Mechanism::Speed& speed : mechanism.speeds) speed.start.reset();
     const Equations equations = routh(mechanism);
     const Program program = lower(mechanism, equations, energy_of(mechanism));
 
@@ -48,7 +49,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
         start.q = state.q;
         start.qdot = state.qdot;
         try {
-            assemble(start, mechanism, program, {});
+            assemble(start, mechanism, lower_constraints(mechanism), {});
         } catch (const IntegrationError&) {
             continue;  // no such state near this one
         }

@@ -34,10 +34,11 @@ extern "C" {
 double sin(double);
 double cos(double);
 struct alembert_solver_table {
-    int abi, coordinates, parameters, constants, outputs, events, constraints;
+    int abi, coordinates, speeds, parameters, constants, outputs, events, constraints;
     const char* scene;
     const char* formulation;
     const char* const* coordinate_names;
+    const char* const* speed_names;
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
@@ -80,7 +81,7 @@ const char* const events[] = {"bottom"};
 const double values[] = {1.0, 9.81, 0.0};
 const alembert_solver_table table = {
     )" + std::to_string(abi) +
-           R"(, 1, 3, 1, 1, 1, 0, "pendulum", "by hand", coordinates, parameters, outputs, events, values,
+           R"(, 1, 1, 3, 1, 1, 1, 0, "pendulum", "by hand", coordinates, nullptr, parameters, outputs, events, values,
     prepare, rhs, mass_forcing, energy, outputs_at, events_at, nullptr, nullptr};
 }
 extern "C" const alembert_solver_table* alembert_solver() { return &table; }

@@ -10,9 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "lower/interpret.hpp"
-#include "lower/lower.hpp"
-#include "lower/modular.hpp"
+#include "analysis/system.hpp"
 
 namespace alembert {
 
@@ -20,88 +18,10 @@ using GiNaC::ex;
 
 namespace {
 
-/// One formalism's equations as a program: which node each entry of [−Aᵀ M f; 0 A γ] is.
-struct System {
-    std::string formalism;
-    Program program;
-    int n = 0;
-    std::vector<int> mass, forcing;           // mass: lower triangle
-    std::vector<std::vector<int>> A;
-    std::vector<int> gamma;
-    std::vector<int> wanted;
-
-    /// Rows of m + n unknowns (λ, u') and the right-hand side. `one` is Real's 1.
-    template <typename Real>
-    std::vector<std::vector<Real>> rows(const std::vector<Real>& value) const {
-        const std::size_t m = A.size(), size = static_cast<std::size_t>(n);
-        std::vector<std::vector<Real>> result(size + m, std::vector<Real>(m + size + 1, Real(0)));
-        for (std::size_t i = 0; i < size; ++i) {
-            for (std::size_t k = 0; k < m; ++k) {
-                result[i][k] = Real(0) - value[A[k][i]];
-                result[size + k][m + i] = value[A[k][i]];
-            }
-            for (std::size_t j = 0; j < size; ++j) {
-                const std::size_t a = std::max(i, j), b = std::min(i, j);
-                result[i][m + j] = value[mass[a * (a + 1) / 2 + b]];
-            }
-            result[i][m + size] = value[forcing[i]];
-        }
-        for (std::size_t k = 0; k < m; ++k) result[size + k][m + size] = value[gamma[k]];
-        return result;
-    }
-};
-
-System system_of(const Equations& e, const Mechanism& m) {
-    Energy none;
-    none.kinetic = none.potential = none.energy = none.jacobi = none.power = 0;
-    System s{.formalism = e.formalism, .program = lower(m, e, none), .n = e.size(), .mass = {}, .forcing = {}, .A = {}, .gamma = {}, .wanted = {}};
-    s.mass = s.program.nodes_of("mass");
-    s.forcing = s.program.nodes_of("forcing");
-    s.gamma = s.program.nodes_of("gamma");
-    const std::vector<int> row = s.program.nodes_of("row");
-    for (std::size_t k = 0; k < s.gamma.size(); ++k)
-        s.A.emplace_back(row.begin() + static_cast<std::ptrdiff_t>(k) * s.n, row.begin() + static_cast<std::ptrdiff_t>(k + 1) * s.n);
-    s.wanted = s.mass;
-    s.wanted.insert(s.wanted.end(), s.forcing.begin(), s.forcing.end());
-    for (const auto& row : s.A) s.wanted.insert(s.wanted.end(), row.begin(), row.end());
-    s.wanted.insert(s.wanted.end(), s.gamma.begin(), s.gamma.end());
-    return s;
-}
-
-struct Echelon {
-    std::vector<std::vector<Prime>> rows;
-    double degree = 1, conditions = 0;
-};
-
-std::optional<Echelon> echelon(const System& s, const ModularPoint& point) {
-    const auto at = evaluate_mod(s.program, point, s.wanted);
-    if (!at) return std::nullopt;
-    Echelon result{.rows = s.rows(at->value), .conditions = at->conditions};
-    double entry = 0, right = 0;
-    for (const int id : s.mass) entry = std::max(entry, at->degree[id]);
-    for (const auto& row : s.A)
-        for (const int id : row) entry = std::max(entry, at->degree[id]);
-    for (const int id : s.forcing) right = std::max(right, at->degree[id]);
-    for (const int id : s.gamma) right = std::max(right, at->degree[id]);
-    result.degree = static_cast<double>(result.rows.size()) * entry + right + 1;
-    reduce_rows(result.rows, result.rows.size());
-    return result;
-}
-
-/// The largest residual of `b`'s rows at `a`'s solution over the largest term, in long double arithmetic at a random
-/// state; nothing where that cannot be told.
-std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
-    std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
-    State<long double> state;
-    for (std::size_t i = 0; i < a.program.parameters.size(); ++i) state.parameters.push_back(positive(random));
-    state.t = positive(random);
-    for (int i = 0; i < a.n; ++i) {
-        state.q.push_back(turn(random));
-        state.qdot.push_back(turn(random));
-    }
-    auto rows = a.rows(interpret(a.program, state));
-    const auto other = b.rows(interpret(b.program, state));
+/// Unknowns of a square system by elimination with row exchanges; nothing where a pivot is small beside the largest.
+std::optional<std::vector<long double>> solved(std::vector<std::vector<long double>> rows) {
     const std::size_t size = rows.size();
+    if (size == 0 || rows[0].size() != size + 1) return std::nullopt;
     std::vector<long double> x(size, 0);
     long double largest_pivot = 0;
     for (std::size_t k = 0; k < size; ++k) {
@@ -121,12 +41,55 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
         for (std::size_t c = k + 1; c < size; ++c) x[k] -= rows[k][c] * x[c];
         x[k] /= rows[k][k];
     }
+    return x;
+}
+
+std::vector<std::vector<long double>> rows_at(const System& s, State<long double> state) {
+    return rows_of(s, values_of<long double>(s, [&](const std::vector<long double>& udot) {
+                       if (!s.is_plain()) state.qddot = udot;
+                       return interpret(s.program, state);
+                   }));
+}
+
+/// In long double arithmetic at a random state: the largest residual of `b`'s rows at `a`'s solution over the largest term;
+/// where the two have different unknowns, the difference of those that they share, over the largest. Nothing where that
+/// cannot be told.
+std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
+    std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
+    State<long double> state;
+    for (std::size_t i = 0; i < a.program.parameters.size(); ++i) state.parameters.push_back(positive(random));
+    state.t = positive(random);
+    for (int i = 0; i < a.n; ++i) {
+        state.q.push_back(turn(random));
+        state.qdot.push_back(turn(random));
+    }
+    State<long double> plain = state;  // with q' for u
+    for (const System* s : {&a, &b}) {
+        if (s->is_plain()) continue;
+        const auto value = interpret(s->program, state);
+        for (int i = 0; i < a.n; ++i) plain.qdot[i] = value[s->rates[i]];
+    }
+    const auto x = solved(rows_at(a, a.is_plain() ? plain : state));
+    if (!x) return std::nullopt;
+    const auto other = rows_at(b, b.is_plain() ? plain : state);
     long double worst = 0;
+    if (a.hidden != b.hidden || a.is_plain() != b.is_plain()) {
+        const auto y = solved(other);
+        if (!y) return std::nullopt;
+        long double largest = 0;
+        for (int k = 0; k < a.common; ++k) {
+            largest = std::max({largest, std::abs((*x)[a.hidden + k]), std::abs((*y)[b.hidden + k])});
+            worst = std::max(worst, std::abs((*x)[a.hidden + k] - (*y)[b.hidden + k]));
+        }
+        if (!std::isfinite(largest)) return std::nullopt;
+        return largest > 0 ? worst / largest : 0;
+    }
+    const std::size_t size = x->size();
     for (const auto& row : other) {
         long double sum = -row[size], largest = std::abs(row[size]);
         for (std::size_t c = 0; c < size; ++c) {
-            sum += row[c] * x[c];
-            largest = std::max(largest, std::abs(row[c] * x[c]));
+            sum += row[c] * (*x)[c];
+            largest = std::max(largest, std::abs(row[c] * (*x)[c]));
         }
         if (!std::isfinite(sum)) return std::nullopt;
         if (largest > 0) worst = std::max(worst, std::abs(sum) / largest);
@@ -136,6 +99,7 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
 
 /// Are all entries equal by their normal forms? False too where that takes too long to tell.
 bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& m, double seconds) {
+    if (a.h.size() != b.h.size() || a.A.size() != b.A.size()) return false;
     const auto start = std::chrono::steady_clock::now();
     const auto equal = [&](const ex& x, const ex& y) {
         if (x.is_equal(y)) return true;
@@ -152,6 +116,8 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
             if (!equal(a.A[k][i], b.A[k][i])) return false;
         if (!equal(a.gamma[k], b.gamma[k])) return false;
     }
+    for (std::size_t i = 0; i < a.h.size(); ++i)
+        if (!equal(a.h[i], b.h[i])) return false;
     return true;
 }
 
@@ -177,21 +143,31 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
         result.reason = "fewer than two formalisms apply";
         return result;
     }
-    std::vector<System> systems;
+    std::vector<int> eliminated;
+    const Equations* in_speeds = nullptr;
     for (const Equations& e : equations) {
-        if (e.A.size() != equations[0].A.size() || e.size() != equations[0].size()) {
-            result.reason = fmt::format("{} and {} have different unknowns", equations[0].formalism, e.formalism);
+        for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
+        if (e.h.empty()) continue;
+        if (in_speeds == nullptr) in_speeds = &e;
+        if (e.u != in_speeds->u) {
+            result.reason = fmt::format("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
             return result;
         }
-        systems.push_back(system_of(e, m));
+    }
+    std::vector<System> systems;
+    const System* speeds = nullptr;
+    systems.reserve(equations.size());
+    for (const Equations& e : equations) {
+        systems.push_back(system_of(e, m, eliminated));
+        if (!systems.back().is_plain()) speeds = &systems.back();
     }
 
     int unlucky = 0;
     for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
-        const ModularPoint point{.seed = seed};
+        const auto rates = speeds != nullptr ? rates_at(*speeds, seed) : std::optional(ModularRates{});
         std::vector<Echelon> forms;
         for (const System& s : systems) {
-            auto form = echelon(s, point);
+            auto form = rates ? echelon(s, seed, *rates) : std::nullopt;
             if (!form) break;
             forms.push_back(std::move(*form));
         }

@@ -7,7 +7,8 @@
 ///     result.verdict == Agreement::Verdict::proved
 ///
 /// First exactly, modulo 2⁶¹ − 1 at random points: the reduced row echelon form of [−Aᵀ M | f; 0 A | γ] is the same for
-/// all formalisms if and only if they have the same solutions, also where M is singular. Then the Fourier normal form of
+/// all formalisms if and only if they have the same solutions, also where M is singular. Equations in speeds are compared by
+/// the q'' that they give, at rates that obey the constraints they have eliminated. Then the Fourier normal form of
 /// the entries, where it ends quickly: then the method is `proved`, otherwise `sampled`, and 2^failure bounds the
 /// chance that the sampling has missed a difference (failure ≤ −60).
 /// A difference is `refuted` once it is seen in long double arithmetic too, `undecided` otherwise: the modular

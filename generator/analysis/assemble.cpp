@@ -33,6 +33,11 @@ public:
 
     std::vector<std::string> go(bool rates_must_obey) {
         settle("position", start_.q, q_free_, "");
+        if (!start_.speeds.empty()) {
+            solve_for_rates();
+            check(p_.nodes_of("velocity"), start_.qdot, false);
+            return std::move(moved_);
+        }
         const std::vector<double> given = start_.qdot;
         try {
             settle("velocity", start_.qdot, u_free_, "'");
@@ -44,6 +49,41 @@ public:
     }
 
 private:
+    /// All rates from the initial speeds and the constraints, which are linear in them.
+    void solve_for_rates() {
+        std::vector<int> nodes = p_.nodes_of("velocity"), rows = rows_;
+        const std::vector<int> speeds = p_.nodes_of("speed"), forms = p_.nodes_of("form_row");
+        nodes.insert(nodes.end(), speeds.begin(), speeds.end());
+        rows.insert(rows.end(), forms.begin(), forms.end());
+        const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(m_.size());
+        const auto constraints = m - static_cast<Eigen::Index>(speeds.size());
+        start_.qdot.assign(start_.qdot.size(), 0);
+        for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd misfit(m);
+            Eigen::MatrixXd J(m, n);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
+                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
+            }
+            const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(J);
+            if (solver.rank() < n)
+                throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
+                                       "at these coordinates; start elsewhere, or choose other coordinates",
+                                       start_.t, start_.q);
+            const Eigen::VectorXd step = solver.solve(misfit);
+            for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
+        }
+        const std::vector<double> value = interpret(p_, start_.state());
+        for (std::size_t k = 0; k < speeds.size(); ++k) {
+            const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
+            if (!(misfit <= allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k]))))
+                throw ModelError(fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
+                                             "constraints leave it off by {:.6g} at these coordinates",
+                                             m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+        }
+    }
+
     void settle(const char* group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
         const std::vector<int> nodes = p_.nodes_of(group);
         const std::vector<double> before = x;
@@ -69,7 +109,7 @@ private:
         }
         check(nodes, x, n > 0);
         for (const int i : free)
-            if (x[i] != before[i])
+            if (std::abs(x[i] - before[i]) > 1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
                 moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
@@ -125,28 +165,8 @@ double size_of_terms(const Program& program, int id, const std::vector<double>& 
 
 std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
                                   const Overrides& held, bool rates_must_obey) {
-    if (mechanism.constraints.empty()) return {};
+    if (mechanism.constraints.empty() && start.speeds.empty()) return {};
     return Assembly(start, mechanism, program, held).go(rates_must_obey);
-}
-
-Program constraint_program(const Mechanism& m) {
-    std::vector<GiNaC::ex> wanted;
-    for (const Mechanism::Constraint& c : m.constraints) {
-        wanted.insert(wanted.end(), c.row.begin(), c.row.end());
-        wanted.push_back(c.position.value_or(0));
-        GiNaC::exvector velocity{c.drift};
-        for (int i = 0; i < m.size(); ++i) velocity.push_back(c.row[i] * m.qdot[i]);
-        wanted.push_back(GiNaC::add(std::move(velocity)));
-    }
-    Program program;
-    const std::vector<int> nodes = lower_expressions(program, m, wanted);
-    auto node = nodes.begin();
-    for (const Mechanism::Constraint& c : m.constraints) {
-        for (int i = 0; i < m.size(); ++i) program.roots.push_back({"row", c.name, *node++});
-        program.roots.push_back({"position", c.name, *node++});
-        program.roots.push_back({"velocity", c.name, *node++});
-    }
-    return program;
 }
 
 }  // namespace alembert

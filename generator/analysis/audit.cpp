@@ -15,6 +15,7 @@
 #include "report/readable.hpp"
 #include "report/text.hpp"
 #include "symbolic/fourier.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -79,7 +80,7 @@ private:
 
     /// Residuals at the start, guesses adjusted where that leads anywhere.
     void settle(const Start& start) {
-        const Program program = constraint_program(m_);
+        const Program program = lower_constraints(m_);
         Start moved = start;
         try {
             assemble(moved, m_, program, {});
@@ -289,7 +290,7 @@ private:
     /// Rows at states that obey the constraint, beside rows at the same states moved a little.
     bool gradient_vanishes(std::size_t k) const {
         const Mechanism one = only(static_cast<int>(k));
-        const Program program = constraint_program(one);
+        const Program program = lower_constraints(one);
         const auto size = [&](const State<double>& state) {
             const std::vector<double> value = interpret(program, state);
             double sum = 0;

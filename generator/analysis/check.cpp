@@ -16,6 +16,7 @@
 #include "analysis/nearest.hpp"
 #include "analysis/slip.hpp"
 #include "formalism/rest.hpp"
+#include "formalism/routh.hpp"
 #include "model/energy.hpp"
 #include "model/translate.hpp"
 
@@ -657,7 +658,8 @@ private:
 
 }  // namespace
 
-Checked check(const Scene& scene, const Mechanism& mechanism, const Equations& equations) {
+Checked check(const Scene& scene, const Mechanism& mechanism) {
+    const Equations equations = routh(mechanism);
     return Checker(scene, mechanism, equations).run();
 }
 

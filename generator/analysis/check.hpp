@@ -3,7 +3,7 @@
 
 /// Does a hand derivation hold?
 ///
-///     const Checked result = check(scene, mechanism, equations);          // the claims of the scene
+///     const Checked result = check(scene, mechanism);          // the claims of the scene
 ///     result.claims[0].verdict == Verdict::proved
 ///
 /// A claim is an equation in what the scene declares. It is right if it holds at every state that obeys the constraints and
@@ -46,6 +46,6 @@ struct Checked {
 };
 
 /// Throws SceneError for a claim that the mechanism cannot read.
-Checked check(const Scene& scene, const Mechanism& mechanism, const Equations& equations);
+Checked check(const Scene& scene, const Mechanism& mechanism);
 
 }  // namespace alembert

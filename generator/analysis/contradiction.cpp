@@ -9,6 +9,7 @@
 
 #include "analysis/assemble.hpp"
 #include "analysis/redundancy.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -16,7 +17,7 @@ std::vector<State<double>> states_that_obey(const Mechanism& mechanism, const St
     Mechanism loose = mechanism;
     loose.q_is_guess.assign(mechanism.q.size(), true);
     loose.qdot_is_guess.assign(mechanism.q.size(), true);
-    const Program program = constraint_program(loose);
+    const Program program = lower_constraints(loose);
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> away(-1, 1);
     std::vector<State<double>> result;

@@ -10,11 +10,10 @@ namespace alembert {
 
 namespace {
 
-/// Which coordinates have kinetic energy, or all if the constraints do not determine the rates of those that have
+/// Which of the n coordinates (or speeds) have kinetic energy, or all if the constraints do not determine the rates of those that have
 /// none from the rates of the others (their columns of A are dependent).
-std::vector<Eigen::Index> to_be_resisted(const Program& program, const std::vector<double>& value) {
+std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const std::vector<double>& value) {
     const std::vector<int> mass = program.nodes_of("mass"), rows = program.nodes_of("row");
-    const auto n = static_cast<int>(program.coordinates.size());
     std::vector<Eigen::Index> heavy, massless, all;
     for (int i = 0; i < n; ++i) {
         bool any = false;
@@ -36,7 +35,11 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, const std::vect
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
     const std::vector<double> value = interpret(program, state);
     const std::vector<int> lower = program.nodes_of("mass");
-    const std::vector<Eigen::Index> of = to_be_resisted(program, value);
+    std::vector<std::string> names;
+    for (const Quantity& speed : program.speeds) names.push_back(speed.name);
+    for (const Quantity& q : program.coordinates)
+        if (program.speeds.empty()) names.push_back(q.name + "'");
+    const std::vector<Eigen::Index> of = to_be_resisted(program, static_cast<int>(names.size()), value);
     const auto n = static_cast<Eigen::Index>(of.size());
     Eigen::MatrixXd M(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -65,7 +68,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
         if (std::abs(c) < 1e-9) continue;
         const std::string number = std::abs(std::abs(c) - 1) < 1e-9 ? "" : fmt::format("{:.4g}*", std::abs(c));
         text += text.empty() ? (c < 0 ? "-" : "") : (c < 0 ? " - " : " + ");
-        text += number + program.coordinates[of[i]].name + "'";
+        text += number + names[of[i]];
     }
     return text;
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "analysis/assemble.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -33,7 +34,7 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size()) return {};
-    const Program program = constraint_program(mechanism);
+    const Program program = lower_constraints(mechanism);
     const std::vector<int> rows = program.nodes_of("row");
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()), n = static_cast<Eigen::Index>(mechanism.size());
     // A velocity constraint that follows from a position is the one to drop: it does not say where.
@@ -76,7 +77,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
 
 std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
                               const std::vector<State<double>>& states) {
-    const Program program = constraint_program(mechanism);
+    const Program program = lower_constraints(mechanism);
     const std::vector<int> rows = program.nodes_of("row");
     const Eigen::Index n = mechanism.size();
     std::vector<int> kept;

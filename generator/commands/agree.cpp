@@ -6,6 +6,8 @@
 #include <chrono>
 #include <iostream>
 
+#include "analysis/redundancy.hpp"
+#include "analysis/speeds.hpp"
 #include "commands/pipeline.hpp"
 
 namespace alembert {
@@ -15,6 +17,8 @@ int agree(const Request& request) {
     const Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     const Mechanism mechanism = build(scene);
+    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(without_constraints(mechanism, redundant_constraints(mechanism))))
+        fail(scene, {*mistake});
     const Derivations all = derive_all(mechanism);
     const Agreement result = agree(all.equations, mechanism);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -81,7 +81,7 @@ int check(const Request& request) {
     if (!request.claims.empty()) d.scene = with_claims(std::move(d.scene), request.claims);
     if (d.scene.claims.empty())
         throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
-    const Checked result = check(d.scene, d.mechanism, d.equations);
+    const Checked result = check(d.scene, d.mechanism);
 
     bool refuted = false, open = false;
     for (const CheckedClaim& c : result.claims) {

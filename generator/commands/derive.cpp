@@ -67,7 +67,7 @@ std::string escaped(const std::string& words, bool xml) {
 std::string text_left(const Statement& s) {
     switch (s.kind) {
         case Statement::Kind::partial: return fmt::format("d{}/d({})", s.letter, text(*s.by));
-        case Statement::Kind::force: return fmt::format("Q({})", text(*s.by));
+        case Statement::Kind::force: return fmt::format("{}({})", s.letter, text(*s.by));
         case Statement::Kind::work: return fmt::format("Q({}) of {}", text(*s.by), s.of);
         default: return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
     }
@@ -79,7 +79,7 @@ std::string latex_left(const Statement& s) {
         case Statement::Kind::partial:
             return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", s.letter, latex(*s.by));
         case Statement::Kind::force:
-        case Statement::Kind::work: return fmt::format("Q_{{{}}}{}", latex(*s.by), of);
+        case Statement::Kind::work: return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
         default: return s.letter + of;
     }
 }
@@ -238,8 +238,9 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
     result["speeds"] = Json::array();
     for (const GiNaC::symbol& q : m.q) {
         result["coordinates"].push_back(q.get_name());
-        result["speeds"].push_back(q.get_name() + "'");
+        if (m.speeds.empty()) result["speeds"].push_back(q.get_name() + "'");
     }
+    for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
     result["multipliers"] = Json::array();
     for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
     result["kinetic"] = text(shown.kinetic);
@@ -251,11 +252,14 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
         if (e.divided_by) one["divided_by"] = text(*e.divided_by);
         result["equations"].push_back(std::move(one));
     }
-    if (!shown.definitions.empty()) {
-        result["definitions"] = Json::array();
-        for (const auto& [name, value] : shown.definitions)
-            result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
+    if (!shown.kinematics.empty()) {
+        result["kinematics"] = Json::array();
+        for (const auto& [rate, value] : shown.kinematics)
+            result["kinematics"].push_back({{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
     }
+    for (const auto* list : {&shown.speeds, &shown.definitions})
+        for (const auto& [name, value] : *list)
+            result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
     return result;
 }
 
@@ -283,21 +287,32 @@ int derive(const Request& request) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
     const bool free = d.mechanism.constraints.empty();
+    if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
+    for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
                                   shown.title,
-                                  !request.by.empty() ? ""
+                                  !request.by.empty()        ? ""
+                                  : !d.equations.h.empty() ? "; the scene has generalized speeds"
                                   : free              ? "; the coordinates are independent"
                                                       : "; the coordinates are not independent"),
                       {}});
     for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (!shown.kinematics.empty()) {
+        blocks.push_back({"with the rates of the coordinates:", {}});
+        for (const auto& [rate, value] : shown.kinematics) blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
+    }
+    for (const Phrase& pole : shown.poles)
+        blocks.push_back({fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
     if (!shown.constraints.empty()) {
-        blocks.push_back({"with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
+        const bool all = d.equations.A.empty();
+        blocks.push_back({all ? "The constraints, which the speeds obey:"
+                              : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
         for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
             blocks.push_back({fmt::format("The equation of {} has been divided by {}.",
-                                          n.inline_phrase(shown.coordinates[i]),
+                                          n.inline_phrase(shown.rows[i]),
                                           n.inline_phrase(*shown.equations[i].divided_by)),
                               {}});
     std::cout << n.page(blocks);

@@ -11,13 +11,25 @@
 
 namespace alembert {
 
+namespace {
+
+/// {name: value} of a group of roots, or `otherwise` where there is none.
+Json named_values(const Program& program, const std::vector<double>& value, const char* group, const Json& otherwise) {
+    Json object = Json::object();
+    for (const Root& root : program.roots)
+        if (root.group == group) object[root.name] = value[root.node];
+    return object.empty() ? otherwise : object;
+}
+
+}  // namespace
+
 int eval(const Request& request) {
     const Derived d = derived(request);
     const Program program = lowered(d, request).program;
     const Overrides overrides = overrides_of(request);
     Start start = start_of(d.mechanism, overrides);
-    const std::vector<std::string> moved = assemble(start, d.mechanism, program, overrides);
-    State<double> state = start.state();
+    const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), overrides);
+    State<double> state = state_of(start, d.mechanism, d.equations);
 
     const auto fails = [&](const Program& p) {
         const std::vector<double> value = interpret(p, state);
@@ -37,10 +49,18 @@ int eval(const Request& request) {
     Json result;
     result["time"] = state.t;
     result["coordinates"] = by_coordinate(program, state.q.data());
-    result["rates"] = by_coordinate(program, state.qdot.data());
-    result["accelerations"] = by_coordinate(program, state.qddot.data());
-    result["speeds"] = result["rates"];
-    result["speed_rates"] = result["accelerations"];
+    const auto group = [&](const char* name) {
+        std::vector<double> numbers;
+        for (const int id : program.nodes_of(name)) numbers.push_back(value[id]);
+        return numbers;
+    };
+    const bool own_speeds = !program.speeds.empty();
+    const std::vector<double> rates = own_speeds ? group("rate") : state.qdot;
+    const std::vector<double> accelerations = own_speeds ? group("second_rate") : state.qddot;
+    result["rates"] = by_coordinate(program, rates.data());
+    result["accelerations"] = by_coordinate(program, accelerations.data());
+    result["speeds"] = named_values(program, value, "speed", result["rates"]);
+    result["speed_rates"] = named_values(program, value, "speed_rate", result["accelerations"]);
     result["multipliers"] = Json::object();
     for (const Root& root : program.roots)
         if (root.group == "multiplier") result["multipliers"][root.name] = value[root.node];
@@ -61,8 +81,11 @@ int eval(const Request& request) {
     }
     fmt::print("t = {}\n\n{:<16}{:>24}{:>24}{:>24}\n", state.t, "", "value", "rate", "acceleration");
     for (int i = 0; i < d.mechanism.size(); ++i)
-        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, state.q[i], state.qdot[i],
-                   state.qddot[i]);
+        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, state.q[i], rates[i], accelerations[i]);
+    for (const Mechanism::Speed& speed : d.mechanism.speeds) {
+        const std::string name = speed.u.get_name();
+        fmt::print("{:<16}{:>24.16g}{:>24.16g}\n", name, result["speeds"][name].get<double>(), result["speed_rates"][name].get<double>());
+    }
     for (const auto& [name, multiplier] : result["multipliers"].items())
         fmt::print("{:<16}{:>24.16g}\n", name, multiplier.get<double>());
     for (const std::string& line : moved) fmt::print("adjusted {}\n", line);

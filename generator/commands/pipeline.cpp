@@ -13,6 +13,8 @@
 
 #include "analysis/diagnose.hpp"
 #include "analysis/redundancy.hpp"
+#include "analysis/speeds.hpp"
+#include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 
 namespace alembert {
@@ -32,8 +34,9 @@ namespace {
 
 /// The formalism of that name; without one, the one a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
-    const std::string wanted = !name.empty() ? name : mechanism.constraints.empty() ? "lagrange" : "routh";
-    return formalism(wanted).derive(mechanism);
+    if (!name.empty()) return formalism(name).derive(mechanism);
+    if (!mechanism.speeds.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
+    return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
 }  // namespace
@@ -51,7 +54,11 @@ Derived derived(const Request& request) {
                                                    mechanism.constraints[k].name),
                                        Severity::warning}});
     mechanism = without_constraints(std::move(mechanism), redundant);
+    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
+    if (mechanism.speeds.empty() && !equations.poles.empty())
+        std::cerr << "warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
+                     "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n";
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }
 

@@ -21,13 +21,13 @@ namespace {
 /// How far E, E − W and h stray from their values at the start, over all accepted steps.
 class Drift {
 public:
-    Drift(const Module& module, const std::vector<double>& par, int n, bool with_work)
-        : table_(module.table()), par_(par), n_(n), with_work_(with_work) {}
+    Drift(const Module& module, const std::vector<double>& par, bool with_work)
+        : table_(module.table()), par_(par), with_work_(with_work) {}
 
     void operator()(double t, std::span<const double> state, std::span<const double> rate) {
         double energy[4], jacobi = 0;
         table_.energy(t, state.data(), rate.data(), par_.data(), energy, &jacobi);
-        const double work = with_work_ ? state[2 * n_] : 0;
+        const double work = with_work_ ? state[table_.coordinates + table_.speeds] : 0;
         if (first_) {
             energy_start_ = energy[2];
             jacobi_start_ = jacobi;
@@ -51,7 +51,6 @@ private:
 
     const alembert_solver_table& table_;
     const std::vector<double>& par_;
-    int n_;
     bool with_work_, first_ = true;
     double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0;
     double energy_ = 0, balance_ = 0, jacobi_ = 0;
@@ -63,6 +62,8 @@ std::string csv(const Trajectory& motion, const Program& program, const Module& 
     std::vector<std::string> outputs;
     for (const Root& root : program.roots)
         if (root.group == "output") outputs.push_back(root.name);
+    for (const Root& root : program.roots)
+        if (root.group == "speed") outputs.push_back(root.name);
     std::string text = "t";
     for (const Quantity& q : program.coordinates) text += "," + q.name;
     for (const Quantity& q : program.coordinates) text += "," + q.name + "'";
@@ -84,7 +85,8 @@ std::string csv(const Trajectory& motion, const Program& program, const Module& 
         module.table().energy(t, state.data(), rate.data(), par.data(), energy, &jacobi);
         module.table().outputs_at(t, state.data(), rate.data(), par.data(), out.data());
         text += fmt::format("{:.17g}", t);
-        for (std::size_t i = 0; i < 2 * n; ++i) text += fmt::format(",{:.17g}", state[i]);
+        for (std::size_t i = 0; i < n; ++i) text += fmt::format(",{:.17g}", state[i]);
+        for (std::size_t i = 0; i < n; ++i) text += fmt::format(",{:.17g}", rate[i]);
         module.table().multipliers_at(t, state.data(), par.data(), lambda.data());
         for (const double value : lambda) text += fmt::format(",{:.17g}", value);
         text += fmt::format(",{:.17g}", energy[2]);
@@ -111,8 +113,7 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
 }
 
 /// The state where the numbers failed.
-State<double> state_of(const Start& start, const Failure& failure) {
-    State<double> state = start.state();
+State<double> state_at(State<double> state, const Failure& failure) {
     state.t = failure.time;
     const auto middle = failure.state.begin() + static_cast<std::ptrdiff_t>(state.q.size());
     state.q.assign(failure.state.begin(), middle);
@@ -135,11 +136,12 @@ int simulate(const Request& request) {
     const Energy energy = energy_of(d.mechanism);
     const Program program = lowered(d, request).program;
     Start start = start_of(d.mechanism);
-    const std::vector<std::string> moved = assemble(start, d.mechanism, program, {});
+    const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), {});
+    const State<double> first = state_of(start, d.mechanism, d.equations);
     const Options wishes = options_of(request, d.mechanism, start);
-    if (program.singular || massless_combination(program, start.state()))
+    if (program.singular || massless_combination(program, first))
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
-                                           failure_at(d, start.state()).value_or("the mass matrix is singular")),
+                                           failure_at(d, first).value_or("the mass matrix is singular")),
                                start.t, start.q);
     const Source source = emit(program);
     const double emit_seconds = lap();
@@ -152,9 +154,9 @@ int simulate(const Request& request) {
     const Rhs rhs = make_rhs(module, start.parameters, balance ? Work::integrated : Work::left_out);
     const std::vector<double> par = prepared(module, start.parameters);
     std::vector<double> initial = start.q;
-    initial.insert(initial.end(), start.qdot.begin(), start.qdot.end());
+    initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     if (balance) initial.push_back(0);
-    Drift drift(module, par, n, balance);
+    Drift drift(module, par, balance);
     Options options = wishes;
     Projection projection(module, start.parameters);
     double constraint_drift = 0;
@@ -173,10 +175,14 @@ int simulate(const Request& request) {
 
     if (!request.output.empty()) write_file(request.output, csv(motion, program, module, par, rhs));
     const auto end = motion.final_state();
+    std::vector<double> end_rate(end.size());
+    rhs(motion.times.back(), end.data(), end_rate.data());
     Json result;
     result["final"] = {{"time", motion.times.back()},
                        {"coordinates", by_coordinate(program, end.data())},
-                       {"rates", by_coordinate(program, end.data() + n)}};
+                       {"rates", by_coordinate(program, end_rate.data())}};
+    for (std::size_t k = 0; k < program.speeds.size() && !d.mechanism.speeds.empty(); ++k)
+        result["final"]["speeds"][program.speeds[k].name] = end[n + k];
     result["method"] = motion.statistics.method;
     result["formulation"] = source.formulation;
     result["steps"] = motion.statistics.steps;
@@ -202,7 +208,9 @@ int simulate(const Request& request) {
             fmt::print("event {} at t = {:.15g}\n", event["name"].get<std::string>(), event["time"].get<double>());
         fmt::print("\nat t = {:.15g}\n", motion.times.back());
         for (int i = 0; i < n; ++i)
-            fmt::print("{:<16}{:>24.16g}   rate {:>24.16g}\n", program.coordinates[i].name, end[i], end[n + i]);
+            fmt::print("{:<16}{:>24.16g}   rate {:>24.16g}\n", program.coordinates[i].name, end[i], end_rate[i]);
+        for (std::size_t k = 0; k < program.speeds.size() && !d.mechanism.speeds.empty(); ++k)
+            fmt::print("{:<16}{:>24.16g}\n", program.speeds[k].name, end[n + k]);
         if (energy.conserved) fmt::print("\nenergy drift {:.2e}\n", drift.energy());
         if (balance) fmt::print("\nenergy is not conserved; work balance {:.2e}\n", drift.balance());
         if (balance && energy.jacobi_conserved) fmt::print("T2 - T0 + V is; its drift {:.2e}\n", drift.jacobi());
@@ -213,7 +221,7 @@ int simulate(const Request& request) {
         if (!request.output.empty()) fmt::print("wrote {}\n", request.output);
     }
     if (motion.failure) {
-        const auto reason = failure_at(d, state_of(start, *motion.failure));
+        const auto reason = failure_at(d, state_at(first, *motion.failure));
         throw IntegrationError(motion.failure->message + (reason ? "\n  there: " + *reason : ""), motion.failure->time,
                                motion.failure->state);
     }

@@ -39,18 +39,28 @@ std::string wrapped(const std::string& line) {
 
 class Emitter {
 public:
-    explicit Emitter(const Program& program) : p_(program), n_(static_cast<int>(program.coordinates.size())) {
+    explicit Emitter(const Program& program)
+        : p_(program),
+          n_(static_cast<int>(program.coordinates.size())),
+          s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
         for (const Quantity& q : p_.coordinates) {
             q_.push_back(names_.fresh(q.name));
+            if (!p_.speeds.empty()) continue;
             u_.push_back(names_.fresh(q_.back() + "_dot"));
             a_.push_back(names_.fresh(q_.back() + "_ddot"));
+        }
+        for (const Quantity& u : p_.speeds) {
+            const bool is_rate = u.name.ends_with('\'');
+            const std::string name = is_rate ? u.name.substr(0, u.name.size() - 1) + "_dot" : u.name;
+            u_.push_back(names_.fresh(name));
+            a_.push_back(names_.fresh(is_rate ? u.name.substr(0, u.name.size() - 1) + "_ddot" : u_.back() + "_dot"));
         }
         for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
         find_constants();
     }
 
     Source emit() {
-        const std::vector<int> rhs = p_.nodes_of("acceleration");
+        const std::vector<int> rhs = p_.right_hand_side();
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
         functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()
@@ -60,7 +70,11 @@ public:
         file.set("scene", ascii_identifier(p_.name));
         file.set("formulation", p_.formulation);
         file.set("version", ALEMBERT_VERSION);
-        file.set("state", described(q_, p_.coordinates) + ", then their rates");
+        const bool own_speeds = !p_.speeds.empty();
+        file.set("state", described(q_, p_.coordinates) + (own_speeds ? ", then " + described(u_, p_.speeds) : ", then their rates"));
+        file.set("equation", own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)");
+        file.set("has_speeds", own_speeds);
+        file.set("speed_names", quoted(u_));
         file.set("parameters", par_.empty() ? "none" : described(par_, p_.parameters));
         file.set("operations", fmt::format("{} operations a right-hand side: {} additions, {} multiplications, {} "
                                            "divisions, {} functions",
@@ -69,7 +83,7 @@ public:
         file.set("functions", functions);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
-        file.set("output_names", quoted(labels("output")));
+        file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
         file.set("event_names", quoted(labels("event")));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
@@ -77,12 +91,15 @@ public:
         const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
         number("abi", abi_version);
         number("n", q_.size());
+        number("s", static_cast<std::size_t>(s_));
         number("p", par_.size());
         number("k", constants_.size());
-        number("outputs", p_.nodes_of("output").size());
+        number("outputs", p_.nodes_of("output").size() + p_.nodes_of("speed").size());
         number("events", p_.nodes_of("event").size());
-        number("constraints", p_.nodes_of("gamma").size());
-        file.set("reaction", p_.nodes_of("gamma").empty() ? "" : " + A^T lambda with A q'' = gamma");
+        number("constraints", p_.nodes_of("velocity").size());
+        file.set("reaction", p_.nodes_of("gamma").empty() ? ""
+                             : own_speeds                 ? " + A^T lambda with A u' = gamma"
+                                                          : " + A^T lambda with A q'' = gamma");
         mustache::mustache shape{std::string(template_solver)};
         return {.file = ascii_identifier(p_.name) + ".cpp",
                 .text = shape.render(file),
@@ -139,7 +156,7 @@ private:
     /// `const Real` declarations of those variables and constants that the function uses.
     mustache::data unpacked(const std::map<int, int>& uses, bool rates_needed) const {
         std::vector<std::string> items;
-        std::vector<char> q(n_, 0), u(n_, rates_needed ? 1 : 0), a(n_, 0), par(par_.size(), 0);
+        std::vector<char> q(n_, 0), u(s_, rates_needed ? 1 : 0), a(s_, 0), par(par_.size(), 0);
         for (const auto& [id, count] : uses) {
             const Node& node = p_[id];
             if (node.op != Op::variable || constant_names_.contains(id)) continue;
@@ -169,10 +186,10 @@ private:
         };
         for (int i = 0; i < n_; ++i)
             if (q[i] != 0) items.push_back(fmt::format("{} = state[{}]", q_[i], i));
-        for (int i = 0; i < n_; ++i)
+        for (int i = 0; i < s_; ++i)
             if (u[i] != 0) items.push_back(fmt::format("{} = state[{}]", u_[i], n_ + i));
         flush();
-        for (int i = 0; i < n_; ++i)
+        for (int i = 0; i < s_; ++i)
             if (a[i] != 0) items.push_back(fmt::format("{} = rate[{}]", a_[i], n_ + i));
         flush();
         for (std::size_t i = 0; i < par.size(); ++i)
@@ -246,29 +263,38 @@ private:
         return result;
     }
 
-    static std::vector<Goal> joined(std::vector<Goal> a, const std::vector<Goal>& b) {
+    template <typename Item>
+    static std::vector<Item> joined(std::vector<Item> a, const std::vector<Item>& b) {
         a.insert(a.end(), b.begin(), b.end());
         return a;
     }
 
     mustache::data right_hand_side() {
-        const bool is_free = p_.nodes_of("gamma").empty();
-        std::vector<Goal> all = joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f"));
-        if (!is_free)
-            all = joined(all, joined(goals("row", "Constraints A q'' = gamma"), goals("gamma", "Constraints A q'' = gamma")));
-        all = joined(all, goals("acceleration", is_free ? "Solve M q'' = f with M = L D L^T"
-                                                        : "Solve M q'' = f + A^T lambda, A q'' = gamma"));
-        std::vector<std::string> first;
+        const bool is_free = p_.nodes_of("gamma").empty(), own_speeds = !p_.speeds.empty();
+        const std::string unknown = own_speeds ? "u'" : "q''", rows = fmt::format("Constraints A {} = gamma", unknown);
+        std::vector<Goal> all = goals("rate", "Kinematics q' = h(q, u, t)");
         std::vector<Result> results;
-        for (int i = 0; i < n_; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
+        for (int i = 0; const Goal& goal : all) results.push_back({fmt::format("rate[{}]", i++), goal.node});
+        for (Goal& goal : all) goal.name = ascii_identifier(goal.name) + "_dot";
+        all = joined(all, joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f")));
+        if (!is_free) {
+            std::vector<Goal> entries = goals(own_speeds ? "speed_row" : "row", rows);
+            if (own_speeds) std::erase_if(entries, [&](const Goal& goal) { return p_.is_zero(goal.node); });
+            all = joined(all, joined(entries, goals("gamma", rows)));
+        }
+        const std::string solve = is_free ? fmt::format("Solve M {} = f with M = L D L^T", unknown)
+                                          : fmt::format("Solve M {0} = f + A^T lambda, A {0} = gamma", unknown);
+        all = joined(all, goals("acceleration", solve));
+        std::vector<std::string> first;
+        for (int i = 0; i < n_ && !own_speeds; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
         int i = 0;
         for (Goal& goal : all)
-            if (goal.section.starts_with("Solve")) {
+            if (goal.section == solve) {
                 goal.name = a_[i];
                 goal.own_name = true;
                 results.push_back({fmt::format("rate[{}]", n_ + i++), goal.node});
             }
-        return function("rhs", "rate = (q', q'') at t and state = (q, q').",
+        return function("rhs", own_speeds ? "rate = (q', u') at t and state = (q, u)." : "rate = (q', q'') at t and state = (q, q').",
                         "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate",
                         all, results, first);
     }
@@ -277,13 +303,13 @@ private:
         const std::vector<Goal> mass = goals("mass", "Mass matrix M(q), lower triangle"), f = goals("forcing", "Forcing f");
         std::vector<Result> results;
         std::size_t k = 0;
-        for (int i = 0; i < n_; ++i)
+        for (int i = 0; i < s_; ++i)
             for (int j = 0; j <= i; ++j, ++k) {
-                const std::string mirror = i == j ? "" : fmt::format("mass[{}] = ", j * n_ + i);
-                results.push_back({fmt::format("{}mass[{}]", mirror, i * n_ + j), mass[k].node});
+                const std::string mirror = i == j ? "" : fmt::format("mass[{}] = ", j * s_ + i);
+                results.push_back({fmt::format("{}mass[{}]", mirror, i * s_ + j), mass[k].node});
             }
-        for (int i = 0; i < n_; ++i) results.push_back({fmt::format("forcing[{}]", i), f[i].node});
-        return function("mass_forcing", "M (n by n, row-major) and f of M q'' = f.",
+        for (int i = 0; i < s_; ++i) results.push_back({fmt::format("forcing[{}]", i), f[i].node});
+        return function("mass_forcing", p_.speeds.empty() ? "M (n by n, row-major) and f of M q'' = f." : "M (s by s, row-major) and f of M u' = f.",
                         "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
                         "Real* par, Real* mass, Real* forcing",
                         joined(mass, f), results);
@@ -309,6 +335,8 @@ private:
         for (std::size_t k = 0; k < velocity.size(); ++k) results.push_back({fmt::format("velocity[{}]", k), velocity[k]});
         for (std::size_t k = 0; const int node : p_.nodes_of("row"))
             results.push_back({fmt::format("rows[{}]", k++), node});
+        for (std::size_t k = p_.nodes_of("row").size(); const int node : p_.nodes_of("speed_row"))
+            results.push_back({fmt::format("rows[{}]", k++), node});
         std::vector<Goal> all;
         for (const Result& result : results) all.push_back({"Constraints", "", result.node});
         return function("constraints_at", "f(q,t) of holonomic constraints, A q' + b of all, and A.",
@@ -328,7 +356,8 @@ private:
     }
 
     mustache::data list(const std::string& group) {
-        const std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
+        std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
+        if (group == "output") all = joined(all, goals("speed", "Generalized speeds"));
         std::vector<Result> results;
         for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("out[{}]", i), all[i].node});
         return function(group == "output" ? "outputs_at" : "events_at",
@@ -370,7 +399,7 @@ private:
     }
 
     const Program& p_;
-    int n_;
+    int n_, s_;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
     std::vector<int> constants_;                  // nodes, in order

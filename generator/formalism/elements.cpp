@@ -57,10 +57,14 @@ std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
     return I;
 }
 
+bool masses_are_known(const Mechanism& m) {
+    return !m.given_lagrangian && (m.kinetic.empty() || m.kinetic.back().label != "[energy] kinetic");
+}
+
 void check_masses_known(const Mechanism& m, const std::string& who) {
     if (m.size() == 0) throw ModelError(who + " need at least one coordinate; the scene has none");
-    const bool kinetic = !m.kinetic.empty() && m.kinetic.back().label == "[energy] kinetic";
-    if (!kinetic && !m.given_lagrangian) return;
+    if (masses_are_known(m)) return;
+    const bool kinetic = !m.given_lagrangian;
     throw ModelError(fmt::format("{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
                                  "use --by lagrange, or give the scene its particles and bodies",
                                  who, kinetic ? "kinetic" : "lagrangian"));

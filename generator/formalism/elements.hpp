@@ -24,6 +24,9 @@ std::vector<GiNaC::ex> potential_without_forces(const Mechanism& mechanism);
 /// Elements xx yy zz xy yz zx about the mass centre: Steiner's theorem where the scene gives them about another point.
 std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates& z);
 
+/// Does all kinetic energy belong to particles and bodies?
+bool masses_are_known(const Mechanism& mechanism);
+
 /// Throws ModelError for [energy] kinetic or lagrangian, and for a scene without coordinates. `who`: "Kane's equations".
 void check_masses_known(const Mechanism& mechanism, const std::string& who);
 

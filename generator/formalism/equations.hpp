@@ -6,9 +6,13 @@
 ///     const Equations equations = lagrange(mechanism);
 ///     equations.M(0, 1); equations.f[0];
 ///
+/// Where the speeds are not the rates, q' = h(q,u,t) comes with them, and constraints whose rates they leave out are
+/// eliminated: those have no row of A, and their multipliers are recovered from the motion.
+///
 /// For the readable form f is kept in three parts, as a textbook writes the equation:
 /// M u' − own − dissipative = applied + Aᵀλ.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -18,7 +22,7 @@ namespace alembert {
 
 struct Equations {
     std::string formalism;                ///< as in --by: "lagrange"
-    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates here
+    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates unless there is an h
     std::vector<GiNaC::symbol> udot;      ///< the unknowns
     GiNaC::matrix M;                      ///< n×n, symmetric
     std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
@@ -31,7 +35,24 @@ struct Equations {
     std::vector<std::vector<std::string>> row_sources;
     std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
 
+    std::vector<GiNaC::ex> h = {};        ///< q' in q, u, t; empty: u = q'
+    std::vector<GiNaC::ex> form = {};     ///< u in q, q', t; empty likewise
+    struct Eliminated {
+        int constraint;                   ///< position in Mechanism::constraints
+        GiNaC::ex multiplier;             ///< in q, q', q'', t and the lambdas above
+    };
+    std::vector<Eliminated> eliminated = {};
+    std::vector<GiNaC::ex> poles = {};    ///< where one of these vanishes h has no value
+
     int size() const { return static_cast<int>(u.size()); }
+    /// Positions in Mechanism::constraints of the rows of A.
+    std::vector<int> kept(const Mechanism& mechanism) const {
+        std::vector<int> result;
+        for (int k = 0; k < static_cast<int>(mechanism.constraints.size()); ++k)
+            if (std::none_of(eliminated.begin(), eliminated.end(), [&](const Eliminated& e) { return e.constraint == k; }))
+                result.push_back(k);
+        return result;
+    }
     /// f = own + dissipative + applied
     GiNaC::ex forcing(int i) const { return own[i] + dissipative[i] + applied[i]; }
 };

@@ -7,6 +7,7 @@
 #include "formalism/hamilton.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
+#include "formalism/lagrange1.hpp"
 #include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 
@@ -15,6 +16,7 @@ namespace alembert {
 const std::vector<Formalism>& formalisms() {
     static const std::vector<Formalism> all{
         {"lagrange", "Lagrange's equations of the second kind", lagrange},
+        {"lagrange1", "Lagrange's equations of the first kind", lagrange1},
         {"routh", "Routh's equations with multipliers", routh},
         {"kane", "Kane's equations", kane},
         {"dalembert", "the general equation of dynamics", dalembert},

@@ -6,7 +6,9 @@
 ///     const Equations equations = kane(build(scene));
 ///
 /// A route of its own: neither T nor the gradient of V is used. ([energy] potential alone, of which no force is known,
-/// enters as −∂V/∂q.) The speeds are the rates, u = q'; constraints enter with their multipliers.
+/// enters as −∂V/∂q.) The speeds are those of the scene, or the rates (kinematics.hpp). Constraints that the speeds leave
+/// no room for are eliminated: partial velocities along them do not exist, and no multiplier appears. The others
+/// enter with their multipliers.
 
 #include "formalism/equations.hpp"
 
@@ -22,8 +24,16 @@ struct PartialVelocities {
 };
 PartialVelocities partial_velocities(const Mechanism& mechanism);
 
+/// F_r = conservative + dissipative + applied,   F*_r = inertia − Σ M_rs u'_s.
+struct KaneForces {
+    std::vector<GiNaC::symbol> u, udot;
+    GiNaC::matrix M;
+    std::vector<GiNaC::ex> inertia, conservative, dissipative, applied;
+};
+KaneForces kane_forces(const Mechanism& mechanism);
+
 /// F_r + F*_r = 0 (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapter 6). Throws ModelError for a scene without
-/// coordinates and for one with [energy] kinetic or lagrangian: its velocities are not known.
+/// coordinates, for one with [energy] kinetic or lagrangian: its velocities are not known, and as `kinematics` does.
 Equations kane(const Mechanism& mechanism);
 
 }  // namespace alembert

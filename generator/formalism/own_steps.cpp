@@ -28,15 +28,35 @@ public:
         const PartialVelocities partial = partial_velocities(m_);
         for (const PartialVelocities::Of& body : partial.bodies) {
             Section section{.words = "Partial velocities of " + body.label + ":"};
-            for (int r = 0; r < m_.size(); ++r)
+            for (int r = 0; r < e_.size(); ++r)
                 for (int k = 0; k < 3; ++k) {
-                    add_partial(section, std::string("v_") + "xyz"[k], m_.qdot[r], body.velocity[r][k]);
+                    add_partial(section, std::string("v_") + "xyz"[k], e_.u[r], body.velocity[r][k]);
                     if (!body.angular.empty())
-                        add_partial(section, std::string("w_") + "xyz"[k], m_.qdot[r], body.angular[r][k]);
+                        add_partial(section, std::string("w_") + "xyz"[k], e_.u[r], body.angular[r][k]);
                 }
             shown_.sections.push_back(std::move(section));
         }
-        works("Generalized active forces F and inertia forces F*, F + F* = 0:", "F", "F*");
+        const KaneForces forces = kane_forces(m_);
+        Section section{.words = "Generalized active forces F and inertia forces F*, F + F* = 0:"};
+        if (!e_.A.empty()) section.words = "Generalized active forces F and inertia forces F*, F + F* + A^T lambda = 0:";
+        for (int r = 0; r < e_.size(); ++r) {
+            const std::string of = e_.h.empty() ? m_.q[r].get_name() : m_.symbols->info(e_.u[r]).text();
+            GiNaC::exvector inertia{forces.inertia[r]};
+            for (int s = 0; s < e_.size(); ++s) inertia.push_back(-forces.M(r, s) * e_.udot[s]);
+            if (const auto f = normal(forces.conservative[r] + forces.dissipative[r] + forces.applied[r]))
+                section.statements.push_back({Statement::Kind::energy, "F", of, {}, readable(*f)});
+            if (const auto f = normal(GiNaC::add(std::move(inertia))))
+                section.statements.push_back({Statement::Kind::energy, "F*", of, {}, readable(*f)});
+        }
+        shown_.sections.push_back(std::move(section));
+    }
+
+    void lagrange1() {
+        Section section{.words = "Newton's law for each Cartesian coordinate, m x'' = F + A^T lambda, with the forces:"};
+        for (int i = 0; i < m_.size(); ++i)
+            if (const auto f = normal(e_.forcing(i)))
+                section.statements.push_back({Statement::Kind::force, "F", "", symbol_of(m_.q[i]), readable(*f)});
+        shown_.sections.push_back(std::move(section));
     }
 
     void dalembert() {
@@ -196,6 +216,7 @@ void show_own_steps(Derivation& shown, const Mechanism& mechanism, const Equatio
     if (!shown.definitions.empty()) return;
     Showing showing(shown, mechanism, equations);
     if (equations.formalism == "kane") showing.kane();
+    if (equations.formalism == "lagrange1") showing.lagrange1();
     if (equations.formalism == "dalembert") showing.dalembert();
     if (equations.formalism == "hamilton") showing.hamilton();
     if (equations.formalism == "routhian") showing.routhian();

@@ -52,8 +52,10 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
-        equations.row_sources.push_back(sources_of_row(m, i));
+        equations.row_sources.push_back(equations.h.empty() ? sources_of_row(m, i) : m.z->source_labels());
     }
+    for (ex& rate : equations.h)
+        if (!make_readable({&rate}, m)) return std::nullopt;
     for (std::size_t k = 0; k < equations.A.size(); ++k) {
         for (ex& entry : equations.A[k])
             if (!make_readable({&entry}, m)) return std::nullopt;
@@ -73,7 +75,7 @@ Energy readable_energy(const Mechanism& m, const Energy& energy) {
     return result;
 }
 
-int operations(const Program& program) { return program.count(program.nodes_of("acceleration")).total(); }
+int operations(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
 }  // namespace
 

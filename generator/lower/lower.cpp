@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "formalism/kinematics.hpp"
 #include "lower/interpret.hpp"
 #include "lower/solve.hpp"
 #include "symbolic/functions.hpp"
@@ -169,30 +170,84 @@ private:
     std::map<ex, int, GiNaC::ex_is_less> known_;
 };
 
-}  // namespace
-
-Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+/// Names and parameters, no nodes yet.
+Program begun(const Mechanism& m, bool fold) {
     Program program;
     program.source_labels = m.z->source_labels();
     for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent && !options.fold)
+        if (p.independent && !fold)
             program.parameters.push_back({p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
     for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
     program.name = m.name;
+    return program;
+}
+
+/// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
+void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& udot) {
+    if (e.h.empty()) return;
+    for (int k = 0; k < e.size(); ++k) {
+        lowering.define(e.u[k], program.variable({Variable::Kind::rate, k}));
+        lowering.define(e.udot[k], udot[k]);
+    }
+    const std::vector<ex> second = accelerations(m, e);
+    lowering.lower_definitions(e.h);
+    lowering.lower_definitions(second);
+    std::vector<int> first(e.h.size()), then(e.h.size());
+    for (std::size_t i = 0; i < e.h.size(); ++i) first[i] = lowering(e.h[i]);
+    for (std::size_t i = 0; i < e.h.size(); ++i) then[i] = lowering(second[i]);
+    for (std::size_t i = 0; i < e.h.size(); ++i) {
+        lowering.define(m.qdot[i], first[i]);
+        lowering.define(m.qddot[i], then[i]);
+    }
+}
+
+/// The scene's generalized speeds and their rates.
+void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e) {
+    const bool in_state = !e.h.empty();
+    std::vector<ex> values, rates;
+    for (const Mechanism::Speed& speed : m.speeds) {
+        values.push_back(in_state ? speed.u : speed.form);
+        rates.push_back(in_state ? ex(speed.udot) : m.time_derivative({speed.form})[0]);
+    }
+    lowering.lower_definitions(values);
+    lowering.lower_definitions(rates);
+    for (std::size_t k = 0; k < values.size(); ++k)
+        program.roots.push_back({"speed", m.speeds[k].u.get_name(), lowering(values[k])});
+    for (std::size_t k = 0; k < rates.size(); ++k)
+        program.roots.push_back({"speed_rate", m.speeds[k].u.get_name(), lowering(rates[k])});
+}
+
+}  // namespace
+
+Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+    Program program = begun(m, options.fold);
     program.formulation = equations.formalism;
     Lowering lowering(program, m, options.fold);
 
     const int n = equations.size();
+    const bool has_speeds = !equations.h.empty();
+    std::vector<int> udot;
+    for (int k = 0; k < n && has_speeds; ++k) {
+        const bool is_rate = m.symbols->info(equations.u[k]).kind == SymbolInfo::Kind::coordinate;
+        program.speeds.push_back({equations.u[k].get_name() + (is_rate ? "'" : ""), m.speeds.empty() ? "" : m.speeds[k].unit});
+        udot.push_back(program.variable({Variable::Kind::acceleration, k}));
+    }
+    define_rates(lowering, program, m, equations, udot);
+
     std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.jacobi};
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j <= i; ++j) wanted.push_back(equations.M(i, j));
         wanted.push_back(equations.forcing(i));
     }
+    const std::vector<int> kept = equations.kept(m);
     for (std::size_t k = 0; k < equations.A.size(); ++k) {
         wanted.insert(wanted.end(), equations.A[k].begin(), equations.A[k].end());
         wanted.push_back(equations.gamma[k]);
-        if (m.constraints[k].position) wanted.push_back(*m.constraints[k].position);
-        wanted.push_back(m.constraints[k].drift);
+    }
+    for (const Mechanism::Constraint& constraint : m.constraints) {
+        if (has_speeds) wanted.insert(wanted.end(), constraint.row.begin(), constraint.row.end());
+        if (constraint.position) wanted.push_back(*constraint.position);
+        wanted.push_back(constraint.drift);
     }
     lowering.lower_definitions(wanted);
 
@@ -219,33 +274,55 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
     }
     program.set_sources({0});
-    // [M Aᵀ; A 0] (q'', −λ) = (f, γ)
-    const int constraints = static_cast<int>(equations.A.size());
-    for (int k = 0; k < constraints; ++k) {
-        std::vector<Program::Term> velocity{{1, lowering(m.constraints[k].drift)}};
-        for (int i = 0; i < n; ++i) {
-            mass.push_back(lowering(equations.A[k][i]));
-            program.roots.push_back({"row", fmt::format("A{}_{}", k, i), mass.back()});
-            velocity.emplace_back(1, program.product(1, {{mass.back(), 1}, {lowering(m.qdot[i]), 1}}));
+    // [M Aᵀ; A 0] (u', −λ) = (f, γ)
+    std::vector<int> row_of(m.constraints.size(), -1);  // in A
+    for (std::size_t k = 0; k < kept.size(); ++k) row_of[kept[k]] = static_cast<int>(k);
+    for (std::size_t c = 0; c < m.constraints.size(); ++c) {
+        const Mechanism::Constraint& constraint = m.constraints[c];
+        std::vector<Program::Term> velocity{{1, lowering(constraint.drift)}};
+        for (int i = 0; i < m.size(); ++i) {
+            const int entry = lowering(has_speeds ? constraint.row[i] : equations.A[c][i]);
+            program.roots.push_back({"row", fmt::format("A{}_{}", c, i), entry});
+            velocity.emplace_back(1, program.product(1, {{entry, 1}, {lowering(m.qdot[i]), 1}}));
         }
-        for (int j = 0; j <= k; ++j) mass.push_back(program.number(0));
-        forcing.push_back(lowering(equations.gamma[k]));
-        program.roots.push_back({"gamma", fmt::format("gamma{}", k), forcing.back()});
-        const auto& position = m.constraints[k].position;
-        program.roots.push_back({"position", m.constraints[k].name, position ? lowering(*position) : program.number(0)});
-        program.roots.push_back({"velocity", m.constraints[k].name, program.sum(0, velocity)});
+        if (const int k = row_of[c]; k >= 0) {
+            for (int i = 0; i < n; ++i) mass.push_back(lowering(equations.A[k][i]));
+            for (int j = 0; j <= k; ++j) mass.push_back(program.number(0));
+            forcing.push_back(lowering(equations.gamma[k]));
+            program.roots.push_back({"gamma", fmt::format("gamma{}", c), forcing.back()});
+        }
+        for (int i = 0; i < n && has_speeds; ++i)
+            program.roots.push_back({"speed_row", fmt::format("B{}_{}", c, i),
+                                     row_of[c] < 0 ? program.number(0) : lowering(equations.A[row_of[c]][i])});
+        program.roots.push_back({"position", constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
+        program.roots.push_back({"velocity", constraint.name, program.sum(0, velocity)});
     }
-    if (const auto accelerations = solve_symmetric(program, mass, forcing, n)) {
-        for (int i = 0; i < n; ++i)
-            program.roots.push_back({"acceleration", fmt::format("a{}", i), (*accelerations)[i]});
-        for (int k = 0; k < constraints; ++k)
-            program.roots.push_back({"multiplier", equations.lambda[k].get_name(),
-                                     lowering.define(equations.lambda[k], program.sum(0, {{-1, (*accelerations)[n + k]}}))});
+    if (const auto solution = solve_symmetric(program, mass, forcing, n)) {
+        for (int i = 0; i < n; ++i) program.roots.push_back({"acceleration", fmt::format("a{}", i), (*solution)[i]});
+        for (std::size_t k = 0; k < kept.size(); ++k)
+            lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
+        Lowering motion(program, m, options.fold);  // with u' as solved
+        if (!equations.eliminated.empty()) {
+            define_rates(motion, program, m, equations, {solution->begin(), solution->begin() + n});
+            for (const GiNaC::symbol& lambda : equations.lambda) motion.define(lambda, lowering(lambda));
+            wanted.clear();
+            for (const Equations::Eliminated& e : equations.eliminated) wanted.push_back(e.multiplier);
+            motion.lower_definitions(wanted);
+            for (const Equations::Eliminated& e : equations.eliminated)
+                lowering.define(m.constraints[e.constraint].multiplier, motion(e.multiplier));
+        }
+        for (const Mechanism::Constraint& constraint : m.constraints)
+            program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
         // The power and outputs may name multipliers; their values are never read, as there is no motion.
         for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
     }
+    for (int i = 0; i < m.size() && has_speeds; ++i) {
+        program.roots.push_back({"rate", m.q[i].get_name(), lowering(m.qdot[i])});
+        program.roots.push_back({"second_rate", m.q[i].get_name(), lowering(m.qddot[i])});
+    }
+    add_speed_roots(lowering, program, m, equations);
     wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Part& part : *parts) wanted.push_back(part.value);
@@ -259,6 +336,35 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     program.roots.push_back({"jacobi", "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
     for (const Part& part : m.outputs) program.roots.push_back({"output", part.label, lowering(part.value)});
     for (const Part& part : m.events) program.roots.push_back({"event", part.label, lowering(part.value)});
+    return program.canonical();
+}
+
+Program lower_constraints(const Mechanism& m) {
+    Program program = begun(m, false);
+    Lowering lowering(program, m, false);
+    std::vector<ex> wanted;
+    const auto want = [&](const std::vector<ex>& row, const ex& value, const ex& drift) {
+        wanted.insert(wanted.end(), row.begin(), row.end());
+        wanted.insert(wanted.end(), {value, drift});
+    };
+    for (const Mechanism::Constraint& c : m.constraints) want(c.row, c.position.value_or(0), c.drift);
+    for (const Mechanism::Speed& s : m.speeds) want(s.row, s.form, s.drift);
+    lowering.lower_definitions(wanted);
+    const auto linear = [&](const std::vector<ex>& row, const ex& drift, const std::string& group) {
+        std::vector<Program::Term> value{{1, lowering(drift)}};
+        for (int i = 0; i < m.size(); ++i) {
+            const int entry = lowering(row[i]);
+            program.roots.push_back({group, "", entry});
+            value.emplace_back(1, program.product(1, {{entry, 1}, {lowering(m.qdot[i]), 1}}));
+        }
+        return program.sum(0, value);
+    };
+    for (const Mechanism::Constraint& c : m.constraints) {
+        program.roots.push_back({"velocity", c.name, linear(c.row, c.drift, "row")});
+        program.roots.push_back({"position", c.name, c.position ? lowering(*c.position) : program.number(0)});
+    }
+    for (const Mechanism::Speed& s : m.speeds)
+        program.roots.push_back({"speed", s.u.get_name(), linear(s.row, s.drift, "form_row")});
     return program.canonical();
 }
 

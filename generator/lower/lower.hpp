@@ -7,7 +7,10 @@
 ///     program.nodes_of("acceleration");
 ///
 /// Groups of roots: "mass" (lower triangle, row by row), "forcing", "acceleration", "kinetic", "potential",
-/// "energy", "power", "jacobi", "output", "event".
+/// "energy", "power", "jacobi", "output", "event"; of constraints "row" (A, n each), "position", "velocity", "gamma" (of those
+/// with a multiplier), "multiplier"; of a scene with speeds "speed", "speed_rate".
+/// Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u',
+/// and there are "rate" (q'), "second_rate" (q'') and "speed_row" (A in speeds; zeros for eliminated constraints).
 
 #include "formalism/equations.hpp"
 #include "lower/program.hpp"
@@ -22,6 +25,9 @@ struct LowerOptions {
 /// Throws ModelError where something cannot be lowered (a name that has no value).
 Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
               const LowerOptions& options = {});
+
+/// The constraints and the scene's speeds alone, in q and q': "row", "position", "velocity", "form_row", "speed".
+Program lower_constraints(const Mechanism& mechanism);
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.
 int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);

@@ -259,12 +259,20 @@ std::vector<int> Program::needed(std::span<const int> roots) const {
     return result;
 }
 
+std::vector<int> Program::right_hand_side() const {
+    std::vector<int> nodes = nodes_of("acceleration");
+    const std::vector<int> rates = nodes_of("rate");
+    nodes.insert(nodes.end(), rates.begin(), rates.end());
+    return nodes;
+}
+
 Program Program::shell() const {
     Program result;
     result.source_labels = source_labels;
     result.name = name;
     result.parameters = parameters;
     result.coordinates = coordinates;
+    result.speeds = speeds;
     result.formulation = formulation;
     result.singular = singular;
     return result;

@@ -109,6 +109,8 @@ public:
     /// All nodes that `roots` need, arguments first.
     std::vector<int> needed(std::span<const int> roots) const;
     std::vector<int> nodes_of(const std::string& group) const;
+    /// What a step of an integration evaluates: "acceleration", and "rate" where the speeds are not the rates.
+    std::vector<int> right_hand_side() const;
 
     /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
     Operations count(std::span<const int> roots) const;
@@ -128,6 +130,7 @@ public:
     std::vector<std::string> source_labels;
     std::string name;                                  ///< of the scene, a file's stem
     std::vector<Quantity> parameters, coordinates;     ///< what the variables' indices mean
+    std::vector<Quantity> speeds;                      ///< of the state beside the coordinates; empty: their rates
     std::string formulation;                           ///< formalism and form, for people
     bool singular = false;     ///< no state makes the mass matrix regular; the accelerations are missing
 

@@ -269,7 +269,7 @@ Program with_common_factors(const Program& old) {
     });
 }
 
-int cost(const Program& program) { return program.count(program.nodes_of("acceleration")).total(); }
+int cost(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
@@ -50,6 +51,7 @@ public:
         add_forces();
         add_impulses();
         add_energy();
+        add_speeds();
         add_constraints();
         add_outputs();
         add_run();
@@ -109,6 +111,18 @@ private:
             m_.q_is_guess.push_back(c.initial_is_guess);
             m_.qdot_is_guess.push_back(c.rate_is_guess);
         }
+        for (std::size_t i = 0; i < scene_.speeds.size(); ++i) {
+            const Speed& s = scene_.speeds[i];
+            const int index = static_cast<int>(i);
+            m_.speeds.push_back({.u = m_.symbols->declare(s.name.text, Kind::speed, index, 0),
+                                 .udot = m_.symbols->declare(s.name.text, Kind::speed, index, 1),
+                                 .form = 0,
+                                 .row = {},
+                                 .drift = 0,
+                                 .start = {},
+                                 .unit = s.unit,
+                                 .place = s.name.place});
+        }
         for (const Coordinate& c : scene_.coordinates) {
             m_.q_start.emplace_back(0);
             m_.qdot_start.emplace_back(0);
@@ -120,6 +134,11 @@ private:
     }
 
     void define() {
+        for (const Speed& s : scene_.speeds)
+            translator_.know_later(s.name.text, [this, &s] {
+                SourceScope source(*m_.z, "speed " + s.name.text);
+                return m_.z->name(translator_.scalar(s.form));
+            });
         for (const Definition& d : scene_.definitions)
             translator_.know_later(d.name.text, [this, &d] {
                 SourceScope source(*m_.z, "definition " + d.name.text);
@@ -161,6 +180,8 @@ private:
             require(c.initial, "the initial value of '" + c.name.text + "'", false);
             require(c.rate, "the initial rate of '" + c.name.text + "'", false);
         }
+        for (const Speed& s : scene_.speeds)
+            if (s.initial) require(s.initial, "the initial value of '" + s.name.text + "'", false);
         for (const Particle& p : scene_.particles) require(p.mass, "the mass of particle '" + p.name.text + "'", true);
         for (const Body& b : scene_.bodies) {
             require(b.mass, "the mass of body '" + b.name.text + "'", true);
@@ -372,6 +393,22 @@ private:
                 for (int i = 0; i < m_.size(); ++i)
                     if (m_.q[i].get_name() == f.coordinate.text)
                         m_.loads.push_back({label, false, {{m_.qdot[i], m_.z->name(translator_.scalar(f.value)), m_.q[i]}}});
+            });
+    }
+
+    // u = W q' + w
+    void add_speeds() {
+        const bool has_start = std::any_of(scene_.speeds.begin(), scene_.speeds.end(), [](const Speed& s) { return !!s.initial; });
+        for (std::size_t i = 0; i < scene_.speeds.size(); ++i)
+            attempt([&] {
+                const Speed& s = scene_.speeds[i];
+                const std::string what = "speed '" + s.name.text + "'";
+                SourceScope source(*m_.z, "speed " + s.name.text);
+                Mechanism::Speed& made = m_.speeds[i];
+                made.form = m_.z->name(translator_.scalar(s.form));
+                std::tie(made.row, made.drift) = linear_form(made.form, what, s.form.place(), m_);
+                if (all_zero(made.row)) throw SceneMistake{{s.form.place(), what + " contains no rate"}};
+                if (has_start) made.start = s.initial ? m_.z->expand(translator_.scalar(s.initial)) : ex(0);
             });
     }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "model/energy.hpp"
 #include "model/translate.hpp"
@@ -21,6 +22,22 @@ bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
 }
 
 }  // namespace
+
+std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place at, const Mechanism& m) {
+    const std::vector<ex> row = m.z->pull_back({{value, 1}}, m.qdot);
+    GiNaC::exvector rest{value};
+    for (int i = 0; i < m.size(); ++i) {
+        if (m.z->depends(row[i], m.qdot) && is_nonlinear(row[i], m))
+            throw SceneMistake{{at, fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates", what)}};
+        rest.push_back(-row[i] * m.qdot[i]);
+    }
+    const ex drift = m.z->name(GiNaC::add(std::move(rest)));
+    return {row, is_identically_zero(drift, m) ? ex(0) : drift};
+}
+
+bool all_zero(const std::vector<ex>& row) {
+    return std::all_of(row.begin(), row.end(), [](const ex& e) { return e.is_zero(); });
+}
 
 Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
     Intermediates& z = *m.z;
@@ -40,20 +57,9 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
         made.drift = m.explicit_time_derivative({value})[0];
         velocity = m.time_derivative({value})[0];
     } else {
-        made.row = z.pull_back({{value, 1}}, m.qdot);
-        GiNaC::exvector rest{value};
-        for (int i = 0; i < m.size(); ++i) {
-            if (z.depends(made.row[i], m.qdot) && is_nonlinear(made.row[i], m))
-                throw SceneMistake{{rule.at,
-                                    fmt::format("constraint '{}' is not linear in the rates; expected a sum of "
-                                                "coefficients times rates",
-                                                rule.name)}};
-            rest.push_back(-made.row[i] * m.qdot[i]);
-        }
-        made.drift = z.name(GiNaC::add(std::move(rest)));
-        if (is_identically_zero(made.drift, m)) made.drift = 0;
+        std::tie(made.row, made.drift) = linear_form(value, "constraint '" + rule.name + "'", rule.at, m);
     }
-    if (std::all_of(made.row.begin(), made.row.end(), [](const ex& e) { return e.is_zero(); }))
+    if (all_zero(made.row))
         throw SceneMistake{{rule.at, fmt::format("constraint '{}' contains no {}", rule.name,
                                                  rule.holonomic ? "coordinate" : "rate")}};
     made.acceleration = z.name(-m.time_derivative_without_acceleration({velocity})[0]);

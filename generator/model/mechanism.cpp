@@ -29,6 +29,13 @@ void append(Intermediates::Direction& direction, const std::vector<GiNaC::symbol
 
 }  // namespace
 
+std::vector<GiNaC::symbol> Mechanism::moving() const {
+    std::vector<GiNaC::symbol> symbols = q;
+    symbols.push_back(t);
+    for (const Input& input : inputs) symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
+    return symbols;
+}
+
 ex Mechanism::kinetic_energy() const { return total(kinetic, *z); }
 
 ex Mechanism::potential_energy() const { return total(potential, *z); }

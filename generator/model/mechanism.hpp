@@ -79,6 +79,17 @@ struct Mechanism {
         GiNaC::ex value;
     };
 
+    /// A generalized speed of the scene, u = row·q' + drift.
+    struct Speed {
+        GiNaC::symbol u, udot;
+        GiNaC::ex form;                       ///< in q, q', t
+        std::vector<GiNaC::ex> row;           ///< ∂form/∂q'
+        GiNaC::ex drift;
+        std::optional<GiNaC::ex> start;       ///< in parameters; nothing where the scene gives rates
+        std::string unit;
+        Place place;
+    };
+
     /// A constraint as a row: row·q' + drift = 0, and once more differentiated row·q'' = acceleration.
     struct Constraint {
         std::string name;
@@ -109,6 +120,7 @@ struct Mechanism {
     std::vector<std::string> units;            ///< of the coordinates
     std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
     std::vector<bool> q_is_guess, qdot_is_guess;  ///< may move so that the constraints hold at the start
+    std::vector<Speed> speeds;                   ///< empty: the rates
     std::vector<Part> kinetic, potential;
     std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;
@@ -130,6 +142,9 @@ struct Mechanism {
 
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
+
+    /// What changes with time, but for the rates: coordinates, t, inputs.
+    std::vector<GiNaC::symbol> moving() const;
 
     GiNaC::ex kinetic_energy() const;
     GiNaC::ex potential_energy() const;

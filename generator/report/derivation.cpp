@@ -21,6 +21,11 @@ public:
         result_.formalism = e_.formalism;
         result_.degrees_of_freedom = m_.size() - static_cast<int>(m_.constraints.size());
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
+        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
+        if (!e_.h.empty() && m_.speeds.empty()) choice();
+        for (const ex& pole : e_.poles)
+            if (const auto f = normal(pole))
+                result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
         if (!readable_equations() || !energies()) return with_definitions();
         forces();
         derivatives();
@@ -54,7 +59,29 @@ private:
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right));
         }
+        for (std::size_t i = 0; i < e_.h.size(); ++i) {
+            if (e_.h[i].is_equal(m_.qdot[i])) continue;
+            const auto rate = normal(e_.h[i]);
+            if (!rate) return false;
+            result_.kinematics.emplace_back(symbol_of(m_.qdot[i]), readable(*rate));
+        }
         return true;
+    }
+
+    /// Speeds that the program chose.
+    void choice() {
+        std::string kept, solved;
+        for (int i = 0; i < m_.size(); ++i) {
+            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(), [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
+            if (!is_free) solved += (solved.empty() ? "" : ", ") + m_.q[i].get_name() + "'";
+        }
+        for (int k = 0; k < e_.size(); ++k) {
+            kept += (kept.empty() ? "" : ", ") + m_.symbols->info(e_.u[k]).text();
+            if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
+            if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
+        }
+        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept +
+                         (result_.speeds.empty() ? "." : ", with");
     }
 
     bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
@@ -126,9 +153,10 @@ private:
 
     Derivation with_definitions() {
         const Program program = lower(m_, e_, energy_of(m_));
-        IntermediateForm form = intermediate_form(program, m_);
+        IntermediateForm form = intermediate_form(program, m_, e_);
         result_.definitions = std::move(form.definitions);
         result_.equations = std::move(form.equations);
+        result_.kinematics = std::move(form.kinematics);
         result_.kinetic = std::move(form.kinetic);
         result_.potential = std::move(form.potential);
         result_.energies.clear();

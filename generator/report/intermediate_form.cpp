@@ -16,7 +16,8 @@ constexpr int widest = 8;  // operations that may stay in one definition
 
 class Unfolding {
 public:
-    Unfolding(const Program& program, const Mechanism& mechanism) : p_(program), m_(mechanism) {
+    Unfolding(const Program& program, const Mechanism& mechanism, const Equations& equations)
+        : p_(program), m_(mechanism), e_(equations) {
         for (const GiNaC::symbol& s : m_.symbols->all())
             if (m_.z->find(s) == nullptr) taken_.insert(m_.symbols->info(s).name);
     }
@@ -61,8 +62,8 @@ private:
         switch (v.kind) {
             case Variable::Kind::time: return symbol_of(m_.t);
             case Variable::Kind::coordinate: return symbol_of(m_.q[v.index]);
-            case Variable::Kind::rate: return symbol_of(m_.qdot[v.index]);
-            case Variable::Kind::acceleration: return symbol_of(m_.qddot[v.index]);
+            case Variable::Kind::rate: return symbol_of(e_.u[v.index]);
+            case Variable::Kind::acceleration: return symbol_of(e_.udot[v.index]);
             case Variable::Kind::parameter: case Variable::Kind::unknown: break;
         }
         int position = v.index;
@@ -111,6 +112,7 @@ private:
 
     const Program& p_;
     const Mechanism& m_;
+    const Equations& e_;
     std::set<std::string> taken_;
     std::map<int, Phrase> known_;
     int count_ = 0;
@@ -118,27 +120,29 @@ private:
 
 }  // namespace
 
-IntermediateForm intermediate_form(const Program& program, const Mechanism& m) {
+IntermediateForm intermediate_form(const Program& program, const Mechanism& m, const Equations& e) {
     const std::vector<int> mass = program.nodes_of("mass"), forcing = program.nodes_of("forcing");
     const int kinetic = program.nodes_of("kinetic")[0], potential = program.nodes_of("potential")[0];
     std::vector<int> roots = mass;
     roots.insert(roots.end(), forcing.begin(), forcing.end());
-    const std::vector<int> rows = program.nodes_of("row");
+    const bool own_speeds = !program.speeds.empty();
+    const std::vector<int> rows = program.nodes_of(own_speeds ? "speed_row" : "row"), h = program.nodes_of("rate");
     roots.insert(roots.end(), rows.begin(), rows.end());
+    roots.insert(roots.end(), h.begin(), h.end());
     roots.push_back(kinetic);
     roots.push_back(potential);
-    Unfolding unfolding(program, m);
+    Unfolding unfolding(program, m, e);
     unfolding.define(roots);
 
     IntermediateForm form;
-    const int n = m.size();
+    const int n = e.size();
     for (int i = 0; i < n; ++i) {
         std::vector<Phrase> terms;
         for (int j = 0; j < n; ++j) {
             const int row = std::max(i, j), column = std::min(i, j);
             const int entry = mass[row * (row + 1) / 2 + column];
             if (program.is_zero(entry)) continue;
-            const Phrase acceleration = phrases::symbol(m.qddot[j], m.symbols->info(m.qddot[j]));
+            const Phrase acceleration = phrases::symbol(e.udot[j], m.symbols->info(e.udot[j]));
             const Node& node = program[entry];
             const bool is_one = node.is_number() && cln::equal(node.number, 1);
             terms.push_back(is_one ? acceleration : phrases::product({unfolding.of(entry), acceleration}));
@@ -153,6 +157,8 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m) {
         }
         form.equations.push_back({.lhs = phrases::sum(std::move(terms)), .rhs = phrases::number(0), .divided_by = {}});
     }
+    for (std::size_t i = 0; i < h.size(); ++i)
+        form.kinematics.emplace_back(phrases::symbol(m.qdot[i], m.symbols->info(m.qdot[i])), unfolding.of(h[i]));
     form.kinetic = unfolding.of(kinetic);
     form.potential = unfolding.of(potential);
     form.definitions = std::move(unfolding.definitions);

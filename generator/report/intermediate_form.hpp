@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "formalism/equations.hpp"
 #include "lower/program.hpp"
-#include "model/mechanism.hpp"
 #include "report/readable.hpp"
 
 namespace alembert {
@@ -21,10 +21,11 @@ namespace alembert {
 struct IntermediateForm {
     std::vector<std::pair<Phrase, Phrase>> definitions;  ///< the symbol, and what it stands for
     std::vector<ReadableEquation> equations;
+    std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h, where the speeds are not the rates
     Phrase kinetic, potential;
 };
 
 /// From the groups "mass", "forcing", "kinetic" and "potential" of `program`.
-IntermediateForm intermediate_form(const Program& program, const Mechanism& mechanism);
+IntermediateForm intermediate_form(const Program& program, const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

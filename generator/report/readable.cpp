@@ -19,11 +19,14 @@ using Kind = AtomNode::Kind;
 using Symbol = SymbolInfo::Kind;
 
 bool is_rate(const AtomNode& atom) {
-    return atom.kind == Kind::symbol && atom.info.kind == Symbol::coordinate && atom.info.order == 1;
+    if (atom.kind != Kind::symbol) return false;
+    return atom.info.order == 1 ? atom.info.kind == Symbol::coordinate : atom.info.order == 0 && atom.info.kind == Symbol::speed;
 }
 
 bool is_acceleration(const AtomNode& atom) {
-    return atom.kind == Kind::symbol && atom.info.kind == Symbol::coordinate && atom.info.order >= 2;
+    if (atom.kind != Kind::symbol) return false;
+    return atom.info.order >= (atom.info.kind == Symbol::speed ? 1 : 2) &&
+           (atom.info.kind == Symbol::coordinate || atom.info.kind == Symbol::speed);
 }
 
 bool is_opaque(const AtomNode& atom) {

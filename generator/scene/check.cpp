@@ -20,8 +20,8 @@ public:
           quantities_(names_, diagnostics) {}
 
     void check() {
-        for (const std::size_t k : follow(scene_, diagnostics_).definitions)
-            quantities_.describe(scene_.definitions[k]);
+        describe_definitions();
+        check_speeds();
         check_values();
         check_geometry();
         check_masses();
@@ -34,7 +34,7 @@ public:
     }
 
     void check_claims() {
-        for (const std::size_t k : follow(scene_, diagnostics_).definitions) quantities_.describe(scene_.definitions[k]);
+        describe_definitions();
         for (const Claim& claim : scene_.claims) check(claim);
     }
 
@@ -43,6 +43,14 @@ private:
     std::vector<Diagnostic>& diagnostics_;
     const NameSpaces names_;
     Quantities quantities_;
+
+    void describe_definitions() {
+        for (const auto& [kind, k] : follow(scene_, diagnostics_).definitions)
+            if (kind == Declared::Kind::speed)
+                quantities_.describe(scene_.speeds[k]);
+            else
+                quantities_.describe(scene_.definitions[k]);
+    }
 
     void complain(Place place, std::string message) { diagnostics_.push_back({place, std::move(message)}); }
 
@@ -60,6 +68,22 @@ private:
             quantities_.check(c.initial, initial);
             quantities_.check(c.rate, initial);
         }
+    }
+
+    void check_speeds() {
+        const Legal initial{.subject = "an initial value", .definitions = false};
+        const Speed* first = nullptr;
+        for (const Speed& speed : scene_.speeds) {
+            quantities_.check(speed.initial, initial);
+            if (!first && speed.initial) first = &speed;
+        }
+        if (!first) return;
+        for (const Coordinate& c : scene_.coordinates)
+            if (c.rate_given)
+                complain(*c.rate_given,
+                         fmt::format("the rates follow from the speeds here: {} has 'initial' (line {}); leave out "
+                                     "the rate of {}, or the initial values of the speeds",
+                                     in_quotes(first->name.text), first->name.place.line, in_quotes(c.name.text)));
     }
 
     void check_geometry() {

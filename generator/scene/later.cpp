@@ -18,16 +18,9 @@ void allow(const Table& table, const std::string& name) {
     if (name == "joint")
         table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate",
                      "child_rotate", "axis", "pitch", "coordinates", "angles", "motion"});
-    if (name != "speeds") return;
-    for (const Entry& entry : table.entries())
-        if (const toml::table* const inner = entry.node->as_table())
-            Table(table.reading(), *inner, labelled("speed", entry.key), entry.place)
-                .allow({"form", "initial", "unit", "about"});
 }
 
 void add_names(const Table& table, const std::string& section, std::vector<std::string>& names) {
-    if (section == "speeds")
-        for (const Entry& entry : table.entries()) names.push_back(entry.key);
     if (section != "joint") return;
     if (const Entry* const own = table.find("name"); own && own->node->is_string())
         names.push_back(own->node->as_string()->get());
@@ -38,13 +31,13 @@ void add_names(const Table& table, const std::string& section, std::vector<std::
 }
 
 bool is_list(std::string_view name) {
-    return name != "speeds" && name != "polynomial";
+    return name != "polynomial";
 }
 
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"speeds", "rolling", "joint", "polynomial"};
+    return {"rolling", "joint", "polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {

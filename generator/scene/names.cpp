@@ -83,6 +83,8 @@ std::string described(Kind kind) {
     switch (kind) {
         case Kind::coordinate:
             return "a coordinate";
+        case Kind::speed:
+            return "a generalized speed";
         case Kind::parameter:
             return "a parameter";
         case Kind::input:
@@ -108,6 +110,7 @@ NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
                    std::vector<Diagnostic>& diagnostics) {
     std::vector<Declaration> values, frames, points;
     add(values, scene.coordinates, Kind::coordinate);
+    add(values, scene.speeds, Kind::speed);
     add(values, scene.parameters, Kind::parameter);
     add(values, scene.inputs, Kind::input);
     add(values, scene.definitions, Kind::definition);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The three name spaces of a scene: values (coordinates, parameters, inputs, definitions), frames (and bodies),
+/// The three name spaces of a scene: values (coordinates, speeds, parameters, inputs, definitions), frames (and bodies),
 /// points (and particles and bodies' mass centres).
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace alembert {
 
 struct Declared {
-    enum class Kind { coordinate, parameter, input, definition, frame, point, particle, body, multiplier, other };
+    enum class Kind { coordinate, speed, parameter, input, definition, frame, point, particle, body, multiplier, other };
     Kind kind;
     std::size_t index;  ///< in the scene's list of its kind
     Place place;

@@ -48,6 +48,15 @@ void Quantities::describe(const Definition& definition) {
     definitions_[definition.name.text] = context.contents;
 }
 
+void Quantities::describe(const Speed& speed) {
+    if (!speed.form.tree) return;
+    const Legal form{.subject = "a generalized speed", .order = 1, .input_order = 1, .time = true};
+    unknown_.clear();
+    Context context{speed.form, form};
+    need_scalar(context, *speed.form.tree, 0);
+    definitions_[speed.name.text] = context.contents;
+}
+
 void Quantities::check(const Expression& expression, const Legal& legal) {
     if (!expression.tree) return;
     unknown_.clear();
@@ -180,6 +189,11 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
                                 fmt::format("{} may not refer to a definition: {}", context.legal.subject,
                                             in_quotes(tree.text)));
             return meet(context, tree, definitions_[tree.text], raised + tree.primes);
+        case Declared::Kind::speed: {
+            Contents contents = definitions_[tree.text];
+            contents.order = 1;
+            return meet(context, tree, contents, raised + tree.primes);
+        }
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
                 complain(context, tree, fmt::format("{} may not depend on a multiplier: {}", context.legal.subject,
@@ -201,7 +215,8 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
     const Declared* const declared =
         tree.kind == Kind::name ? NameSpaces::find(names_.values, tree.text) : nullptr;
     const std::string word = in_quotes(tree.text + std::string(static_cast<std::size_t>(tree.primes), '\''));
-    const bool indirect = declared && declared->kind == Declared::Kind::definition;
+    const bool is_speed = declared && declared->kind == Declared::Kind::speed;
+    const bool indirect = is_speed || (declared && declared->kind == Declared::Kind::definition);
     if (std::max(found.order, found.input_order) > 2)
         return complain(
             context, tree,
@@ -210,7 +225,8 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
         return complain(context, tree,
                         fmt::format("{} may depend on {} only; {} {}", legal.subject,
                                     legal.time ? "the time and parameters" : "parameters", word,
-                                    indirect   ? "contains a coordinate"
+                                    is_speed   ? "is a generalized speed"
+                                    : indirect ? "contains a coordinate"
                                     : declared ? "is a coordinate"
                                                : "depends on the coordinates"));
     if (found.time && !legal.time)

@@ -39,6 +39,8 @@ public:
 
     /// Definitions must be described in an order in which each comes after those it refers to.
     void describe(const Definition& definition);
+    /// The same of a speed, whose form is checked at once.
+    void describe(const Speed& speed);
 
     /// Tells unknown names, illegal contents, and vectors where a number is expected.
     void check(const Expression& expression, const Legal& legal);
@@ -64,7 +66,7 @@ private:
     const NameSpaces& names_;
     std::vector<Diagnostic>& diagnostics_;
     std::vector<std::string> values_, frames_, points_;  // as spelled, for "did you mean"
-    std::unordered_map<std::string, Contents> definitions_;
+    std::unordered_map<std::string, Contents> definitions_;  // and speeds
     std::unordered_set<std::string> unknown_;  // each is told once for each expression
     int suggestions_ = 0;
 

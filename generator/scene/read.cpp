@@ -39,6 +39,7 @@ constexpr Section sections[] = {
     {"parameters", false, one<read_parameters>},
     {"inputs", false, one<read_inputs>},
     {"coordinates", false, one<read_coordinates>},
+    {"speeds", false, one<read_speeds>},
     {"definitions", false, one<read_definitions>},
     {"frame", true, each<read_frame>},
     {"point", true, each<read_point>},

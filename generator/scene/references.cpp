@@ -40,6 +40,7 @@ public:
         add(scene.parameters, Kind::parameter, values_);
         add(scene.inputs, Kind::input, values_);
         add(scene.definitions, Kind::definition, values_);
+        add(scene.speeds, Kind::speed, values_);
         add(scene.frames, Kind::frame, frames_);
         add(scene.bodies, Kind::body, frames_);
         add(scene.points, Kind::point, points_);
@@ -76,6 +77,7 @@ private:
         for (const Parameter& p : scene_.parameters) look(nodes_[n++], p.value);
         for (const Input& i : scene_.inputs) look(nodes_[n++], i.value);
         for (const Definition& d : scene_.definitions) look(nodes_[n++], d.value);
+        for (const Speed& s : scene_.speeds) look(nodes_[n++], s.form);
         for (const Frame& frame : scene_.frames) {
             Node& node = nodes_[n++];
             target(node, frames_, frame.parent.text);
@@ -150,7 +152,8 @@ private:
             diagnostics.push_back(
                 {node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
                                                in_quotes(node.name->text), most_levels)});
-        if (node.kind == Kind::definition && !node.in_circle) references_.definitions.push_back(node.index);
+        if ((node.kind == Kind::definition || node.kind == Kind::speed) && !node.in_circle)
+            references_.definitions.emplace_back(node.kind, node.index);
     }
 
     void tell_circle(const std::vector<std::pair<std::size_t, std::size_t>>& path, std::size_t closing,
@@ -186,6 +189,7 @@ private:
         for (const std::size_t k : circle) kinds.insert(nodes_[k].kind);
         const std::string first = in_quotes(nodes_[circle.front()].name->text);
         if (kinds == std::set{Kind::definition}) return "definitions in a circle";
+        if (kinds == std::set{Kind::speed}) return "speeds in a circle";
         if (kinds == std::set{Kind::parameter}) return "parameters in a circle";
         if (kinds == std::set{Kind::input}) return "inputs in a circle";
         if (kinds == std::set{Kind::frame}) return "the frame " + first + " is its own ancestor";

@@ -10,8 +10,8 @@
 namespace alembert {
 
 struct References {
-    std::vector<std::size_t>
-        definitions;  ///< indices, each after those it refers to; those in circles are missing
+    /// Definitions and speeds (kind, index), each after those it refers to; those in circles are missing.
+    std::vector<std::pair<Declared::Kind, std::size_t>> definitions;
 };
 
 /// Tells circles (each once), and chains so long that they could not be followed.

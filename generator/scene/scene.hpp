@@ -46,12 +46,21 @@ struct Coordinate {
     Name name;
     Expression initial, rate;  ///< in parameters; never null after reading (missing: 0)
     bool initial_is_guess = false, rate_is_guess = false;  ///< may move so that the constraints hold at the start
+    std::optional<Place> rate_given = {};  ///< where the scene says `rate` or `rate_guess`
     std::string unit, about;
 };
 
 struct Definition {
     Name name;
     Expression value;
+};
+
+/// A generalized speed: a form in the rates, linear in them.
+struct Speed {
+    Name name;
+    Expression form;
+    Expression initial;  ///< in parameters; null where missing
+    std::string unit, about;
 };
 
 /// One simple rotation about an axis of the frame reached so far.
@@ -186,6 +195,7 @@ struct Scene {
     std::vector<Parameter> parameters;
     std::vector<Input> inputs;
     std::vector<Coordinate> coordinates;
+    std::vector<Speed> speeds;
     std::vector<Definition> definitions;
     std::vector<Frame> frames;
     std::vector<Point> points;

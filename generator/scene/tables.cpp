@@ -49,6 +49,8 @@ void read_coordinates(const Table& table, Scene& scene) {
         if (const toml::table* const inner = entry.node->as_table()) {
             const Table keys(table.reading(), *inner, what, entry.place);
             keys.allow({"initial", "rate", "guess", "rate_guess", "unit", "about"});
+            for (const std::string_view key : {"rate", "rate_guess"})
+                if (const Entry* const rate = keys.find(key)) coordinate.rate_given = rate->place;
             const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
                 is_guess = keys.has(guess);
                 if (is_guess && keys.has(key))
@@ -63,6 +65,24 @@ void read_coordinates(const Table& table, Scene& scene) {
             coordinate.initial = read_expression(table.reading(), *entry.node, what);
         }
         scene.coordinates.push_back(std::move(coordinate));
+    }
+}
+
+void read_speeds(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries()) {
+        const std::string what = labelled("speed", entry.key);
+        Speed speed{.name = {entry.key, entry.place}, .form = {}, .initial = {}, .unit = {}, .about = {}};
+        if (const toml::table* const inner = entry.node->as_table()) {
+            const Table keys(table.reading(), *inner, what, entry.place);
+            keys.allow({"form", "initial", "unit", "about"});
+            speed.form = keys.needed_expression("form");
+            speed.initial = keys.expression("initial");
+            speed.unit = keys.text("unit");
+            speed.about = keys.text("about");
+        } else {
+            speed.form = read_expression(table.reading(), *entry.node, what);
+        }
+        scene.speeds.push_back(std::move(speed));
     }
 }
 

@@ -11,6 +11,7 @@ namespace alembert {
 void read_parameters(const Table& table, Scene& scene);
 void read_inputs(const Table& table, Scene& scene);
 void read_coordinates(const Table& table, Scene& scene);
+void read_speeds(const Table& table, Scene& scene);
 void read_definitions(const Table& table, Scene& scene);
 void read_energy(const Table& table, Scene& scene);
 void read_dissipation(const Table& table, Scene& scene);

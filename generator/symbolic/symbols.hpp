@@ -20,6 +20,7 @@ struct SymbolInfo {
         parameter,
         input,       ///< a given function of time; order counts its derivatives
         coordinate,  ///< order 0: q, 1: q', 2: q''
+        speed,       ///< a generalized speed; order 0: u, 1: u'
         definition,  ///< a name of the scene's [definitions], kept as a symbol
         other,       ///< multipliers, claim unknowns, intermediate symbols
     };

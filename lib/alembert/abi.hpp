@@ -8,9 +8,9 @@
 /// one changes the other and raises `abi_version`; a test compares the two word for word.
 ///
 /// Arrays (all row-major, all doubles, SI or whatever units the scene uses throughout):
-///   state  2n       coordinates q, then rates q'
+///   state  n + s    coordinates q, then speeds u: the rates q' (s = n) unless the equations are in others
 ///   par    p + k    parameters in the scene's order, then k constants that `prepare` computes from them
-///   rate   2n       q', then q''
+///   rate   n + s    q', then u'
 ///   energy 4        T, V, E, power: kinetic and potential energy; E = T + V, or q'·∂L/∂q' − L where a
 ///                   Lagrangian is given; the power dE/dt of everything that changes E (loads outside V,
 ///                   prescribed motions)
@@ -23,6 +23,7 @@ extern "C" {
 struct alembert_solver_table {
     int abi;           ///< alembert::abi_version of the emitter
     int coordinates;   ///< n
+    int speeds;        ///< s
     int parameters;    ///< p, the numbers a caller sets
     int constants;     ///< k, the numbers `prepare` adds
     int outputs;       ///< length of what `outputs` writes
@@ -31,28 +32,30 @@ struct alembert_solver_table {
     const char* scene;        ///< title or file name of the scene
     const char* formulation;  ///< formalism and form, e.g. "lagrange, textbook form"
     const char* const* coordinate_names;
+    const char* const* speed_names;  ///< s; null where they are the rates
     const char* const* parameter_names;
     const char* const* output_names;
     const char* const* event_names;
     const double* parameter_values;  ///< the scene's own values, p of them
     void (*prepare)(double* par);
     void (*rhs)(double t, const double* state, const double* par, double* rate);
-    /// mass: n×n symmetric, forcing: n; M q'' = f + Aᵀλ.
+    /// mass: s×s symmetric, forcing: s; M u' = f + Aᵀλ.
     void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
     /// `rate` as from `rhs` at the same t and state; energy: T, V, E, power; jacobi: one number.
     void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
                    double* jacobi);
     void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
     void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
-    /// position: m, f(q,t) of holonomic constraints, 0 for others; velocity: m, A q' + b; rows: A, m×n row-major.
+    /// position: m, f(q,t) of holonomic constraints, 0 for others; velocity: m, A q' + b; rows: A, m×n row-major;
+    /// where the speeds are not the rates, then A in speeds, m×s, with zeros for constraints that u has eliminated.
     void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
                            double* rows);
-    /// λ, m of them: M q'' = f + Aᵀλ.
+    /// λ, m of them.
     void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
 }  // extern "C"
 
 namespace alembert {
-inline constexpr int abi_version = 2;
+inline constexpr int abi_version = 3;
 }

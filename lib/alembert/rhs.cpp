@@ -23,7 +23,7 @@ void rate_and_power(const void* context, double t, const double* state, double* 
     double jacobi = 0;
     table.rhs(t, state, solver.par.data(), rate);
     table.energy(t, state, rate, solver.par.data(), energy, &jacobi);
-    rate[2 * table.coordinates] = energy[3];
+    rate[table.coordinates + table.speeds] = energy[3];
 }
 
 }  // namespace
@@ -37,13 +37,14 @@ std::string Rhs::describe(int component) const {
 Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work) {
     const alembert_solver_table& table = module.table();
     const bool with_work = work == Work::integrated;
-    Rhs rhs{.dimension = 2 * table.coordinates + (with_work ? 1 : 0),
+    Rhs rhs{.dimension = table.coordinates + table.speeds + (with_work ? 1 : 0),
             .extra = with_work ? 1 : 0,
             .names = {},
             .context = std::make_shared<const Emitted>(Emitted{module, prepared(module, values)}),
             .call = with_work ? rate_and_power : rate_of};
     for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
-    for (int i = 0; i < table.coordinates; ++i) rhs.names.push_back(std::string(table.coordinate_names[i]) + "'");
+    for (int i = 0; i < table.speeds; ++i)
+        rhs.names.push_back(table.speed_names != nullptr ? table.speed_names[i] : std::string(table.coordinate_names[i]) + "'");
     if (with_work) rhs.names.emplace_back("work");
     return rhs;
 }

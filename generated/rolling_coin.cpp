@@ -1,0 +1,289 @@
+// Equations of motion of 'rolling_coin': kane, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], phi [rad], theta [rad], then spin, roll
+//   par    m [kg], r [m], g [m/s^2], beta [rad]
+//   cost   8 operations a right-hand side: 0 additions, 6 multiplications, 0 divisions, 2 functions
+//
+// M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double sin(double x) { return __builtin_sin(x); }
+inline double cos(double x) { return __builtin_cos(x); }
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &g = par[2], &beta = par[3];
+
+    // Trigonometry
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Constants
+    const Real z0 = m * r * r;
+    const Real M00 = Real(0.25) * z0;
+    const Real M11 = Real(1.5) * z0;
+    const Real k0 = m * r * g * sin_beta;
+    const Real k1 = (Real(2) / Real(3)) * Real(1) / z0;
+    const Real k2 = r * r;
+    const Real z1 = Real(1) / (k2 + Real(1));
+    const Real k3 = m * g * z1 * sin_beta;
+    const Real k4 = m * r * r * g * z1 * sin_beta;
+    const Real k5 = Real(0.5) * m * r * r * r * z1;
+    const Real k6 = m * r * r * z1;
+    const Real k7 = m * z1;
+    const Real k8 = Real(0.125) * z0;
+    const Real k9 = Real(0.5) * m;
+    const Real k10 = m * r * g * cos_beta;
+    const Real k11 = m * g * sin_beta;
+
+    // Result
+    par[4] = M00;
+    par[5] = M11;
+    par[6] = k0;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+    par[15] = k9;
+    par[16] = k10;
+    par[17] = k11;
+}
+
+/// rate = (q', u') at t and state = (q, u).
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &phi = state[2], &spin = state[4], &roll = state[5];
+    const Real &r = par[1], &M00 = par[4], &M11 = par[5], &k0 = par[6], &k1 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Kinematics q' = h(q, u, t)
+    const Real x_dot = r * roll * cos_phi;
+    const Real y_dot = r * roll * sin_phi;
+
+    // Forcing f
+    const Real f1 = k0 * cos_phi;
+
+    // Solve M u' = f with M = L D L^T
+    const Real roll_dot = k1 * f1;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = spin;
+    rate[3] = roll;
+    rate[4] = Real(0);
+    rate[5] = roll_dot;
+}
+
+/// M (s by s, row-major) and f of M u' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[2];
+    const Real &M00 = par[4], &M11 = par[5], &k0 = par[6];
+
+    // Trigonometry
+    const Real cos_phi = cos(phi);
+
+    // Forcing f
+    const Real f1 = k0 * cos_phi;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = Real(0);
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &phi = state[2], &spin = state[4], &roll = state[5];
+    const Real &r = par[1], &M00 = par[4], &k8 = par[14], &k9 = par[15], &k10 = par[16], &k11 = par[17];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Energy
+    const Real z0 = r * roll * cos_phi;
+    const Real z1 = r * roll * sin_phi;
+    const Real z2 = k9 * (z1 * z1 + z0 * z0);
+    const Real T = k8 * spin * spin + M00 * roll * roll + z2;
+    const Real V = k10 - k11 * x;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+    const Real &spin = state[4], &roll = state[5];
+
+    // Result
+    out[0] = spin;
+    out[1] = roll;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &phi = state[2], &roll = state[5];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = r * cos_phi;
+    const Real z1 = r * sin_phi;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = r * roll * cos_phi - roll * z0;
+    velocity[1] = r * roll * sin_phi - roll * z1;
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = -z0;
+    rows[4] = Real(0);
+    rows[5] = Real(1);
+    rows[6] = Real(0);
+    rows[7] = -z1;
+    rows[8] = Real(0);
+    rows[9] = Real(0);
+    rows[10] = Real(0);
+    rows[11] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &phi = state[2], &spin = state[4], &roll = state[5];
+    const Real &r = par[1], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
+    const Real &k6 = par[12], &k7 = par[13];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = k1 * k0 * cos_phi;
+    const Real z1 = r * z0 * sin_phi + r * roll * spin * cos_phi;
+    const Real z2 = k6 * z1 * sin_phi * cos_phi;
+    const Real z3 = r * z0 * cos_phi - r * roll * spin * sin_phi;
+    const Real z4 = k7 * z3 * (k2 * sin_phi * sin_phi + Real(1));
+    const Real z5 = k3 + k4 * sin_phi * sin_phi + k5 * z0 * cos_phi + z2 - z4;
+    const Real lambda_along_x = -z5;
+    const Real z6 = k6 * z3 * sin_phi * cos_phi;
+    const Real z7 = k7 * z1 * (k2 * cos_phi * cos_phi + Real(1));
+    const Real lambda_along_y = k4 * sin_phi * cos_phi - k5 * z0 * sin_phi - z6 + z7;
+
+    // Result
+    lambda[0] = lambda_along_x;
+    lambda[1] = lambda_along_y;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "phi", "theta", nullptr};
+constexpr const char* speed_names[] = { "spin", "roll", nullptr};
+constexpr const char* parameter_names[] = { "m", "r", "g", "beta", nullptr};
+constexpr const char* output_names[] = { "spin", "roll", nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.1, 0};
+
+constexpr alembert_solver_table table{
+    3, 4, 2, 4, 14, 2, 0, 2, "rolling_coin", "kane, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

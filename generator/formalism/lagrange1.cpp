@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// m r̈ = F + Σ λ ∂f/∂r  (Zhang & Qin (1-82)): M is diagonal, and nothing depends on the rates but the forces.
+#include "formalism/lagrange1.hpp"
+
+#include <fmt/format.h>
+
+#include "formalism/elements.hpp"
+#include "report/readable.hpp"
+#include "report/text.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+std::string text_of(const ex& e, const Mechanism& m) {
+    if (m.z->tree_size(e) > 300) return "…";
+    const auto f = fourier(m.z->expand(e), *m.symbols, 20);
+    return f ? text(readable(*f)) : "…";
+}
+
+/// The coordinate that `place` is, up to a constant; −1 if it does not move. Nothing if it is neither.
+std::optional<int> coordinate_of(const ex& place, const Mechanism& m) {
+    if (!m.z->depends(place, m.moving())) return -1;
+    const ex plain = m.z->expand(place);
+    for (int i = 0; i < m.size(); ++i)
+        if (!m.z->depends((plain - m.q[i]).expand(), m.moving())) return i;
+    return std::nullopt;
+}
+
+std::string advice(const MassElement& particle, const Mechanism& m) {
+    std::string position;
+    const bool planar = particle.position[2].is_zero();
+    for (int k = 0; k < (planar ? 2 : 3); ++k) position += (k == 0 ? "" : ", ") + text_of(particle.position[k], m);
+    return fmt::format("Lagrange's equations of the first kind want Cartesian coordinates: {} is at ({}); give it coordinates "
+                       "{} and put what ties them into a [[constraint]]",
+                       particle.label, position, planar ? "x, y" : "x, y, z");
+}
+
+}  // namespace
+
+Equations lagrange1(const Mechanism& m) {
+    check_masses_known(m, "Lagrange's equations of the first kind");
+    Equations equations = equations_without_terms("lagrange1", m);
+    std::vector<const MassElement*> owner(m.q.size(), nullptr);
+    for (const MassElement& particle : m.masses) {
+        const auto turns = [](const Vector3& w) { return !w[0].is_zero() || !w[1].is_zero() || !w[2].is_zero(); };
+        if (particle.rotation && turns(particle.rotation->w_NB_B))
+            throw ModelError(fmt::format("Lagrange's equations of the first kind know particles only, and {} turns; use --by routh",
+                                         particle.label));
+        for (const ex& component : particle.position) {
+            const std::optional<int> i = coordinate_of(component, m);
+            if (!i) throw ModelError(advice(particle, m));
+            if (*i < 0) continue;
+            if (owner[*i] != nullptr)
+                throw ModelError(fmt::format("Lagrange's equations of the first kind want coordinates of their own for each particle: "
+                                             "'{}' belongs to {} and to {}",
+                                             m.q[*i].get_name(), owner[*i]->label, particle.label));
+            owner[*i] = &particle;
+            equations.M(*i, *i) = particle.mass;
+        }
+    }
+    for (int i = 0; i < m.size(); ++i)
+        if (owner[i] == nullptr)
+            throw ModelError(fmt::format("Lagrange's equations of the first kind want Cartesian coordinates of particles, and '{}' is "
+                                         "none; leave it out, with a [[constraint]] in its place",
+                                         m.q[i].get_name()));
+
+    // In these coordinates a force's generalized force is the force; along an expression it acts by its gradient.
+    std::vector<GiNaC::exvector> own(m.q.size());
+    for (const PlacedForce& force : conservative_forces(m)) {
+        const std::optional<int> i = coordinate_of(force.place, m);
+        if (i && *i < 0) continue;
+        if (i) {
+            own[*i].push_back(force.force);
+            continue;
+        }
+        const std::vector<ex> gradient = m.z->pull_back({{force.place, force.force}}, m.q);
+        for (int k = 0; k < m.size(); ++k) own[k].push_back(gradient[k]);
+    }
+    const std::vector<ex> rest = potential_without_forces(m);
+    equations.dissipative = m.generalized_forces(true);
+    equations.applied = m.generalized_forces(false);
+    for (int i = 0; i < m.size(); ++i) {
+        own[i].push_back(rest[i]);
+        equations.own.push_back(m.z->name(GiNaC::add(std::move(own[i]))));
+    }
+    attach_constraints(m, equations);
+    return equations;
+}
+
+}  // namespace alembert

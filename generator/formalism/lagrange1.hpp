@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Lagrange's equations of the first kind: particles in Cartesian coordinates, constraints by multipliers.
+///
+///     const Equations equations = lagrange1(build(scene));     // m x'' = X + Σ λ ∂f/∂x …
+///
+/// Newton's law for each component of each particle; neither T nor V is used. ([energy] potential, of which no force is known,
+/// enters as −∂V/∂x.)
+
+#include "formalism/equations.hpp"
+
+namespace alembert {
+
+/// m r'' = F + Σ λ ∂f/∂r (Zhang & Qin, §1.6, (1-82)). Throws ModelError, naming what is missing, unless each coordinate is
+/// one Cartesian coordinate, up to a constant, of one particle; for bodies that turn and for [energy] kinetic.
+Equations lagrange1(const Mechanism& mechanism);
+
+}  // namespace alembert
