@@ -198,6 +198,41 @@ TEST_CASE("impact: a double pendulum whose lower hinge locks keeps its angular m
     CHECK(number(welded["reactions"]["weld"]) == doctest::Approx(number(json["reactions"]["lock"])).epsilon(1e-12));
 }
 
+// About the edge of the step: (J + m r²) ω = J v/r + m v (r − h); the classic ω = (v/r)(1 − 2h/3r).
+TEST_CASE("impact: a rolling disc caught by the edge of a step goes on at the classic rate and leaves the floor") {
+    const Json json = impact_of(R"toml(
+[parameters]
+m = 2
+r = 0.5
+h = 0.1
+v = 1
+[coordinates]
+x = { rate = "v" }
+y = { initial = "r" }
+phi = { rate = "-v/r" }
+[[body]]
+name = "disc"
+mass = "m"
+position = ["x", "y"]
+[energy]
+kinetic = "m*r^2/4*phi'^2"
+[[constraint]]
+name = "across"
+nonholonomic = "-x'*sqrt(1-(1-h/r)^2) + y'*(1-h/r)"
+[[constraint]]
+name = "along"
+nonholonomic = "x'*(1-h/r) + y'*sqrt(1-(1-h/r)^2) + r*phi'"
+[[unilateral]]
+name = "floor"
+gap = "y - r"
+)toml");
+    CHECK(json["solution"]["phi"] == "(2*h-3*r)*v/(3*r^2)");
+    CHECK(number(json["after"]["phi"]) == doctest::Approx(-2 * (1 - 2 * 0.1 / 1.5)).epsilon(1e-14));
+    CHECK(number(json["reactions"]["floor"]) == 0);
+    CHECK(json["contacts"][0]["stays_closed"] == false);
+    CHECK(number(json["energy_loss"]) == doctest::Approx(number(json["loss_in_constraints"])).epsilon(1e-14));
+}
+
 TEST_CASE("impact: a rod struck at two thirds of its length leaves its pin alone") {
     const auto struck = [](const char* h) {
         std::string text = filled(pinned_rod, {{"tau", 1}});

@@ -78,7 +78,7 @@ void print_formulas(const Impact& hit, const Mechanism& m) {
         if (hit.energy_loss) fmt::print("  T before - T after = {}\n", text(*hit.energy_loss));
         fmt::print("\n");
     }
-    if (!hit.silence.empty()) fmt::print("In numbers only: {}.\n\n", hit.silence);
+    if (!hit.silence.empty()) fmt::print("Not shown in symbols: {}.\n\n", hit.silence);
 }
 
 void print_numbers(const Impact& hit, const Mechanism& m) {
