@@ -280,6 +280,101 @@ TEST_CASE("impact: a generalized impulse is that of the forces that do its work"
     CHECK(number(by_point["work_of_impulses"]) == doctest::Approx(-number(by_point["energy_loss"])).epsilon(1e-13));
 }
 
+// A string of length l, slack no longer: gap = l − r, approached at the outward speed u, which e turns back.
+TEST_CASE("impact: a string that becomes taut takes the outward speed and leaves the one across") {
+    const Json json = impact_of(R"toml(
+[parameters]
+m = 2
+u = 3
+w = 4
+e = 0.25
+[coordinates]
+x = { initial = "5*cos(0.3)", rate = "u*cos(0.3) - w*sin(0.3)" }
+y = { initial = "5*sin(0.3)", rate = "u*sin(0.3) + w*cos(0.3)" }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[[unilateral]]
+name = "string"
+gap = "5 - sqrt(x^2+y^2)"
+restitution = "e"
+)toml");
+    const double c = std::cos(0.3), s = std::sin(0.3), vx = json["after"]["x"], vy = json["after"]["y"];
+    CHECK(c * vx + s * vy == doctest::Approx(-0.75).epsilon(1e-14));
+    CHECK(c * vy - s * vx == doctest::Approx(4).epsilon(1e-14));
+    CHECK(number(json["reactions"]["string"]) == doctest::Approx(2 * 3.75).epsilon(1e-14));
+}
+
+// x' = 2 y' stands before and after; the guess obeys it, so the constraint is not imposed but carries on.
+TEST_CASE("impact: guessed rates obey the constraints before the impact") {
+    const Json json = impact_of(R"toml(
+[parameters]
+S = 5
+[coordinates]
+x = { rate_guess = 0 }
+y = { rate = 1.5 }
+[energy]
+kinetic = "x'^2/2 + y'^2/2"
+[[constraint]]
+name = "gear"
+nonholonomic = "x' - 2*y'"
+[impulses]
+x = "S"
+)toml");
+    CHECK(number(json["before"]["x"]) == doctest::Approx(3));
+    CHECK(json["imposed"].empty());
+    CHECK(number(json["after"]["y"]) == doctest::Approx(1.5 + 2 * 5. / 5));  // (1 + 4) Δy' = 2 S
+    CHECK(number(json["loss_in_constraints"]) < 1e-14);
+}
+
+// Rates before as numbers, rates after by `eval --at`, multipliers by the impulses of the reactions.
+TEST_CASE("impact: its equations read as claims, and hold, as do those that textbook scenes carry") {
+    int held = 0;
+    const auto check = [&](const std::string& text, std::vector<std::string> claims) {
+        const Json json = impact_of(text);
+        for (const auto& equation : json["equations"]) claims.push_back(equation["text"]);
+        for (const auto& condition : json["conditions"]) claims.push_back(condition);
+        std::string read = text;
+        for (const std::string& claim : claims) read += fmt::format("[[claim]]\nequation = \"{}\"\nat = \"impact\"\n", claim);
+        CHECK(run({"impact", temporary("claims.toml", read)}).exit == 0);
+        std::string outputs = "\n[outputs]\n";
+        const auto replace = [](std::string& in, const std::string& mark, const Json& by) {
+            for (std::size_t at = in.find(mark); at != std::string::npos; at = in.find(mark))
+                in.replace(at, mark.size(), fmt::format("({:.17g})", by.get<double>()));
+        };
+        for (std::size_t k = 0; k < claims.size(); ++k) {
+            std::string claim = claims[k];
+            for (const auto& item : json["before"].items()) replace(claim, item.key() + "'(-)", item.value());
+            for (const auto& item : json["reactions"].items()) replace(claim, "lambda_" + item.key(), item.value());
+            const std::size_t equals = claim.find('=');
+            outputs += fmt::format("c{} = \"{} - ({})\"\n", k, claim.substr(0, equals), claim.substr(equals + 1));
+        }
+        std::vector<std::string> args{"eval", temporary("held.toml", text + outputs), "--json", "--at"};
+        for (const auto& item : json["after"].items()) args.push_back(fmt::format("{}'={:.17g}", item.key(), item.value().get<double>()));
+        const auto result = run(args);
+        INFO(result.err);
+        REQUIRE(result.exit == 0);
+        const Json evaluated = Json::parse(result.out)["outputs"];
+        for (const auto& item : evaluated.items()) {
+            const std::string claim = claims[static_cast<std::size_t>(std::stoi(item.key().substr(1)))];
+            CAPTURE(claim);
+            CHECK(std::abs(item.value().get<double>()) < 1e-12);
+            ++held;
+        }
+    };
+    check(filled(slanting_rod, {{"m", 2}, {"l", 0.8}, {"v", 1.5}, {"e", 0.4}, {"alpha", 0.6}}), {});
+    check(double_pendulum + lock + "[[impulse]]\nat = \"B\"\nvector = [0.3, -0.2]\n", {});
+    for (const std::string& file : alembert::test::scenes_in("scenes/textbook")) {
+        const alembert::Scene scene = alembert::read_scene(file);
+        std::vector<std::string> claims;
+        for (const alembert::Claim& claim : scene.claims)
+            if (claim.at == "impact") claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
+        if (!claims.empty()) check(scene.text, claims);
+    }
+    CHECK(held >= 12);
+}
+
 TEST_CASE("impact: where nothing is struck the rates stay, and that is said") {
     for (const std::string more : {"", "[[unilateral]]\nname = \"far\"\ngap = \"1 - theta1\"\n",
                                    "[[unilateral]]\nname = \"opening\"\ngap = \"theta1 - 0.3\"\nrestitution = 1\n"}) {
