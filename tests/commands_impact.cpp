@@ -25,6 +25,9 @@ TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, exactly as 
     CHECK(json["equations"][0]["text"] ==
           "8*m*l*theta1' + 3*m*l*theta2'*cos(theta1-theta2) - 8*m*l*theta1'(-) - 3*m*l*theta2'(-)*cos(theta1-theta2) = "
           "6*S*cos(theta1)");
+    CHECK(json["equations"][0]["latex"] ==
+          "8 m l \\dot{\\theta}_{1} + 3 m l \\dot{\\theta}_{2} \\cos(\\theta_{1} - \\theta_{2}) - 8 m l \\dot{\\theta}_{1-} "
+          "- 3 m l \\dot{\\theta}_{2-} \\cos(\\theta_{1} - \\theta_{2}) = 6 S \\cos\\theta_{1}");
     const auto person = run({"impact", source_path("scenes/textbook/struck_rods.toml")});
     CHECK(person.out.find("  theta1' = 3*S/(7*m*l)\n  theta2' = 6*S/(7*m*l)\n") != std::string::npos);
 }

@@ -36,8 +36,7 @@ struct Row {
 class Algebra {
 public:
     Algebra(Impact& impact, const Mechanism& m) : impact_(impact), m_(m), n_(static_cast<std::size_t>(m.size())) {
-        for (std::size_t i = 0; i < n_; ++i)
-            before_.push_back(m.symbols->declare(m.q[i].get_name() + "'(-)", SymbolInfo::Kind::other, static_cast<int>(i)));
+        for (const GiNaC::symbol& q : m.q) before_.push_back(m.symbols->declare_rate_before(q));
         const Equations equations = lagrange_operator(m);
         M_ = equations.M;
         impulse_ = m.generalized_impulses();
