@@ -240,3 +240,31 @@ TEST_CASE("reader: the nearest name is one that could have been meant") {
     CHECK(nearest("velocity", known).empty());
     CHECK(nearest("θ2", {"θ1"}) == "θ1");
 }
+
+TEST_CASE("reader: impulses, at points and along coordinates") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+x = 0
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", 0]
+[[frame]]
+name = "F"
+rotate = [["z", "x"]]
+[[impulse]]
+at = "P"
+vector = ["2*cos(x)", 1]
+axes = "F"
+[impulses]
+x = "3*t"
+)toml",
+                                    "scene.toml");
+    REQUIRE(scene.impulses.size() == 1);
+    CHECK(scene.impulses[0].at.text == "P");
+    CHECK(scene.impulses[0].axes.text == "F");
+    CHECK(components(scene.impulses[0].vector) == "2*cos(x) | 1 | 0");
+    REQUIRE(scene.generalized_impulses.size() == 1);
+    CHECK(scene.generalized_impulses[0].coordinate.text == "x");
+    CHECK(scene.generalized_impulses[0].value.text == "3*t");
+    CHECK(scene.forces.empty());
+}

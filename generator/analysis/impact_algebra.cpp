@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "analysis/exact_solve.hpp"
 #include "formalism/lagrange.hpp"
-#include "report/compose.hpp"
+#include "report/quotient.hpp"
+#include "symbolic/exact_solve.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {
@@ -19,7 +19,8 @@ using GiNaC::exvector;
 
 namespace {
 
-constexpr std::size_t most_unknowns = 8, most_terms = 60;
+constexpr std::size_t most_unknowns = 8;
+constexpr std::size_t most_terms = 100;  // of one equation or value; beyond, nobody reads it
 constexpr double largest_tree = 30000;
 
 /// A row of the system: a·q' + b, and what it is multiplied with.
@@ -35,8 +36,7 @@ struct Row {
 class Algebra {
 public:
     Algebra(Impact& impact, const Mechanism& m) : impact_(impact), m_(m), n_(static_cast<std::size_t>(m.size())) {
-        for (std::size_t i = 0; i < n_; ++i)
-            before_.push_back(m.symbols->declare(m.q[i].get_name() + "'(-)", SymbolInfo::Kind::other, static_cast<int>(i)));
+        for (const GiNaC::symbol& q : m.q) before_.push_back(m.symbols->declare_rate_before(q));
         const Equations equations = lagrange_operator(m);
         M_ = equations.M;
         impulse_ = m.generalized_impulses();
@@ -48,7 +48,6 @@ public:
             impact_.equations.clear();
             impact_.conditions.clear();
             impact_.silence = "the equations are beyond the readable size";
-            return;
         }
         choose_pose();
         if (!solve() && impact_.silence.empty()) impact_.silence = "the solution is beyond the readable size";
@@ -189,6 +188,11 @@ private:
     }
 
     bool solve() {
+        if (impact_.nothing_happens) {
+            for (const GiNaC::symbol& rate : before_)
+                if (const auto p = phrase(at_pose(rate))) impact_.solution.push_back(*p);
+            return true;
+        }
         if (impact_.numbers.collisions > 1) {
             impact_.silence = "several collisions follow each other in one instant; they are computed in numbers only";
             return true;
@@ -247,24 +251,8 @@ private:
         return result;
     }
 
-    /// A sum of quotients or one quotient, whichever is shorter.
     std::optional<Phrase> phrase(const ex& e) const {
-        const ex parts = lowest_terms(e).numer_denom();
-        const int sign = number(parts.op(1)) < 0 ? -1 : 1;
-        ex reciprocal = 1;
-        const ex below = GiNaC::factor(parts.op(1));
-        if (GiNaC::is_a<GiNaC::mul>(below))
-            for (std::size_t i = 0; i < below.nops(); ++i) reciprocal *= pow(below.op(i), -1);
-        else
-            reciprocal = pow(below, -1);
-        const auto whole = fourier(parts.op(0) * reciprocal, *m_.symbols, 20 * most_terms);
-        const auto n = fourier(sign * parts.op(0), *m_.symbols, 20 * most_terms), d = fourier(sign * parts.op(1), *m_.symbols, 20 * most_terms);
-        if (!whole || !n || !d || whole->size() > most_terms) return std::nullopt;
-        Phrase sum = readable(*whole);
-        if (n->size() < 2 || d->size() == 0) return sum;
-        Composer compose;
-        Phrase quotient = phrases::quotient(compose.formula(n->polynomial()), compose.formula(d->polynomial()));
-        return cost(quotient) < cost(sum) ? quotient : sum;
+        return readable_quotient(e, *m_.symbols, most_terms, [this](const ex& part) { return number(part); });
     }
 
     bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before, const exvector& conditions) {

@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "commands/pipeline.hpp"
+#include "formalism/formalisms.hpp"
 #include "report/latex.hpp"
 #include "report/text.hpp"
 
@@ -78,7 +79,7 @@ void print_formulas(const Impact& hit, const Mechanism& m) {
         if (hit.energy_loss) fmt::print("  T before - T after = {}\n", text(*hit.energy_loss));
         fmt::print("\n");
     }
-    if (!hit.silence.empty()) fmt::print("In numbers only: {}.\n\n", hit.silence);
+    if (!hit.silence.empty()) fmt::print("Not shown in symbols: {}.\n\n", hit.silence);
 }
 
 void print_numbers(const Impact& hit, const Mechanism& m) {
@@ -104,6 +105,7 @@ void print_numbers(const Impact& hit, const Mechanism& m) {
 int impact(const Request& request) {
     const Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
+    if (!request.by.empty()) formalism(request.by);  // any will do: the momenta are the same in all
     const Mechanism mechanism = build(scene);
     const Impact hit = impact(mechanism);
     if (request.json) {

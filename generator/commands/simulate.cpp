@@ -127,6 +127,9 @@ int simulate(const Request& request) {
     const Derived d = derived(request);
     if (!d.mechanism.unilateral.empty())
         throw ModelError(fmt::format("simulate does not follow [[unilateral]] '{}' yet", d.mechanism.unilateral[0].gap.name));
+    if (!d.mechanism.impulses.empty())
+        std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
+                                 request.scene);
     double clock = process_seconds();
     const auto lap = [&clock] {
         const double before = clock;

@@ -65,7 +65,8 @@ std::string symbol_latex(const SymbolInfo& info) {
     const Lettering letters = lettering(info.name);
     std::string result = latex_letters(letters.stem);
     if (info.order > 0 && info.order <= 4) result = fmt::format("\\{:d>{}}ot{{{}}}", "", info.order, result);
-    if (!letters.index.empty()) result += fmt::format("_{{{}}}", latex_letters(letters.index));
+    if (!letters.index.empty() || info.before)
+        result += fmt::format("_{{{}{}}}", latex_letters(letters.index), info.before ? "-" : "");
     if (info.order > 4) result += fmt::format("^{{({})}}", info.order);
     if (info.kind == SymbolInfo::Kind::input) result += "(t)";
     return result;

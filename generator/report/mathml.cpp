@@ -73,6 +73,7 @@ std::pair<std::string, std::string> symbol_parts(const SymbolInfo& info) {
     const bool is_number = letters.index.find_first_not_of("0123456789") == std::string::npos;
     std::string index;
     if (!letters.index.empty()) index = is_number ? element("mn", letters.index) : identifier(letters.index);
+    if (info.before) index = row(index + operation("-"));
     return {stem, index};
 }
 

@@ -14,6 +14,13 @@ GiNaC::symbol Symbols::declare(std::string name, SymbolInfo::Kind kind, int inde
     return symbol;
 }
 
+GiNaC::symbol Symbols::declare_rate_before(const GiNaC::symbol& coordinate) {
+    const SymbolInfo of = info(coordinate);
+    const GiNaC::symbol result = declare(of.name, SymbolInfo::Kind::other, of.index, 1);
+    infos_.back().before = true;
+    return result;
+}
+
 const SymbolInfo& Symbols::info(const GiNaC::symbol& symbol) const {
     const auto found = position_.find(symbol.gethash());
     if (found == position_.end()) throw std::out_of_range("symbol '" + symbol.get_name() + "' is not of this scene");

@@ -29,15 +29,18 @@ struct SymbolInfo {
     int index = 0;     ///< position among its kind
     int order = 0;     ///< number of primes
     int rank = 0;      ///< position among all symbols of the scene
+    bool before = false;  ///< x'(-), a rate before an impact; of kind `other`
 
     /// name and primes, as a user would type it.
-    std::string text() const { return name + std::string(static_cast<std::size_t>(order), '\''); }
+    std::string text() const { return name + std::string(static_cast<std::size_t>(order), '\'') + (before ? "(-)" : ""); }
 };
 
 class Symbols {
 public:
     /// Declares a new symbol. Its rank is the number of symbols declared before.
     GiNaC::symbol declare(std::string name, SymbolInfo::Kind kind, int index = 0, int order = 0);
+    /// x'(-) of the coordinate x.
+    GiNaC::symbol declare_rate_before(const GiNaC::symbol& coordinate);
 
     /// Throws std::out_of_range for a symbol that was not declared here.
     const SymbolInfo& info(const GiNaC::symbol& symbol) const;

@@ -122,8 +122,12 @@ struct Setting {
     VectorXd length;  ///< of the rows of G_free before they were given length 1
 
     Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
-        A = mass.matrixL().solve(rows.transpose()).transpose();
-        G = mass.matrixL().solve(contacts.transpose()).transpose();
+        const auto in_metric = [this](const MatrixXd& list) -> MatrixXd {
+            if (list.rows() == 0) return list;  // Eigen would solve with a null pointer
+            return mass.matrixL().solve(list.transpose()).transpose();
+        };
+        A = in_metric(rows);
+        G = in_metric(contacts);
         bilateral_size = A.rowwise().norm();
         A_unit = A;
         for (Index i = 0; i < A.rows(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/exact_solve.hpp"
+#include "symbolic/exact_solve.hpp"
 
 #include <cmath>
 
