@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+//
+// With M = L Lᵀ and x = Lᵀ q' the metric is the plain one; Â and Ĝ are the rows in it. Bilateral rows: the nearest x with
+// Â x = −b. Contacts: x moves by y with Â y = 0 and the least |y| such that Ĝ y ≥ h, a least-distance problem, solved through
+// non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ (Lawson & Hanson, Solving Least Squares
+// Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder vanishes if and only if no y exists.
+#include "alembert/impact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double rank_threshold = 1e-10;  // of rows of length 1
+constexpr double rounding = 1e-12;        // of the size of what is added up
+constexpr double rest = 1e-9;             // of the same: what counts as nothing
+constexpr double slow = rest / rounding;  // approaches that do not bounce, in grains
+constexpr int most_elastic = 1000;        // collisions in one instant; a thin wedge takes π over its angle
+constexpr int most_collisions = 2 * most_elastic;
+
+Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposed(const MatrixXd& matrix) {
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> result;
+    result.setThreshold(rank_threshold);
+    result.compute(matrix);
+    return result;
+}
+
+bool is_definite(const MatrixXd& mass) {
+    const VectorXd diagonal = mass.diagonal();
+    if (!(diagonal.minCoeff() > 0)) return false;
+    const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * mass * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().minCoeff() > 1e-13 * solver.eigenvalues().maxCoeff();
+}
+
+MatrixXd columns(const MatrixXd& E, const std::vector<Index>& chosen) {
+    MatrixXd result(E.rows(), static_cast<Index>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i) result.col(static_cast<Index>(i)) = E.col(chosen[i]);
+    return result;
+}
+
+/// min |E u − f| with u ≥ 0.
+VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
+    VectorXd u = VectorXd::Zero(E.cols());
+    std::vector<Index> passive;
+    for (Index round = 0; round < 10 * (E.cols() + 1); ++round) {
+        const VectorXd slope = E.transpose() * (f - E * u);
+        Index best = -1;
+        for (Index j = 0; j < E.cols(); ++j)
+            if (std::find(passive.begin(), passive.end(), j) == passive.end() && slope[j] > rounding * E.col(j).norm() &&
+                (best < 0 || slope[j] > slope[best]))
+                best = j;
+        if (best < 0) break;
+        passive.push_back(best);
+        while (!passive.empty()) {
+            const VectorXd wish = decomposed(columns(E, passive)).solve(f);
+            double part = 1;
+            for (std::size_t i = 0; i < passive.size(); ++i)
+                if (const double w = wish[static_cast<Index>(i)]; w <= 0)
+                    part = std::min(part, u[passive[i]] / (u[passive[i]] - w));
+            if (std::isnan(part)) part = 0;  // 0/0: it was and stays at zero
+            std::vector<Index> kept;
+            for (std::size_t i = 0; i < passive.size(); ++i) {
+                const double w = wish[static_cast<Index>(i)], moved = u[passive[i]] + part * (w - u[passive[i]]);
+                const bool stays = w > 0 || moved > rounding * std::abs(w);
+                u[passive[i]] = stays ? moved : 0;
+                if (stays) kept.push_back(passive[i]);
+            }
+            const bool done = kept.size() == passive.size();
+            passive = std::move(kept);
+            if (done) break;
+        }
+    }
+    return u;
+}
+
+/// The least |Gᵀ u| such that G Gᵀ u ≥ h, u ≥ 0, complementary; nothing where there is none. Rows of G have length 1 or 0.
+struct Push {
+    bool exists = false;
+    VectorXd u;
+};
+Push least_push(const MatrixXd& G, const VectorXd& h) {
+    Push push{.exists = true, .u = VectorXd::Zero(G.rows())};
+    const double scale = h.size() == 0 ? 0 : h.maxCoeff();
+    if (!(scale > 0)) return push;
+    MatrixXd E(G.cols() + 1, G.rows());
+    E << G.transpose(), h.transpose() / scale;
+    const VectorXd u = non_negative_least_squares(E, VectorXd::Unit(E.rows(), E.rows() - 1));
+    const double left = 1 - h.dot(u) / scale;
+    if (!(left > 1e-9)) return {};
+    push.u = u * (scale / left);
+
+    // All contacts that just touch their bound share the load; least impulses, where these push and do not pull.
+    const VectorXd y = G.transpose() * push.u, slack = G * y - h;
+    std::vector<Index> touching;
+    for (Index k = 0; k < h.size(); ++k)
+        if (push.u[k] > 0 || std::abs(slack[k]) <= rest * (std::abs(h[k]) + y.norm())) touching.push_back(k);
+    const MatrixXd active = columns(G.transpose(), touching);
+    VectorXd bounds(static_cast<Index>(touching.size()));
+    for (std::size_t i = 0; i < touching.size(); ++i) bounds[static_cast<Index>(i)] = h[touching[i]];
+    const VectorXd exact = decomposed(active.transpose()).solve(bounds);
+    const VectorXd shared = decomposed(active).solve(exact);
+    if ((active * shared - y).norm() > rest * y.norm() || shared.minCoeff() < -rounding * shared.norm()) return push;
+    push.u.setZero();
+    for (std::size_t i = 0; i < touching.size(); ++i) push.u[touching[i]] = std::max(0.0, shared[static_cast<Index>(i)]);
+    return push;
+}
+
+/// Rows in the metric of M; those of the contacts without what the bilateral ones forbid.
+struct Setting {
+    Eigen::LLT<MatrixXd> mass;
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> bilateral;
+    VectorXd bilateral_size;
+    MatrixXd A, A_unit, G, G_free;
+    VectorXd length;  ///< of the rows of G_free before they were given length 1
+
+    Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
+        A = mass.matrixL().solve(rows.transpose()).transpose();
+        G = mass.matrixL().solve(contacts.transpose()).transpose();
+        bilateral_size = A.rowwise().norm();
+        A_unit = A;
+        for (Index i = 0; i < A.rows(); ++i)
+            if (bilateral_size[i] > 0) A_unit.row(i) /= bilateral_size[i];
+        if (A.rows() > 0) bilateral = decomposed(A_unit);
+        G_free = G;
+        for (Index k = 0; k < G.rows(); ++k) G_free.row(k) -= bilateral_part(G.row(k).transpose()).transpose();
+        length = G_free.rowwise().norm();
+        for (Index k = 0; k < G.rows(); ++k) {
+            if (length[k] <= rank_threshold * G.row(k).norm()) length[k] = 0;
+            if (length[k] > 0)
+                G_free.row(k) /= length[k];
+            else
+                G_free.row(k).setZero();
+        }
+    }
+
+    /// What of a vector the bilateral rows take.
+    VectorXd bilateral_part(const VectorXd& x) const {
+        return A.rows() == 0 ? VectorXd(VectorXd::Zero(x.size())) : VectorXd(bilateral.solve(A_unit * x));
+    }
+
+    VectorXd unit_misfit(const VectorXd& misfit) const {
+        VectorXd result = misfit;
+        for (Index i = 0; i < result.size(); ++i)
+            if (bilateral_size[i] > 0) result[i] /= bilateral_size[i];
+        return result;
+    }
+};
+
+}  // namespace
+
+ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd& impulse, const MatrixXd& bilateral_rows,
+                    const VectorXd& bilateral_drift, const MatrixXd& contact_rows, const VectorXd& contact_drift,
+                    const VectorXd& restitution) {
+    const Index n = before.size(), m = bilateral_drift.size(), k = contact_drift.size();
+    assert(mass.rows() == n && mass.cols() == n && impulse.size() == n && restitution.size() == k);
+    assert(bilateral_rows.rows() == m && contact_rows.rows() == k);
+    const auto failed = [](const char* why) { return ImpactResult{.failure = why, .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}}; };
+    if (!mass.allFinite() || !before.allFinite() || !impulse.allFinite() || !bilateral_rows.allFinite() ||
+        !bilateral_drift.allFinite() || !contact_rows.allFinite() || !contact_drift.allFinite() || !restitution.allFinite())
+        return failed("a value is not finite");
+    const MatrixXd rows = m > 0 ? bilateral_rows : MatrixXd(0, n), contacts = k > 0 ? contact_rows : MatrixXd(0, n);
+
+    // M + s AᵀA moves only what the constraints fix anyhow: Λ changes by s A (q'⁺ − q'⁻), the rates do not.
+    double stiffening = 0;
+    MatrixXd M = mass;
+    if (!is_definite(M) && m > 0 && rows.squaredNorm() > 0) {
+        stiffening = (M.trace() > 0 ? M.trace() : 1) / rows.squaredNorm();
+        M += stiffening * rows.transpose() * rows;
+    }
+    if (!is_definite(M)) return failed("the mass matrix is singular");
+    const Setting s(M, rows, contacts);
+    const auto back = [&](const VectorXd& x) -> VectorXd { return s.mass.matrixU().solve(x); };
+
+    ImpactResult result{.failure = {},
+                        .after = {},
+                        .bilateral = VectorXd::Zero(m),
+                        .contact = VectorXd::Zero(k),
+                        .stays_closed = std::vector<bool>(static_cast<std::size_t>(k))};
+    const VectorXd x_before = s.mass.matrixU() * before, push = s.mass.matrixL().solve(impulse);
+    VectorXd x = x_before;
+    if (m > 0) {
+        const VectorXd misfit = s.unit_misfit(-bilateral_drift - s.A * x), step = s.bilateral.solve(misfit);
+        if ((s.A_unit * step - misfit).norm() > rest * (misfit.norm() + x.norm()))
+            return failed("the constraints contradict each other");
+        x += step;
+        const VectorXd lost = s.mass.matrixU().solve(step);
+        result.loss = lost.dot(mass * lost) / 2;
+    }
+
+    // The bilateral part of G x is the same for all x from here on; where b = 0 it is zero without rounding.
+    VectorXd drift = contact_drift;
+    if (m > 0) drift += s.G * s.bilateral.solve(s.unit_misfit(-bilateral_drift));
+    const auto speed = [&](Index i, const VectorXd& at) { return s.length[i] * s.G_free.row(i).dot(at) + drift[i]; };
+    const VectorXd x_imposed = x;
+    VectorXd next = x + push - s.bilateral_part(push);
+    const double largest = std::max(x.norm(), next.norm());
+    const auto size = [&](Index i) { return s.G.row(i).norm() * largest + std::abs(contact_drift[i]); };
+    double grain = 0;  // what rounding may be, in the unit of |x|
+    for (Index i = 0; i < k; ++i)
+        if (s.length[i] > 0) grain = std::max(grain, rounding * size(i) / s.length[i]);
+    for (bool again = true; again;) {
+        std::vector<Index> meeting;
+        VectorXd h(k), approach(k), e(k);
+        for (Index i = 0; i < k; ++i) {
+            approach[i] = speed(i, x);
+            e[i] = result.collisions < most_elastic && approach[i] < -slow * grain * s.length[i] ? restitution[i] : 0;
+            if (approach[i] > grain * s.length[i]) continue;
+            h[i] = -speed(i, next) - e[i] * approach[i];
+            if (s.length[i] > 0) {
+                h[i] /= s.length[i];
+                meeting.push_back(i);
+            } else if (h[i] > rest * size(i)) {
+                return failed("a contact closes at a speed that the constraints prescribe");
+            }
+        }
+        const MatrixXd met = columns(s.G_free.transpose(), meeting).transpose();
+        Push given = least_push(met, h(meeting));
+        if (!given.exists) {  // between two walls at rest rounding decides; give it room
+            for (const Index i : meeting) h[i] -= 2 * grain;
+            given = least_push(met, h(meeting));
+        }
+        if (!given.exists) return failed("no rates keep all contacts apart");
+        for (std::size_t j = 0; j < meeting.size(); ++j) {
+            const Index i = meeting[j];
+            const double pi = given.u[static_cast<Index>(j)] / s.length[i];
+            result.contact[i] += pi;
+            result.loss -= pi * (1 - e[i]) * std::min(0.0, approach[i]) / 2;
+            next += s.G_free.row(i).transpose() * (pi * s.length[i]);
+        }
+        x = next;
+        if (result.collisions == 0) result.work = impulse.dot(back(x_imposed + x)) / 2;
+        again = false;
+        for (Index i = 0; i < k; ++i) again = again || (s.length[i] > 0 && speed(i, x) < -4 * grain * s.length[i]);
+        result.collisions += k > 0;
+        if (again && result.collisions == most_collisions) return failed("the collisions of one instant have no end");
+    }
+    result.after = back(x);
+
+    // Λ from what the momenta lack, least norm.
+    if (m > 0) {
+        const VectorXd lacking = x - x_before - push - s.G.transpose() * result.contact;
+        result.bilateral = s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) -
+                           stiffening * (rows * (result.after - before));
+    }
+    for (Index i = 0; i < k; ++i)
+        result.stays_closed[static_cast<std::size_t>(i)] = std::abs(speed(i, x)) <= rest * size(i);
+    return result;
+}
+
+}  // namespace alembert
