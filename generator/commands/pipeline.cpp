@@ -55,6 +55,12 @@ Derived derived(const Request& request) {
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
 }
 
+Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& by) {
+    const double start = process_seconds();
+    Equations equations = equations_by(by, mechanism);
+    return {d.scene, std::move(mechanism), std::move(equations), process_seconds() - start};
+}
+
 Choice lowered(const Derived& d, const Request& request) {
     return choose(d.mechanism, d.equations, {.fold = request.fold});
 }

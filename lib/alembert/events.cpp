@@ -128,7 +128,8 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
 
 void EventWatch::record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const {
     const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
-    if (time - run_start_ > simultaneous(step)) found.push_back({.index = index, .time = time, .theta = theta});
+    if (events_.list[static_cast<std::size_t>(index)].at_once || time - run_start_ > simultaneous(step))
+        found.push_back({.index = index, .time = time, .theta = theta});
 }
 
 /// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at

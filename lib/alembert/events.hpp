@@ -30,7 +30,8 @@ namespace alembert {
 
 struct Event {
     std::string name;
-    bool stop = false;  ///< the run ends there
+    bool stop = false;     ///< the run ends there
+    bool at_once = false;  ///< counts however soon after the start: its value there is no rounding
 };
 
 struct Events {
