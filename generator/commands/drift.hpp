@@ -71,9 +71,10 @@ private:
 
     double scale(double start) const {
         const double size = std::max(std::abs(start), largest_kinetic_);
-        return size > 0 ? size : 1;
+        return size > nothing ? size : 1;
     }
 
+    static constexpr double nothing = 1e-26;  // what rounding leaves of a body at rest, squared
     int n_;
     bool with_work_, first_ = true;
     double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0;

@@ -49,6 +49,7 @@ struct Derivation {
     std::vector<Statement> derivatives;    ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
+    std::vector<std::pair<std::string, Phrase>> gaps;         ///< by name: what is not negative
 };
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);

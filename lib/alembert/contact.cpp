@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double rank_threshold = 1e-9;  // of rows of length 1
-constexpr double negligible_rate = 1e-9;
+constexpr double negligible_rate = 1e-9, rounding = 1e-13;
 
 /// Rows of length 1 (or 0), and those lengths.
 struct Unit {
@@ -95,7 +95,8 @@ Situation::Rows stacked(const Situation::Rows& a, const Situation::Rows& b) {
 VectorXd gap_rates(const Situation& here, const VectorXd& rates) { return here.contacts.rows * rates + here.contacts.drift; }
 
 VectorXd negligible_rates(const Situation& here, const VectorXd& rates) {
-    return negligible_rate * (here.contacts.rows.cwiseAbs() * rates.cwiseAbs() + here.contacts.drift.cwiseAbs());
+    const VectorXd sizes = (negligible_rate * rates.cwiseAbs()).array() + rounding;
+    return here.contacts.rows.cwiseAbs() * sizes + negligible_rate * here.contacts.drift.cwiseAbs();
 }
 
 VectorXd negligible_gaps(const Situation& here, const VectorXd& q, double tolerance) {

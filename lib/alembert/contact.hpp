@@ -51,7 +51,7 @@ bool is_carried(const Situation& here, const std::vector<int>& closed, int k);
 
 /// gap' of all contacts.
 Eigen::VectorXd gap_rates(const Situation& here, const Eigen::VectorXd& rates);
-/// Rates of gaps that count as zero: 1e-9 of the sum of the sizes of their terms.
+/// Rates of gaps that count as zero: 1e-9 of the sum of the sizes of their terms, and 1e-13 for each rate in it.
 Eigen::VectorXd negligible_rates(const Situation& here, const Eigen::VectorXd& rates);
 /// Gaps that count as closed: `tolerance` · max(1, |q|) in each coordinate.
 Eigen::VectorXd negligible_gaps(const Situation& here, const Eigen::VectorXd& q, double tolerance);

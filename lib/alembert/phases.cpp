@@ -111,10 +111,16 @@ private:
         if (count_ > 0 && motion.ending == Ending::completed) motion.times.back() = end;
         result_.ending = motion.ending;
         result_.failure = motion.failure;
+        if (count_ > 0 && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
+            result_.failure->message = fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}, with {} "
+                                                   "impacts and changes of contact; raise the budget (--budget), loosen the "
+                                                   "tolerance or shorten the duration",
+                                                   options_.budget, motion.failure->time, result_.contacts.size());
         result_.events.insert(result_.events.end(), motion.events.begin(), motion.events.end());
         t_ = motion.times.back();
         const auto last = motion.final_state();
         state_.assign(last.begin(), last.end());
+        if (ended_by >= 0 && mode.project) mode.project(t_, state_.data());  // dense output has left the constraints a little
         motion.times.shrink_to_fit();
         motion.states.shrink_to_fit();
         result_.phases.push_back({.closed = closed_, .motion = std::move(motion)});

@@ -154,9 +154,8 @@ private:
             std::vector<int> others = all;
             others.erase(std::find(others.begin(), others.end(), k));
             if (const Lasting without = lasting_contacts(here_, others)) {
-                const auto row = here_.contacts.rows.row(k);
-                const double opens = row.dot(without.acceleration) - here_.contacts.acceleration[k];
-                const double size = row.cwiseAbs().dot(without.acceleration.cwiseAbs()) + std::abs(here_.contacts.acceleration[k]);
+                const double opens = here_.contacts.rows.row(k).dot(without.acceleration) - here_.contacts.acceleration[k];
+                const double size = acceleration_scale(k, without.acceleration);
                 if (opens >= -at_.tolerance * size) {
                     take(without);
                     if (std::abs(opens) <= at_.tolerance * size && is_carried(here_, without.closed, k)) result_.resting.push_back(k);
@@ -169,6 +168,14 @@ private:
             take(lasting);
         else
             fail(all, lasting.failure);
+    }
+
+    /// The size of gap'' beside what the contacts have to hold.
+    double acceleration_scale(int k, const VectorXd& acceleration) const {
+        const Lasting free = lasting_contacts(here_, {});
+        VectorXd size = acceleration.cwiseAbs();
+        if (free) size = size.cwiseMax(free.acceleration.cwiseAbs());
+        return here_.contacts.rows.row(k).cwiseAbs().dot(size) + std::abs(here_.contacts.acceleration[k]);
     }
 
     void take(const Lasting& lasting) {
