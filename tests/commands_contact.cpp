@@ -542,7 +542,7 @@ TEST_CASE("contact: a gap that is negative at the start is a mistake of the scen
         const auto result = run({verb, temporary("deep.toml", "[coordinates]\ny = -0.25\n[[particle]]\nname = \"P\"\nmass = 1\n"
                                                               "position = [0, \"y\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n")});
         CHECK(result.exit == 3);
-        CHECK(result.err.find(":8:8: the gap of 'floor' is -0.25 at the start") != std::string::npos);
+        CHECK(result.err.find(":8:9: the gap of 'floor' is -0.25 at the start") != std::string::npos);
     }
 }
 

@@ -95,6 +95,7 @@ private:
             here.duration = end - t_;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
+            if (here.longest_step == 0) here.longest_step = options_.duration / 200;  // so that no short contact is passed over
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
         here.project = mode.project;
@@ -146,7 +147,7 @@ private:
         const Index n = here.f.size();
         const Eigen::Map<const VectorXd> q(state_.data(), n), u(state_.data() + n, n), acceleration(rate.data() + n, n);
         const VectorXd speed = gap_rates(here, u), still = negligible_rates(here, u);
-        const VectorXd slack = negligible_gaps(here, q, tolerance_), rounding = negligible_gaps(here, q, 1e-12);
+        const VectorXd sizes = negligible_gaps(here, q, 1), slack = tolerance_ * sizes;
 
         std::vector<Watch> watches(contacts_.names.size());
         std::vector<Event> list = mode.events.list;
@@ -158,10 +159,12 @@ private:
                 if (value[scene + k] <= uncertain) watch.bound = 2 * std::max(uncertain, -value[scene + k]) + std::numeric_limits<double>::min();
             } else if (value[scene + k] <= slack[k]) {
                 const double off = std::abs(value[scene + k]);
+                const double fall = here.contacts.acceleration[k] - here.contacts.rows.row(k).dot(acceleration);
+                const double rise = (2 * off + 16 * epsilon * sizes[k]) / speed[k];
                 if (speed[k] > still[k])
-                    watch.open_until = t_ + (2 * off + 1e3 * epsilon / 1e-12 * rounding[k]) / speed[k];
+                    watch.open_until = t_ + (fall > 0 ? std::min(rise, speed[k] / fall / 2) : rise);  // a quarter of the flight
                 else
-                    watch.bound = contains(resting_, k) ? std::max(10 * slack[k], 2 * off) : std::max(rounding[k], 2 * off);
+                    watch.bound = contains(resting_, k) ? std::max(10 * slack[k], 2 * off) : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
         return make_events(std::move(list), [base = mode.events, watches, scene](double t, const double* y, const double* rates, double* out) {
