@@ -112,9 +112,8 @@ bool is_carried(const Situation& here, const std::vector<int>& closed, int k) {
 
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
     const Situation::Rows contacts = selected(here.contacts, candidates);
-    const VectorXd at_rest = VectorXd::Zero(here.f.size()), hard = VectorXd::Zero(contacts.drift.size());
-    const ImpactResult result = strike(here.M, at_rest, here.f, here.bilateral.rows, -here.bilateral.acceleration,
-                                       contacts.rows, -contacts.acceleration, hard);
+    const ImpactResult result =
+        press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration, contacts.rows, -contacts.acceleration);
     Lasting lasting{.failure = result.failure, .acceleration = result.after, .closed = {}, .resting = {}};
     if (!result) return lasting;
     std::vector<double> load;

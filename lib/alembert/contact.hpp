@@ -12,8 +12,8 @@
 ///
 ///     gap'' ≥ 0,   π ≥ 0,   π·gap'' = 0      (Moreau; Glocker, Set-Valued Force Laws (2001), ch. 5)
 ///
-/// which is the law of impact (impact.hpp) for accelerations in place of rates: q'⁻ = 0, forces for impulses, e = 0. For a
-/// definite M the q'' is the only one, and it exists unless the gaps contradict each other.
+/// which is the law of impact without restitution for accelerations in place of rates (`press` of impact.hpp). For a definite
+/// M the q'' is the only one, and it exists unless the gaps contradict each other.
 
 #include <Eigen/Dense>
 #include <string>

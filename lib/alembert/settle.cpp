@@ -136,6 +136,8 @@ private:
             if (!is_low && flight > clock_grain * std::abs(at_.t)) continue;
             const double last = at_.t + (e < 1 ? all : 0), loss = still.bilateral.tail(1)[0] * (here_.contacts.drift[k] - speed / 2);
             rests_[k] = {.kind = ContactEvent::Kind::rest, .contact = k, .time = last, .speed_before = speed, .energy_loss = loss};
+            for (const int other : bounced_)  // which may come to rest with it
+                if (other != k && parts(other)) rests_.emplace(other, ContactEvent{.kind = ContactEvent::Kind::rest, .contact = other, .time = last});
             jump_to(still.after, rows, still.bilateral);
             return true;
         }
