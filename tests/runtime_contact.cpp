@@ -21,7 +21,9 @@ namespace {
 
 constexpr double g = 9.81;
 
-Situation::Rows no_rows(Index n) { return {MatrixXd(0, n), VectorXd(0), VectorXd(0), VectorXd(0)}; }
+Situation::Rows no_rows(Index n) {
+    return {MatrixXd(0, n), VectorXd(0), VectorXd(0), VectorXd(0)};
+}
 
 /// q'' of the first subset of contacts for which gap'' ≥ 0 and the reactions are ≥ 0; nothing if there is none.
 std::optional<VectorXd> by_enumeration(const Situation& s) {
@@ -57,12 +59,14 @@ struct Ball {
 
     Contacts contacts() const {
         Contacts result;
-        for (int k = 0; k < floors; ++k) result.names.push_back(fmt::format("floor {}", k)), result.restitution.push_back(e);
+        for (int k = 0; k < floors; ++k)
+            result.names.push_back(fmt::format("floor {}", k)), result.restitution.push_back(e);
         result.situation = [this](double, const double* y) {
             return Situation{.M = MatrixXd::Constant(1, 1, 2),
                              .f = VectorXd::Constant(1, -2 * g),
                              .bilateral = no_rows(1),
-                             .contacts = {MatrixXd::Ones(floors, 1), VectorXd::Constant(floors, y[0]), VectorXd::Zero(floors), VectorXd::Zero(floors)}};
+                             .contacts = {MatrixXd::Ones(floors, 1), VectorXd::Constant(floors, y[0]),
+                                          VectorXd::Zero(floors), VectorXd::Zero(floors)}};
         };
         return result;
     }
@@ -76,9 +80,10 @@ struct Ball {
             });
             std::vector<Event> list;
             for (int k = 0; k < floors; ++k) list.push_back({.name = "floor"});
-            modes[lies].events = make_events(std::move(list), [lies, this](double, const double* y, const double*, double* out) {
-                for (int k = 0; k < floors; ++k) out[k] = lies != 0 && k == 0 ? 2 * g : y[0];
-            });
+            modes[lies].events =
+                make_events(std::move(list), [lies, this](double, const double* y, const double*, double* out) {
+                    for (int k = 0; k < floors; ++k) out[k] = lies != 0 && k == 0 ? 2 * g : y[0];
+                });
         }
         return [this](const std::vector<int>& closed) -> const ContactMode& { return modes[closed.size()]; };
     }
@@ -91,15 +96,21 @@ TEST_CASE("contact: the lasting contacts are those that enumeration of all subse
     CAPTURE(seed);
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
-    const auto matrix = [&](Index rows, Index columns) -> MatrixXd { return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); }); };
+    const auto matrix = [&](Index rows, Index columns) -> MatrixXd {
+        return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+    };
     int several = 0;
     for (int i = 0; i < 300; ++i) {
         const Index n = 4, k = 1 + i % 4, m = i % 2;
         const MatrixXd root = matrix(n, n);
         const auto rows = [&](Index count) {
-            return Situation::Rows{matrix(count, n), VectorXd::Zero(count), VectorXd::Zero(count), matrix(count, 1)};
+            return Situation::Rows{matrix(count, n), VectorXd::Zero(count), VectorXd::Zero(count),
+                                   matrix(count, 1)};
         };
-        Situation s{.M = root * root.transpose() + MatrixXd::Identity(n, n) / 10, .f = 3 * matrix(n, 1), .bilateral = rows(m), .contacts = rows(k)};
+        Situation s{.M = root * root.transpose() + MatrixXd::Identity(n, n) / 10,
+                    .f = 3 * matrix(n, 1),
+                    .bilateral = rows(m),
+                    .contacts = rows(k)};
         std::vector<int> all;
         for (int c = 0; c < k; ++c) all.push_back(c);
         const std::optional<VectorXd> expected = by_enumeration(s);
@@ -109,8 +120,10 @@ TEST_CASE("contact: the lasting contacts are those that enumeration of all subse
         if (!expected) continue;
         // Condition numbers stay below 10⁵.
         CHECK((found.acceleration - *expected).norm() < 1e-9 * (1 + expected->norm()));
-        const ImpactResult pressed = press(s.M, s.f, s.bilateral.rows, -s.bilateral.acceleration, s.contacts.rows, -s.contacts.acceleration);
-        const VectorXd rest = s.M * pressed.after - s.f - s.bilateral.rows.transpose() * pressed.bilateral - s.contacts.rows.transpose() * pressed.contact;
+        const ImpactResult pressed = press(s.M, s.f, s.bilateral.rows, -s.bilateral.acceleration, s.contacts.rows,
+                                           -s.contacts.acceleration);
+        const VectorXd rest = s.M * pressed.after - s.f - s.bilateral.rows.transpose() * pressed.bilateral -
+                              s.contacts.rows.transpose() * pressed.contact;
         CHECK(rest.norm() < 1e-9 * (1 + s.f.norm() + pressed.contact.norm()));
         for (int c = 0; c < k; ++c) {
             const double gap = s.contacts.rows.row(c).dot(found.acceleration) - s.contacts.acceleration[c];
@@ -142,7 +155,8 @@ TEST_CASE("contact: of four legs no more than three carry a plate, and none pull
             CHECK((G.transpose() * load + s.f).norm() < 1e-12);
             CHECK(load.minCoeff() > -1e-12);
             for (const int k : {0, 1, 2, 3})
-                if (std::find(found.closed.begin(), found.closed.end(), k) == found.closed.end()) CHECK(is_carried(s, found.closed, k));
+                if (std::find(found.closed.begin(), found.closed.end(), k) == found.closed.end())
+                    CHECK(is_carried(s, found.closed, k));
         }
 }
 
@@ -150,14 +164,18 @@ TEST_CASE("contact: contacts that ask for contradictory accelerations have no mo
     const Situation s{.M = MatrixXd::Identity(1, 1),
                       .f = VectorXd::Zero(1),
                       .bilateral = no_rows(1),
-                      .contacts = {Eigen::Vector2d(1, -1), VectorXd::Zero(2), VectorXd::Zero(2), Eigen::Vector2d(1, 0.5)}};  // y'' ≥ 1, −y'' ≥ 1/2
+                      .contacts = {Eigen::Vector2d(1, -1), VectorXd::Zero(2), VectorXd::Zero(2),
+                                   Eigen::Vector2d(1, 0.5)}};  // y'' ≥ 1, −y'' ≥ 1/2
     CHECK_FALSE(lasting_contacts(s, {0, 1}));
     CHECK(lasting_contacts(s, {0}));
     CHECK(lasting_contacts(s, {1}));
 }
 
-// t₁ = √(2h/g), then flights of 2 t₁ eᵏ, all over at t₁ (1 + e)/(1 − e); in 2 (1 + e)/(1 − e) t₁ if thrown up with g t₁ from the floor.
-TEST_CASE("contact: bounces accumulate at the time of the geometric series, whatever the tolerance, e, or number of floors") {
+// t₁ = √(2h/g), then flights of 2 t₁ eᵏ, all over at t₁ (1 + e)/(1 − e); in 2 (1 + e)/(1 − e) t₁ if thrown up with
+// g t₁ from the floor.
+TEST_CASE(
+    "contact: bounces accumulate at the time of the geometric series, whatever the tolerance, e, or number of "
+    "floors") {
     for (const double tolerance : {1e-4, 1e-9, 1e-13, 1e-16})
         for (const double e : {0.05, 0.5, 0.9})
             for (const int floors : {1, 2}) {
@@ -167,7 +185,8 @@ TEST_CASE("contact: bounces accumulate at the time of the geometric series, what
                 Ball ball{.e = e, .floors = floors};
                 const double first = std::sqrt(2 / g), end = first * (1 + e) / (1 - e);
                 const PhasedMotion motion =
-                    follow(ball.contacts(), ball.mode_of(), {1, 0}, {.start = -1, .duration = end + 2, .tolerance = tolerance, .sample = 0.25});
+                    follow(ball.contacts(), ball.mode_of(), {1, 0},
+                           {.start = -1, .duration = end + 2, .tolerance = tolerance, .sample = 0.25});
                 REQUIRE(motion.ending == Ending::completed);
                 double t = -1 + first, flight = 2 * first * e;
                 for (const ContactEvent& event : motion.contacts) {
@@ -189,11 +208,13 @@ TEST_CASE("contact: bounces accumulate at the time of the geometric series, what
             }
 }
 
-// Each impact is placed to 4 ε t, and the speed errs by g times that; n of them shift the n-th impact by n²/2 flights of it.
+// Each impact is placed to 4 ε t, and the speed errs by g times that; n of them shift the n-th impact by n²/2
+// flights of it.
 TEST_CASE("contact: a thousand impacts without loss keep height and rhythm to what rounding of the time allows") {
     Ball ball{.e = 1};
     const double first = std::sqrt(2 / g), epsilon = 2.2e-16;
-    const PhasedMotion motion = follow(ball.contacts(), ball.mode_of(), {1, 0}, {.duration = 2000 * first, .tolerance = 1e-12});
+    const PhasedMotion motion =
+        follow(ball.contacts(), ball.mode_of(), {1, 0}, {.duration = 2000 * first, .tolerance = 1e-12});
     REQUIRE(motion.contacts.size() == 1000);
     for (std::size_t k = 0; k < 1000; ++k) {
         const double n = static_cast<double>(k) + 1, t = (2 * n - 1) * first;
@@ -211,18 +232,20 @@ TEST_CASE("contact: what lies lets go when its reaction vanishes, and rounding d
             rate[0] = y[1];
             rate[1] = lies != 0 ? 0 : t - 3;
         });
-        modes[lies].events = make_events({{.name = "floor"}}, [lies](double t, const double* y, const double*, double* out) { out[0] = lies != 0 ? 3 - t : y[0]; });
+        modes[lies].events = make_events(
+            {{.name = "floor"}},
+            [lies](double t, const double* y, const double*, double* out) { out[0] = lies != 0 ? 3 - t : y[0]; });
     }
-    const Contacts contacts{.names = {"floor"},
-                            .restitution = {0},
-                            .situation = [](double t, const double* y) {
+    const Contacts contacts{.names = {"floor"}, .restitution = {0}, .situation = [](double t, const double* y) {
                                 return Situation{.M = MatrixXd::Identity(1, 1),
                                                  .f = VectorXd::Constant(1, t - 3),
                                                  .bilateral = no_rows(1),
-                                                 .contacts = {MatrixXd::Ones(1, 1), VectorXd::Constant(1, y[0]), VectorXd::Zero(1), VectorXd::Zero(1)}};
+                                                 .contacts = {MatrixXd::Ones(1, 1), VectorXd::Constant(1, y[0]),
+                                                              VectorXd::Zero(1), VectorXd::Zero(1)}};
                             }};
-    const PhasedMotion motion =
-        follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes[closed.size()]; }, {0.5, 0}, {.duration = 6, .tolerance = 1e-12});
+    const PhasedMotion motion = follow(
+        contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes[closed.size()]; },
+        {0.5, 0}, {.duration = 6, .tolerance = 1e-12});
     REQUIRE(motion.contacts.size() == 3);  // y = 1/2 − 3 t²/2 + t³/6 = 0
     double t = 0.6;
     for (int i = 0; i < 50; ++i) t -= (0.5 - 1.5 * t * t + t * t * t / 6) / (-3 * t + t * t / 2);

@@ -306,7 +306,8 @@ int derive(const Request& request) {
     }
     if (!shown.gaps.empty()) {
         blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
-        for (const auto& [name, phrase] : shown.gaps) blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
+        for (const auto& [name, phrase] : shown.gaps)
+            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)

@@ -33,7 +33,7 @@ struct LoadedMode {
 class Modes {
 public:
     /// What it is given must outlive it; `start` is assembled. `on_step` is told the mode of each step.
-    using OnModeStep = std::function<void(const LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
+    using OnModeStep = std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
     Modes(const Request& request, const Derived& derived, const Start& start, Work work, OnModeStep on_step);
 
     /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what the

@@ -158,11 +158,11 @@ int simulate(const Request& request) {
     Account account{.drift = Drift(n, work), .seconds = {.derive = d.seconds, .emit = process_seconds() - begin, .compile = 0}};
     Progress progress("integrating");
     Modes modes(request, d, start, work ? Work::integrated : Work::left_out,
-                [&](const LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
+                [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                     account.drift(mode.module.table(), mode.par, t, state, rate);
                     if (mode.contact.project)
                         account.constraint_drift =
-                            std::max(account.constraint_drift, const_cast<Projection&>(mode.projection).residual(t, state.data()));
+                            std::max(account.constraint_drift, mode.projection.residual(t, state.data()));
                     progress.at((t - options.start) / options.duration);
                 });
     modes.take_free(std::move(program));

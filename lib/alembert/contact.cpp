@@ -92,7 +92,9 @@ Situation::Rows stacked(const Situation::Rows& a, const Situation::Rows& b) {
     return result;
 }
 
-VectorXd gap_rates(const Situation& here, const VectorXd& rates) { return here.contacts.rows * rates + here.contacts.drift; }
+VectorXd gap_rates(const Situation& here, const VectorXd& rates) {
+    return here.contacts.rows * rates + here.contacts.drift;
+}
 
 VectorXd negligible_rates(const Situation& here, const VectorXd& rates) {
     const VectorXd sizes = (negligible_rate * rates.cwiseAbs()).array() + rounding;
@@ -112,8 +114,8 @@ bool is_carried(const Situation& here, const std::vector<int>& closed, int k) {
 
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
     const Situation::Rows contacts = selected(here.contacts, candidates);
-    const ImpactResult result =
-        press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration, contacts.rows, -contacts.acceleration);
+    const ImpactResult result = press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration,
+                                      contacts.rows, -contacts.acceleration);
     Lasting lasting{.failure = result.failure, .acceleration = result.after, .closed = {}, .resting = {}};
     if (!result) return lasting;
     std::vector<double> load;
@@ -127,7 +129,8 @@ Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidat
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         if (!result.stays_closed[i]) continue;
         lasting.resting.push_back(candidates[i]);
-        const bool is_in = std::find(lasting.closed.begin(), lasting.closed.end(), candidates[i]) != lasting.closed.end();
+        const bool is_in =
+            std::find(lasting.closed.begin(), lasting.closed.end(), candidates[i]) != lasting.closed.end();
         if (!is_in && !is_carried(here, lasting.closed, candidates[i])) lasting.closed.push_back(candidates[i]);
     }
     std::sort(lasting.closed.begin(), lasting.closed.end());

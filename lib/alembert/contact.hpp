@@ -8,12 +8,13 @@
 ///     mode.closed;          // {0, 1}: constraints of the motion that follows
 ///     mode.acceleration;    // its q''
 ///
-/// With M q'' = f + Aᵀλ + Gᵀπ, A q'' = γ and gap'' = G q'' − δ, contacts that are closed and do not move apart obey
+/// With M q'' = f + Aᵀλ + Gᵀπ, A q'' = γ and gap'' = G q'' − δ, contacts that are closed and do not move apart
+/// obey
 ///
 ///     gap'' ≥ 0,   π ≥ 0,   π·gap'' = 0      (Moreau; Glocker, Set-Valued Force Laws (2001), ch. 5)
 ///
-/// which is the law of impact without restitution for accelerations in place of rates (`press` of impact.hpp). For a definite
-/// M the q'' is the only one, and it exists unless the gaps contradict each other.
+/// which is the law of impact without restitution for accelerations in place of rates (`press` of impact.hpp). For
+/// a definite M the q'' is the only one, and it exists unless the gaps contradict each other.
 
 #include <Eigen/Dense>
 #include <string>
@@ -24,10 +25,10 @@ namespace alembert {
 /// Everything about contacts that the state at one instant determines.
 struct Situation {
     struct Rows {
-        Eigen::MatrixXd rows;         ///< of q'
-        Eigen::VectorXd value;        ///< f(q,t), the gap; 0 for nonholonomic rows
-        Eigen::VectorXd drift;        ///< value' = rows·q' + drift
-        Eigen::VectorXd acceleration; ///< value'' = rows·q'' − acceleration
+        Eigen::MatrixXd rows;          ///< of q'
+        Eigen::VectorXd value;         ///< f(q,t), the gap; 0 for nonholonomic rows
+        Eigen::VectorXd drift;         ///< value' = rows·q' + drift
+        Eigen::VectorXd acceleration;  ///< value'' = rows·q'' − acceleration
     };
     Eigen::MatrixXd M;
     Eigen::VectorXd f;
@@ -42,8 +43,8 @@ struct Lasting {
     explicit operator bool() const { return failure.empty(); }
 };
 
-/// `candidates`: closed contacts with gap' = 0, ascending. Redundant contacts (the fourth leg of a table) share the load
-/// in any way; here as few as possible carry it, each without pulling (Carathéodory).
+/// `candidates`: closed contacts with gap' = 0, ascending. Redundant contacts (the fourth leg of a table) share
+/// the load in any way; here as few as possible carry it, each without pulling (Carathéodory).
 Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates);
 
 /// Does contact k have no acceleration of its own where the bilateral rows and the contacts in `closed` hold?

@@ -83,7 +83,9 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     const std::vector<double> value_before = last_;
     const std::vector<int> sign_before = sign_;
     std::vector<Crossing> found = scan(step);
-    const bool stops = std::any_of(found.begin(), found.end(), [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
+    const bool stops = std::any_of(found.begin(), found.end(), [&](const Crossing& c) {
+        return events_.list[static_cast<std::size_t>(c.index)].stop;
+    });
     for (int round = 0; stops && round < most_rounds; ++round) {
         last_ = value_before;
         sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
@@ -94,14 +96,17 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
 
 /// What there is before the first crossing that stops; true if that has become another.
 bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
-    const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
+    const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) {
+        return events_.list[static_cast<std::size_t>(c.index)].stop;
+    });
     const Crossing first = *stop;
     if (first.theta <= 0) return false;
-    Stretch part{.start = step.start,
-                 .end = first.time,
-                 .end_state = nullptr,
-                 .end_rate = nullptr,
-                 .interpolate = [&](double theta, double* state) { step.interpolate(theta * first.theta, state); }};
+    Stretch part{
+        .start = step.start,
+        .end = first.time,
+        .end_state = nullptr,
+        .end_rate = nullptr,
+        .interpolate = [&](double theta, double* state) { step.interpolate(theta * first.theta, state); }};
     std::vector<double> end_state(state_.size()), end_rate(state_.size());
     part.interpolate(1, end_state.data());
     rhs_(part.end, end_state.data(), end_rate.data());
@@ -118,7 +123,8 @@ bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
     if (earlier.empty()) return false;
     found.insert(found.begin(), earlier.begin(), earlier.end());
     order(found, step);
-    return std::any_of(earlier.begin(), earlier.end(), [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
+    return std::any_of(earlier.begin(), earlier.end(),
+                       [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
 }
 
 std::vector<Crossing> EventWatch::scan(const Stretch& step) {

@@ -20,12 +20,14 @@ constexpr double finest = 1e-13;  // tolerance that rounding allows
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_events_at_once = 100;
 
-bool contains(const std::vector<int>& list, int k) { return std::find(list.begin(), list.end(), k) != list.end(); }
+bool contains(const std::vector<int>& list, int k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+}
 
 /// How one contact is watched in a phase.
 struct Watch {
-    double bound = 0;                ///< the event is where the value comes down to −bound
-    double open_until = -HUGE_VAL;   ///< before, the gap is open, whatever rounding says
+    double bound = 0;               ///< the event is where the value comes down to −bound
+    double open_until = -HUGE_VAL;  ///< before, the gap is open, whatever rounding says
 };
 
 /// The size of a reaction beside the other forces of the system.
@@ -40,7 +42,8 @@ double reaction_scale(const Situation& here, const VectorXd& acceleration, int k
 
 class Following {
 public:
-    Following(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial, const Options& options)
+    Following(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
+              const Options& options)
         : contacts_(contacts),
           modes_(modes),
           options_(options),
@@ -70,12 +73,20 @@ private:
     bool is_first() const { return result_.phases.empty(); }
 
     void settle_into(const std::vector<int>& touched, const std::optional<int>& released) {
-        Settled settled = settle(
-            contacts_,
-            {.t = t_, .tolerance = tolerance_, .closed = closed_, .resting = resting_, .touched = touched, .released = released}, state_);
+        Settled settled = settle(contacts_,
+                                 {.t = t_,
+                                  .tolerance = tolerance_,
+                                  .closed = closed_,
+                                  .resting = resting_,
+                                  .touched = touched,
+                                  .released = released},
+                                 state_);
         for (const ContactEvent& event : settled.events) {
-            const auto struck = [&](const ContactEvent& e) { return e.kind == ContactEvent::Kind::impact && e.contact == event.contact; };
-            if (is_first() && event.kind == ContactEvent::Kind::rest && std::none_of(settled.events.begin(), settled.events.end(), struck))
+            const auto struck = [&](const ContactEvent& e) {
+                return e.kind == ContactEvent::Kind::impact && e.contact == event.contact;
+            };
+            if (is_first() && event.kind == ContactEvent::Kind::rest &&
+                std::none_of(settled.events.begin(), settled.events.end(), struck))
                 continue;  // it has been lying
             result_.contacts.push_back(event);
         }
@@ -95,7 +106,8 @@ private:
             here.duration = end - t_;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
-            if (here.longest_step == 0) here.longest_step = options_.duration / 200;  // so that no short contact is passed over
+            if (here.longest_step == 0)
+                here.longest_step = options_.duration / 200;  // so that no short contact is passed over
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
         here.project = mode.project;
@@ -113,15 +125,17 @@ private:
         result_.ending = motion.ending;
         result_.failure = motion.failure;
         if (count_ > 0 && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
-            result_.failure->message = fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}, with {} "
-                                                   "impacts and changes of contact; raise the budget (--budget), loosen the "
-                                                   "tolerance or shorten the duration",
-                                                   options_.budget, motion.failure->time, result_.contacts.size());
+            result_.failure->message = fmt::format(
+                "{} right-hand sides were not enough to come further than t = {:.17g}, with {} "
+                "impacts and changes of contact; raise the budget (--budget), loosen the "
+                "tolerance or shorten the duration",
+                options_.budget, motion.failure->time, result_.contacts.size());
         result_.events.insert(result_.events.end(), motion.events.begin(), motion.events.end());
         t_ = motion.times.back();
         const auto last = motion.final_state();
         state_.assign(last.begin(), last.end());
-        if (ended_by >= 0 && mode.project) mode.project(t_, state_.data());  // dense output has left the constraints a little
+        if (ended_by >= 0 && mode.project)
+            mode.project(t_, state_.data());  // dense output has left the constraints a little
         motion.times.shrink_to_fit();
         motion.states.shrink_to_fit();
         result_.phases.push_back({.closed = closed_, .motion = std::move(motion)});
@@ -145,7 +159,8 @@ private:
         mode.events(t_, state_.data(), rate.data(), value.data());
         const Situation here = contacts_.situation(t_, state_.data());
         const Index n = here.f.size();
-        const Eigen::Map<const VectorXd> q(state_.data(), n), u(state_.data() + n, n), acceleration(rate.data() + n, n);
+        const Eigen::Map<const VectorXd> q(state_.data(), n), u(state_.data() + n, n),
+            acceleration(rate.data() + n, n);
         const VectorXd speed = gap_rates(here, u), still = negligible_rates(here, u);
         const VectorXd sizes = negligible_gaps(here, q, 1), slack = tolerance_ * sizes;
 
@@ -156,18 +171,22 @@ private:
             Watch& watch = watches[k];
             if (contains(closed_, k)) {
                 const double uncertain = 10 * tolerance_ * reaction_scale(here, acceleration, k);
-                if (value[scene + k] <= uncertain) watch.bound = 2 * std::max(uncertain, -value[scene + k]) + std::numeric_limits<double>::min();
+                if (value[scene + k] <= uncertain)
+                    watch.bound = 2 * std::max(uncertain, -value[scene + k]) + std::numeric_limits<double>::min();
             } else if (value[scene + k] <= slack[k]) {
                 const double off = std::abs(value[scene + k]);
                 const double fall = here.contacts.acceleration[k] - here.contacts.rows.row(k).dot(acceleration);
                 const double rise = (2 * off + 16 * epsilon * sizes[k]) / speed[k];
                 if (speed[k] > still[k])
-                    watch.open_until = t_ + (fall > 0 ? std::min(rise, speed[k] / fall / 2) : rise);  // a quarter of the flight
+                    watch.open_until =
+                        t_ + (fall > 0 ? std::min(rise, speed[k] / fall / 2) : rise);  // a quarter of the flight
                 else
-                    watch.bound = contains(resting_, k) ? std::max(10 * slack[k], 2 * off) : std::max(1e-12 * sizes[k], 2 * off);
+                    watch.bound = contains(resting_, k) ? std::max(10 * slack[k], 2 * off)
+                                                        : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
-        return make_events(std::move(list), [base = mode.events, watches, scene](double t, const double* y, const double* rates, double* out) {
+        return make_events(std::move(list), [base = mode.events, watches, scene](
+                                                double t, const double* y, const double* rates, double* out) {
             base(t, y, rates, out);
             for (std::size_t k = 0; k < watches.size(); ++k) {
                 double& g = out[scene + k];
@@ -182,14 +201,17 @@ private:
         events_at_once_ = t_ - last_event_ > 1e-12 * std::abs(t_) ? 0 : events_at_once_ + 1;
         last_event_ = t_;
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
-        fail(fmt::format("no contact mode is consistent at t = {:.17g}: contact '{}' and others open and close without the time "
-                         "moving on; loosen the tolerance, or look at the gaps there",
-                         t_, contacts_.names[k]));
+        fail(
+            fmt::format("no contact mode is consistent at t = {:.17g}: contact '{}' and others open and close "
+                        "without the time "
+                        "moving on; loosen the tolerance, or look at the gaps there",
+                        t_, contacts_.names[k]));
         return true;
     }
 
     void fail(const std::string& message) {
-        result_.failure = Failure{.kind = FailureKind::no_contact_mode, .message = message, .time = t_, .state = state_};
+        result_.failure =
+            Failure{.kind = FailureKind::no_contact_mode, .message = message, .time = t_, .state = state_};
     }
 
     Trajectory one_row() const {
@@ -215,7 +237,8 @@ private:
 
 }  // namespace
 
-PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial, const Options& options) {
+PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
+                    const Options& options) {
     return Following(contacts, modes, std::move(initial), options).go();
 }
 

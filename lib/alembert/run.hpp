@@ -50,7 +50,8 @@ public:
             result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
         result_.states.reserve(result_.times.capacity() * initial.size());
         if (options.grid && options.duration > 0)
-            rows_on_grid_ += static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
+            rows_on_grid_ +=
+                static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
     }
 
     Trajectory go() && {
