@@ -134,8 +134,12 @@ struct Setting {
     VectorXd length;  ///< of the rows of G_free before they were given length 1
 
     Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
-        A = mass.matrixL().solve(rows.transpose()).transpose();
-        G = mass.matrixL().solve(contacts.transpose()).transpose();
+        const auto in_metric = [this](const MatrixXd& given) -> MatrixXd {
+            if (given.rows() == 0) return given;
+            return mass.matrixL().solve(given.transpose()).transpose();
+        };
+        A = in_metric(rows);
+        G = in_metric(contacts);
         bilateral_size = A.rowwise().norm();
         A_unit = A;
         for (Index i = 0; i < A.rows(); ++i)

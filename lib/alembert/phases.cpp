@@ -53,6 +53,7 @@ public:
           state_(std::move(initial)) {}
 
     PhasedMotion go() {
+        result_.statistics.method = name(options_.method);
         if (count_ > 0) settle_into({}, {});
         while (!result_.failure) {
             const int ended_by = run_phase();

@@ -10,15 +10,13 @@
 /// In this order:
 ///  - positions move to where the gaps of contacts that touch are zero (the least change in the metric of M);
 ///  - what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take part);
-///  - what bounces so low that the bounces still to come displace no coordinate by more than tolerance · max(1,
-///  |q|) is
-///    taken to lie. With speed v after the impact and gap'' = −a they take (2v/a)/(1 − e) in all, a geometric sum:
-///    this is the time told for `rest`. The speed is taken away along M⁻¹Gᵀ at once, which leaves the momenta that
-///    the bounces would leave, Π = v(1 + e)/(1 − e)/(G M⁻¹Gᵀ) being what they add to the reaction of the contact
-///    at rest;
+///  - what bounces too low is laid down: where the bounces still to come displace no coordinate by more than
+///    tolerance · max(1, |q|). With speed v after the impact and gap'' = −a they take (2v/a)/(1 − e) in all, a
+///    geometric sum: this is the time told for `rest`. The speed is taken away along M⁻¹Gᵀ at once, which leaves
+///    the momenta that the bounces would leave: they add Π = v (1 + e)/(1 − e)/(G M⁻¹Gᵀ) in that time, and the
+///    contact at rest adds 2v/(1 − e)/(G M⁻¹Gᵀ), more by what is taken;
 ///  - the contacts that last are those of contact.hpp; one whose reaction has come down to zero is let go if that
-///  is
-///    consistent.
+///    is consistent.
 
 #include <functional>
 #include <optional>
