@@ -208,6 +208,18 @@ TEST_CASE(
             }
 }
 
+TEST_CASE("contact: a run that ends among the last bounces says nothing of a rest to come") {
+    Ball ball{.e = 0.5};
+    const double end = 3 * std::sqrt(2 / g);
+    for (const double left : {1e-3, 1e-6}) {
+        const PhasedMotion motion =
+            follow(ball.contacts(), ball.mode_of(), {1, 0}, {.duration = end - left, .tolerance = 1e-6});
+        CHECK(motion.final_time() == end - left);
+        for (const ContactEvent& event : motion.contacts) CHECK(event.time <= end - left);
+        CHECK(std::abs(motion.final_state()[0]) <= g * left * left + 1e-6);
+    }
+}
+
 // Each impact is placed to 4 ε t, and the speed errs by g times that; n of them shift the n-th impact by n²/2
 // flights of it.
 TEST_CASE("contact: a thousand impacts without loss keep height and rhythm to what rounding of the time allows") {

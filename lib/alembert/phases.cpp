@@ -67,6 +67,10 @@ public:
             result_.ending = Ending::failed;
             if (result_.phases.empty()) result_.phases.push_back({.closed = {}, .motion = one_row()});
         }
+        // Bounces laid down before their time end after what came next, or after the run.
+        std::erase_if(result_.contacts, [&](const ContactEvent& e) { return e.time > result_.final_time(); });
+        std::stable_sort(result_.contacts.begin(), result_.contacts.end(),
+                         [](const ContactEvent& a, const ContactEvent& b) { return a.time < b.time; });
         return std::move(result_);
     }
 
