@@ -160,3 +160,17 @@ TEST_CASE("events: a pole is none, and neither is the edge of what is defined") 
     CHECK(motion.events[0].name == "edge");
     CHECK(std::abs(motion.events[0].time - 5) < 1e-11);
 }
+
+// A particle flies through a thin disc, then through a wall that ends the run; one step goes far beyond both.
+TEST_CASE("events: in a step that goes far beyond an event that stops, an earlier one is not passed over") {
+    const Trajectory motion = integrate(
+        stopwatch(), {0}, {.duration = 100, .step = 100},
+        make_events({{.name = "wall", .stop = true}, {.name = "disc", .stop = true}},
+                    [](double, const double* y, const double*, double* out) {
+                        out[0] = 1 - y[0];
+                        out[1] = std::abs(y[0] - 0.48) - 0.1;
+                    }));
+    REQUIRE(motion.events.size() == 1);
+    CHECK(motion.events[0].name == "disc");
+    CHECK(std::abs(motion.times.back() - 0.38) < 1e-11);
+}

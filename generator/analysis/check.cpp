@@ -81,7 +81,10 @@ int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) { return 
 class Checker {
 public:
     Checker(const Scene& scene, const Mechanism& m, const Equations& e)
-        : scene_(scene), m_(m), e_(e), claims_(scene, m, e) {}
+        : scene_(scene), m_(m), e_(e), pressed_(e), claims_(scene, m, e) {
+        for (const Mechanism::Unilateral& u : m.unilateral)
+            for (int i = 0; i < e.size(); ++i) pressed_.own[i] += u.gap.row[i] * u.gap.multiplier;
+    }
 
     Checked run() {
         read();
@@ -95,7 +98,12 @@ public:
             if (when_ == "impact" && !claims_.after_impact())
                 for (const std::size_t k : here) result_.claims[k].reason = claims_.impact_obstacle();
             else  // the rates after an impact are expressions by now, in what any state of motion gives
-                settle(here, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
+                for (const bool pressed : {false, true}) {
+                    std::vector<std::size_t> part = here;
+                    std::erase_if(part, [&](std::size_t k) { return speaks_of_contacts(k) != pressed; });
+                    law_ = pressed ? &pressed_ : &e_;
+                    if (!part.empty()) settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
+                }
         }
         result_.complete = complete();
         return std::move(result_);
@@ -112,11 +120,18 @@ private:
         if (!mistakes.empty()) fail(scene_, mistakes);
     }
 
+    /// A claim with a contact's multiplier holds whatever that is; one without speaks of the motion while all gaps are open.
+    bool speaks_of_contacts(std::size_t k) const {
+        std::vector<GiNaC::symbol> symbols;
+        for (const Mechanism::Unilateral& u : m_.unilateral) symbols.push_back(u.gap.multiplier);
+        return m_.z->depends(forms_[k].residual, symbols);
+    }
+
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<States> states;
         for (const int halves : {0, 2}) {
-            states.emplace(m_, e_, at, halves);
+            states.emplace(m_, *law_, at, halves);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -188,7 +203,7 @@ private:
         }
         if (*zero) {
             c.verdict = Verdict::proved;
-            c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, e_)) ||
+            c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, *law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
         }
@@ -241,6 +256,9 @@ private:
         for (const auto& [kind, primes] : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
             for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + primes, {kind, i});
         for (std::size_t k = 0; k < e_.lambda.size(); ++k) add(e_.lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
+        for (std::size_t k = 0; k < m_.unilateral.size(); ++k)
+            if (law_ == &pressed_)
+                add(m_.unilateral[k].gap.multiplier.get_name(), {Kind::unknown, static_cast<int>(e_.lambda.size() + k)});
         for (const int o : open) add(claims_.open()[o].name, {claims_.open()[o].variable.kind, claims_.open()[o].variable.index});
         c.residual = text_of(residual);
         c.residual_value = residual.to_double();
@@ -272,7 +290,7 @@ private:
         }
         if (states.motions.where() != Motions::At::motion) return;
         if (forms_[k].open.empty() && when_ == "motion")
-            if (const auto nearest = nearest_equation(forms_[k].residual, m_, e_)) {
+            if (const auto nearest = nearest_equation(forms_[k].residual, m_, *law_)) {
                 c.nearest = nearest->equation;
                 c.difference = nearest->difference;
             }
@@ -285,7 +303,7 @@ private:
                 return false;
             }
         };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, e_, right);
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_, right);
     }
 
     /// Puts a form back.
@@ -649,6 +667,8 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
+    Equations pressed_;               // with the contacts' multipliers
+    const Equations* law_ = nullptr;  // of the claims in hand
     Claims claims_;
     std::vector<ClaimForm> forms_;
     std::string when_;

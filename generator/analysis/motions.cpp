@@ -59,7 +59,11 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
     list.insert(list.end(), e.gamma.begin(), e.gamma.end());
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
-    const std::vector<int> nodes = lower_expressions(program_, m, list);
+    // A contact's multiplier is whatever its bodies press with: a variable like any other.
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (std::size_t k = 0; k < m.unilateral.size(); ++k)
+        given.emplace_back(m.unilateral[k].gap.multiplier, program_.variable({Variable::Kind::unknown, m_ + static_cast<int>(k)}));
+    const std::vector<int> nodes = lower_expressions(program_, m, list, given);
     auto next = nodes.begin();
     const auto take = [&](int count) {
         std::vector<int> part(next, next + count);
@@ -78,7 +82,6 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         GiNaC::exmap still;
         for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
         std::vector<ex> balance;
-        std::vector<std::pair<GiNaC::symbol, int>> given;
         for (int k = 0; k < m_; ++k) given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
         const auto at_rest = [&](const ex& value) { return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern); };
         for (int i = 0; i < n_; ++i) {

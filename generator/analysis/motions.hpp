@@ -14,6 +14,8 @@
 /// asked for; a set of constraints that has no such order has no states here, and `obstacle` says so.
 /// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
+/// `unknown` m + k is the multiplier of unilateral constraint k, random, in equations that hold it.
+///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
 /// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <iostream>
 
+#include "analysis/contacts.hpp"
 #include "commands/pipeline.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/own_steps.hpp"
@@ -243,6 +244,10 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
     for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
     result["multipliers"] = Json::array();
     for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
+    if (!shown.gaps.empty()) {
+        result["gaps"] = Json::object();
+        for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
+    }
     result["kinetic"] = text(shown.kinetic);
     result["potential"] = text(shown.potential);
     if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
@@ -266,9 +271,13 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
 }  // namespace
 
 int derive(const Request& request) {
-    const Derived d = derived(request);
+    Derived d = derived(request);
     // First-order equations in momenta are shown beside the energies, not after their elimination.
     const bool momenta = d.equations.formalism == "hamilton" || d.equations.formalism == "routhian";
+    // Reactions of unilateral constraints stand in the equations, zero while the gap is open; not in those for
+    // independent coordinates, where all gaps are.
+    const bool reactions = !d.mechanism.unilateral.empty() && !momenta && request.by != "lagrange";
+    if (reactions) d = derived_again(d, with_all_closed(d.mechanism), request.by);
     Derivation shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
     shown.formalism = d.equations.formalism;
     show_own_steps(shown, d.mechanism, d.equations);
@@ -286,13 +295,14 @@ int derive(const Request& request) {
     } else if (request.steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
-    const bool free = d.mechanism.constraints.empty();
+    const bool free = d.mechanism.constraints.size() == (reactions ? d.mechanism.unilateral.size() : 0);
     if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
     for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
                                   shown.title,
                                   !request.by.empty()        ? ""
                                   : !d.equations.h.empty() ? "; the scene has generalized speeds"
+                                  : free && reactions ? "; the coordinates are independent while all gaps are open"
                                   : free              ? "; the coordinates are independent"
                                                       : "; the coordinates are not independent"),
                       {}});
@@ -308,6 +318,11 @@ int derive(const Request& request) {
         blocks.push_back({all ? "The constraints, which the speeds obey:"
                               : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
         for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
+    if (!shown.gaps.empty()) {
+        blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
+        for (const auto& [name, phrase] : shown.gaps)
+            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)

@@ -19,18 +19,22 @@ int emit_files(const Request& request) {
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
     const std::string path = (std::filesystem::path(request.output) / source.file).string();
     write_file(path, source.text);
+    const bool has_contacts = !d.mechanism.unilateral.empty();
     if (request.json) {
         Json result;
         result["files"] = {path};
         result["operations"] = source.operations.total();
         result["formulation"] = source.formulation;
         if (choice.runner_up) result["runner_up_operations"] = *choice.runner_up;
+        if (has_contacts) result["closed"] = Json::array();
         std::cout << result.dump(2) << "\n";
     } else {
         fmt::print("{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} "
                    "functions)\n",
                    path, source.formulation, source.operations.total(), source.operations.additions,
                    source.operations.multiplications, source.operations.divisions, source.operations.functions);
+        if (has_contacts)
+            fmt::print("this is the motion while all gaps are open; simulate emits the other contact modes as it meets them\n");
     }
     return 0;
 }

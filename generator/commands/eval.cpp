@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "analysis/assemble.hpp"
+#include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
 #include "commands/pipeline.hpp"
 
@@ -20,16 +21,28 @@ Json named_values(const Program& program, const std::vector<double>& value, cons
         if (root.group == group) object[root.name] = value[root.node];
     return object.empty() ? otherwise : object;
 }
+constexpr double closed_gap = 1e-9;  // · max(1, |q|), as much as the initial values of a constraint may be off
 
 }  // namespace
 
 int eval(const Request& request) {
-    const Derived d = derived(request);
-    const Program program = lowered(d, request).program;
+    Derived d = derived(request);
+    Program program = lowered(d, request).program;
     const Overrides overrides = overrides_of(request);
     Start start = start_of(d.mechanism, overrides);
     const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), overrides);
     State<double> state = state_of(start, d.mechanism, d.equations);
+    std::vector<int> closed;
+    if (!d.mechanism.unilateral.empty()) {
+        need_rates(d);
+        const ContactView view(d.mechanism);
+        check_gaps(d.scene, d.mechanism, view, state, closed_gap);
+        closed = contacts_at_rest(view, state, closed_gap).closed;
+        if (!closed.empty()) {
+            d = derived_again(d, with_closed(d.mechanism, closed), "routh");
+            program = lowered(d, request).program;
+        }
+    }
 
     const auto fails = [&](const Program& p) {
         const std::vector<double> value = interpret(p, state);
@@ -64,6 +77,9 @@ int eval(const Request& request) {
     result["multipliers"] = Json::object();
     for (const Root& root : program.roots)
         if (root.group == "multiplier") result["multipliers"][root.name] = value[root.node];
+    for (const Mechanism::Unilateral& contact : d.mechanism.unilateral)
+        if (!result["multipliers"].contains(contact.gap.multiplier.get_name()))
+            result["multipliers"][contact.gap.multiplier.get_name()] = 0.0;  // open
     result["kinetic"] = single("kinetic");
     result["potential"] = single("potential");
     result["energy"] = single("energy");
@@ -71,6 +87,10 @@ int eval(const Request& request) {
     const std::vector<int> position = program.nodes_of("position"), velocity = program.nodes_of("velocity");
     for (std::size_t k = 0; k < position.size(); ++k)
         result["residuals"][d.mechanism.constraints[k].name] = {value[position[k]], value[velocity[k]]};
+    if (!d.mechanism.unilateral.empty()) {
+        result["closed"] = Json::array();
+        for (const int k : closed) result["closed"].push_back(d.mechanism.unilateral[k].gap.name);
+    }
     if (!moved.empty()) result["adjusted"] = moved;
     result["outputs"] = Json::object();
     for (const Root& root : program.roots)

@@ -35,7 +35,7 @@ namespace {
 /// The formalism of that name; without one, the one a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
-    if (!mechanism.speeds.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
+    if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
@@ -60,6 +60,18 @@ Derived derived(const Request& request) {
         std::cerr << "warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
                      "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n";
     return {std::move(scene), std::move(mechanism), std::move(equations), process_seconds() - start};
+}
+
+Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& by) {
+    const double start = process_seconds();
+    Equations equations = equations_by(by, mechanism);
+    return {d.scene, std::move(mechanism), std::move(equations), process_seconds() - start};
+}
+
+void need_rates(const Derived& d) {
+    if (!d.equations.h.empty())
+        throw ModelError("contacts are followed in coordinates and their rates, not in generalized speeds; leave out --by kane, or "
+                         "take --by routh");
 }
 
 Choice lowered(const Derived& d, const Request& request) {

@@ -24,6 +24,12 @@ struct Derived {
 /// ModelError for a formalism that does not exist or does not apply.
 Derived derived(const Request& request);
 
+/// The same scene with another mechanism (constraints added); by the formalism of that name, or the teacher's choice.
+Derived derived_again(const Derived& derived, Mechanism mechanism, const std::string& by);
+
+/// Throws ModelError for equations in generalized speeds, which contacts cannot change.
+void need_rates(const Derived& derived);
+
 /// Lowered in the form that takes the fewest operations.
 Choice lowered(const Derived& derived, const Request& request);
 

@@ -250,6 +250,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         wanted.push_back(constraint.drift);
     }
     lowering.lower_definitions(wanted);
+    // Open contacts do not push; those that the equations hold closed get their multipliers below.
+    for (const Mechanism::Unilateral& contact : m.unilateral) lowering.define(contact.gap.multiplier, program.number(0));
 
     const auto blame_row = [&](int i) {
         if (equations.row_sources.empty()) return;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/derivation.hpp"
 
+#include <algorithm>
+
 #include "lower/lower.hpp"
 #include "report/intermediate_form.hpp"
 
@@ -19,7 +21,9 @@ public:
 
     Derivation make() {
         result_.formalism = e_.formalism;
-        result_.degrees_of_freedom = m_.size() - static_cast<int>(m_.constraints.size());
+        result_.degrees_of_freedom = m_.size();
+        for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
+        gaps();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
         if (!e_.h.empty() && m_.speeds.empty()) choice();
@@ -144,11 +148,23 @@ private:
 
     void constraints() {
         for (const Mechanism::Constraint& c : m_.constraints) {
+            if (is_gap(c)) continue;
             GiNaC::exvector terms{c.drift};
             for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
             if (const auto f = normal(c.position ? *c.position : ex(GiNaC::add(std::move(terms)))))
                 result_.constraints.emplace_back(c.name, readable(*f));
         }
+    }
+
+    /// A unilateral constraint among the others, for the sake of its reaction.
+    bool is_gap(const Mechanism::Constraint& c) const {
+        return std::any_of(m_.unilateral.begin(), m_.unilateral.end(),
+                           [&](const Mechanism::Unilateral& contact) { return contact.gap.multiplier.is_equal(c.multiplier); });
+    }
+
+    void gaps() {
+        for (const Mechanism::Unilateral& contact : m_.unilateral)
+            if (const auto f = normal(*contact.gap.position)) result_.gaps.emplace_back(contact.gap.name, readable(*f));
     }
 
     Derivation with_definitions() {

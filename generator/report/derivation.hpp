@@ -54,6 +54,7 @@ struct Derivation {
     std::vector<std::pair<Phrase, Phrase>> speeds;      ///< chosen by the program: u = N(q,t) q'
     std::string choice;                    ///< in words, where the speeds were chosen by the program
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
+    std::vector<std::pair<std::string, Phrase>> gaps;         ///< by name: what is not negative
 };
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);

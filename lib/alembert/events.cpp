@@ -12,7 +12,8 @@
 namespace alembert {
 namespace {
 
-constexpr int points = 5;  ///< where a step is looked at, ends included
+constexpr int points = 5;       ///< where a step is looked at, ends included
+constexpr int most_rounds = 8;  ///< of looking again before an event that stops
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -29,6 +30,16 @@ struct EmittedEvents {
 
 double simultaneous(const Stretch& step) {
     return 1e-12 * std::max(std::abs(step.end), step.end - step.start);
+}
+
+/// By time; simultaneous ones as declared.
+void order(std::vector<Crossing>& found, const Stretch& step) {
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+    for (std::size_t i = 1; i < found.size(); ++i)
+        for (std::size_t j = i; j > 0 && found[j].index < found[j - 1].index &&
+                                found[j].time - found[j - 1].time <= simultaneous(step);
+             --j)
+            std::swap(found[j], found[j - 1]);
 }
 
 }  // namespace
@@ -68,8 +79,56 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
 }
 
 std::vector<Crossing> EventWatch::look(const Stretch& step) {
+    if (last_.empty()) return {};
+    const std::vector<double> value_before = last_;
+    const std::vector<int> sign_before = sign_;
+    std::vector<Crossing> found = scan(step);
+    const bool stops = std::any_of(found.begin(), found.end(), [&](const Crossing& c) {
+        return events_.list[static_cast<std::size_t>(c.index)].stop;
+    });
+    for (int round = 0; stops && round < most_rounds; ++round) {
+        last_ = value_before;
+        sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
+        if (!look_again(step, found)) break;
+    }
+    return found;
+}
+
+/// What there is before the first crossing that stops; true if that has become another.
+bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
+    const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) {
+        return events_.list[static_cast<std::size_t>(c.index)].stop;
+    });
+    const Crossing first = *stop;
+    if (first.theta <= 0) return false;
+    Stretch part{
+        .start = step.start,
+        .end = first.time,
+        .end_state = nullptr,
+        .end_rate = nullptr,
+        .interpolate = [&](double theta, double* state) { step.interpolate(theta * first.theta, state); }};
+    std::vector<double> end_state(state_.size()), end_rate(state_.size());
+    part.interpolate(1, end_state.data());
+    rhs_(part.end, end_state.data(), end_rate.data());
+    ++evaluations_;
+    part.end_state = end_state.data();
+    part.end_rate = end_rate.data();
+    std::vector<Crossing> earlier = scan(part);
+    for (Crossing& crossing : earlier) crossing.theta *= first.theta;
+    std::erase_if(earlier, [&](const Crossing& c) {
+        return std::any_of(found.begin(), found.end(), [&](const Crossing& known) {
+            return known.index == c.index && std::abs(known.time - c.time) <= simultaneous(step);
+        });
+    });
+    if (earlier.empty()) return false;
+    found.insert(found.begin(), earlier.begin(), earlier.end());
+    order(found, step);
+    return std::any_of(earlier.begin(), earlier.end(),
+                       [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
+}
+
+std::vector<Crossing> EventWatch::scan(const Stretch& step) {
     std::vector<Crossing> found;
-    if (last_.empty()) return found;
     const std::size_t count = last_.size();
     std::copy(last_.begin(), last_.end(), grid_.begin());
     for (std::size_t i = 1; i + 1 < points; ++i) {
@@ -80,12 +139,7 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
 
     for (std::size_t k = 0; k < count; ++k) look_at_one(step, static_cast<int>(k), found);
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
-    for (std::size_t i = 1; i < found.size(); ++i)  // neighbours that are simultaneous: as declared
-        for (std::size_t j = i; j > 0 && found[j].index < found[j - 1].index &&
-                                found[j].time - found[j - 1].time <= simultaneous(step);
-             --j)
-            std::swap(found[j], found[j - 1]);
+    order(found, step);
     return found;
 }
 
@@ -128,7 +182,8 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
 
 void EventWatch::record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const {
     const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
-    if (time - run_start_ > simultaneous(step)) found.push_back({.index = index, .time = time, .theta = theta});
+    if (events_.list[static_cast<std::size_t>(index)].at_once || time - run_start_ > simultaneous(step))
+        found.push_back({.index = index, .time = time, .theta = theta});
 }
 
 /// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at

@@ -11,7 +11,8 @@
 /// very start (closer than 1e-12 of the step, or of the time) is none. Every step is looked at in its interior
 /// too, so that two zeros in one step are found: at three points, and at the turning point of a parabola through
 /// three neighbours if that comes near zero. Two zeros closer together than this can see, and a touch that
-/// rounding keeps off zero, go unseen.
+/// rounding keeps off zero, go unseen. Before an event that stops the run the step is looked at again, up to that
+/// event: a long step may have passed over an earlier one.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
@@ -30,7 +31,8 @@ namespace alembert {
 
 struct Event {
     std::string name;
-    bool stop = false;  ///< the run ends there
+    bool stop = false;     ///< the run ends there
+    bool at_once = false;  ///< counts however soon after the start: its value there is no rounding
 };
 
 struct Events {
@@ -81,6 +83,8 @@ public:
     long evaluations() const { return evaluations_; }  ///< right-hand sides needed by the search
 
 private:
+    std::vector<Crossing> scan(const Stretch& step);
+    bool look_again(const Stretch& step, std::vector<Crossing>& found);
     double value(const Stretch& step, int index, double theta);
     void look_at_one(const Stretch& step, int index, std::vector<Crossing>& found);
     void record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const;

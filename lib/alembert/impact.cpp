@@ -40,6 +40,18 @@ bool is_definite(const MatrixXd& mass) {
     return solver.eigenvalues().minCoeff() > 1e-13 * solver.eigenvalues().maxCoeff();
 }
 
+/// M + s AᵀA where M alone is not definite: it moves only what the constraints fix anyhow. Λ changes by s A (q'⁺ − q'⁻), the
+/// rates do not.
+struct Stiffened {
+    MatrixXd M;
+    double stiffening = 0;
+};
+Stiffened stiffened(const MatrixXd& mass, const MatrixXd& rows) {
+    if (is_definite(mass) || !(rows.squaredNorm() > 0)) return {.M = mass};
+    const double s = (mass.trace() > 0 ? mass.trace() : 1) / rows.squaredNorm();
+    return {.M = mass + s * rows.transpose() * rows, .stiffening = s};
+}
+
 MatrixXd columns(const MatrixXd& E, const std::vector<Index>& chosen) {
     MatrixXd result(E.rows(), static_cast<Index>(chosen.size()));
     for (std::size_t i = 0; i < chosen.size(); ++i) result.col(static_cast<Index>(i)) = E.col(chosen[i]);
@@ -172,13 +184,7 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
         return failed("a value is not finite");
     const MatrixXd rows = m > 0 ? bilateral_rows : MatrixXd(0, n), contacts = k > 0 ? contact_rows : MatrixXd(0, n);
 
-    // M + s AᵀA moves only what the constraints fix anyhow: Λ changes by s A (q'⁺ − q'⁻), the rates do not.
-    double stiffening = 0;
-    MatrixXd M = mass;
-    if (!is_definite(M) && m > 0 && rows.squaredNorm() > 0) {
-        stiffening = (M.trace() > 0 ? M.trace() : 1) / rows.squaredNorm();
-        M += stiffening * rows.transpose() * rows;
-    }
+    const auto [M, stiffening] = stiffened(mass, rows);
     if (!is_definite(M)) return failed("the mass matrix is singular");
     const Setting s(M, rows, contacts);
     const auto back = [&](const VectorXd& x) -> VectorXd { return s.mass.matrixU().solve(x); };
@@ -256,6 +262,39 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     }
     for (Index i = 0; i < k; ++i)
         result.stays_closed[static_cast<std::size_t>(i)] = std::abs(speed(i, x)) <= rest * size(i);
+    return result;
+}
+
+ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& bilateral_rows, const VectorXd& bilateral_drift,
+                   const MatrixXd& contact_rows, const VectorXd& contact_drift) {
+    const Index k = contact_drift.size();
+    const VectorXd none = VectorXd::Zero(force.size());
+    ImpactResult result = strike(mass, none, force, bilateral_rows, bilateral_drift, MatrixXd(0, force.size()), VectorXd(0), VectorXd(0));
+    if (!result || k == 0) return result;
+    const auto [M, stiffening] = stiffened(mass, bilateral_rows);
+    const Setting s(M, bilateral_rows, contact_rows);
+    const VectorXd x = s.mass.matrixU() * result.after, pushed = s.mass.matrixL().solve(force);
+    const VectorXd size = s.G.rowwise().norm() * std::max(x.norm(), pushed.norm()) + contact_drift.cwiseAbs();
+    VectorXd h = -(contact_rows * result.after + contact_drift);
+    for (Index i = 0; i < k; ++i) {
+        if (s.length[i] > 0)
+            h[i] /= s.length[i];
+        else if (h[i] > rest * size[i])
+            return {.failure = "the constraints prescribe that a contact closes", .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+        else
+            h[i] = 0;
+    }
+    Push given = least_push(s.G_free, h);
+    if (!given.exists) given = least_push(s.G_free, h - rounding * size.cwiseQuotient(s.length.cwiseMax(rank_threshold)));
+    if (!given.exists) return {.failure = "no accelerations keep all contacts apart", .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+    result.contact = given.u.cwiseQuotient(s.length.cwiseMax(rank_threshold));
+    const VectorXd y = s.G_free.transpose() * given.u, lacking = y - s.G.transpose() * result.contact;
+    result.after += VectorXd(s.mass.matrixU().solve(y));
+    if (bilateral_drift.size() > 0)
+        result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) - stiffening * bilateral_rows * VectorXd(s.mass.matrixU().solve(y));
+    result.stays_closed.resize(static_cast<std::size_t>(k));
+    const VectorXd left = contact_rows * result.after + contact_drift;
+    for (Index i = 0; i < k; ++i) result.stays_closed[static_cast<std::size_t>(i)] = std::abs(left[i]) <= rest * size[i];
     return result;
 }
 

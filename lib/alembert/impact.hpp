@@ -53,4 +53,9 @@ ImpactResult strike(const Eigen::MatrixXd& mass, const Eigen::VectorXd& before, 
                     const Eigen::MatrixXd& contact_rows, const Eigen::VectorXd& contact_drift,
                     const Eigen::VectorXd& restitution);
 
+/// Accelerations: the same without a before. M a = F + AᵀΛ + GᵀΠ, A a + b = 0, Π ≥ 0 ⊥ G a + c ≥ 0; `after` is a. All contacts
+/// take part, whatever c says.
+ImpactResult press(const Eigen::MatrixXd& mass, const Eigen::VectorXd& force, const Eigen::MatrixXd& bilateral_rows,
+                   const Eigen::VectorXd& bilateral_drift, const Eigen::MatrixXd& contact_rows, const Eigen::VectorXd& contact_drift);
+
 }  // namespace alembert

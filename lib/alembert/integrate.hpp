@@ -46,11 +46,12 @@ using OnStep = std::function<void(double t, std::span<const double> state, std::
 struct Options {
     Method method = Method::dop853;
     double start = 0;
-    double duration = 0;       ///< from the start; 0 gives one row
-    double tolerance = 1e-9;   ///< adaptive methods
-    double step = 0;           ///< the step of euler and rk4; first step of the others, 0: found automatically
-    double longest_step = 0;   ///< adaptive methods; 0: no bound
-    double sample = 0;         ///< time between rows; 0: duration/200
+    double duration = 0;      ///< from the start; 0 gives one row
+    double tolerance = 1e-9;  ///< adaptive methods
+    double step = 0;          ///< the step of euler and rk4; first step of the others, 0: found automatically
+    double longest_step = 0;  ///< adaptive methods; 0: no bound
+    double sample = 0;        ///< time between rows; 0: duration/200
+    std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
     OnStep on_step = {};       ///< may be empty
     /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.

@@ -37,6 +37,7 @@ public:
     Run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
         : options_(options),
           end_(options.start + options.duration),
+          grid_(options.grid.value_or(options.start)),
           events_(events),
           step_(rhs, options.start, initial),
           watch_(events, rhs),
@@ -48,6 +49,9 @@ public:
         if (options.duration > 0)
             result_.times.reserve(static_cast<std::size_t>(options.duration / sample_interval(options)) + 2);
         result_.states.reserve(result_.times.capacity() * initial.size());
+        if (options.grid && options.duration > 0)
+            rows_on_grid_ +=
+                static_cast<long>(std::floor((options.start - grid_) / sample_interval(options) + 1e-9));
     }
 
     Trajectory go() && {
@@ -155,7 +159,7 @@ private:
         step_.rhs()(time, row_.data(), event_rate_.data());
         ++further_evaluations_;
         tell(time, row_.data(), event_rate_.data());
-        if (rows_on_grid_ > 1 && result_.times.back() > time - 1e-9 * sample_interval(options_)) drop_row();
+        if (result_.rows() > 1 && result_.times.back() > time - 1e-9 * sample_interval(options_)) drop_row();
         if (result_.times.back() < time) add_row(time, row_.data());
         result_.ending = Ending::stopped_by_event;
     }
@@ -164,7 +168,7 @@ private:
     void add_rows_before(double time) {
         const double interval = sample_interval(options_);
         for (;;) {
-            const double next = options_.start + static_cast<double>(rows_on_grid_) * interval;
+            const double next = grid_ + static_cast<double>(rows_on_grid_) * interval;
             if (next > time || next >= end_ - 1e-9 * interval) return;
             if (next == step_.end_time())
                 std::copy_n(step_.end_state(), row_.size(), row_.begin());
@@ -238,13 +242,14 @@ private:
 
     const Options& options_;
     const double end_;
+    const double grid_;  ///< where rows are counted from
     const Events& events_;
     Step<tableau> step_;
     EventWatch watch_;
     Trajectory result_;
     std::vector<double> row_;
     std::vector<double> event_rate_;
-    long rows_on_grid_ = 1;  ///< the start is there
+    long rows_on_grid_ = 1;  ///< the next one; the start is there
     long further_evaluations_ = 0;
 };
 

@@ -25,7 +25,8 @@ enum class Ending { completed, stopped_by_event, failed };
 enum class FailureKind {
     not_a_number,    ///< a rate is infinite or not a number where a step must start
     step_underflow,  ///< the step has become so short that time stands still: 16 ε |t|
-    budget_used_up
+    budget_used_up,
+    no_contact_mode  ///< contacts that cannot all stay closed or open (phases.hpp)
 };
 
 struct Failure {

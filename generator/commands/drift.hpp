@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// How far E, E − W and T₂ − T₀ + V stray from their values at the start, over all accepted steps of a run.
+///
+///     Drift drift(n, s, with_work);
+///     drift(table, par, t, state, rate);       // at the start and after each step
+///     drift.balance();
+///
+/// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that a moving frame takes
+/// (energy.hpp); both count as work.
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "alembert/abi.hpp"
+
+namespace alembert {
+
+class Drift {
+public:
+    /// n coordinates, s speeds; with work, the state has ∫ power dt after these.
+    Drift(int n, int s, bool with_work) : size_(n + s), with_work_(with_work) {}
+
+    void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t, std::span<const double> state,
+                    std::span<const double> rate) {
+        const Energies e = energies(table, par, t, state.data(), rate.data());
+        const double work = (with_work_ ? state[size_] : 0) + jumps_;
+        if (first_) {
+            energy_start_ = e.total;
+            jacobi_start_ = e.jacobi;
+            first_ = false;
+        }
+        largest_kinetic_ = std::max(largest_kinetic_, e.kinetic);
+        energy_ = std::max(energy_, std::abs(e.total - energy_start_));
+        balance_ = std::max(balance_, std::abs(e.total - energy_start_ - work));
+        jacobi_ = std::max(jacobi_, std::abs(e.jacobi - jacobi_start_));
+    }
+
+    /// Rates have jumped.
+    void jump(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* before,
+              const double* after, double work) {
+        const std::vector<double> still(static_cast<std::size_t>(size_), 0.0);  // the rate matters to the power alone
+        const Energies a = energies(table, par, t, before, still.data()), b = energies(table, par, t, after, still.data());
+        if (first_) {
+            energy_start_ = a.total;
+            jacobi_start_ = a.jacobi;
+            largest_kinetic_ = a.kinetic;
+            first_ = false;
+        }
+        jumps_ += work + (b.total - b.jacobi) - (a.total - a.jacobi);
+    }
+
+    double energy() const { return energy_ / scale(energy_start_); }
+    double balance() const { return balance_ / scale(energy_start_); }
+    double jacobi() const { return jacobi_ / scale(jacobi_start_); }
+
+private:
+    struct Energies {
+        double kinetic, total, jacobi;
+    };
+
+    static Energies energies(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* state,
+                             const double* rate) {
+        double energy[4], jacobi = 0;
+        table.energy(t, state, rate, par.data(), energy, &jacobi);
+        return {energy[0], energy[2], jacobi};
+    }
+
+    double scale(double start) const {
+        const double size = std::max(std::abs(start), largest_kinetic_);
+        return size > nothing ? size : 1;
+    }
+
+    static constexpr double nothing = 1e-26;  // what rounding leaves of a body at rest, squared
+    int size_;
+    bool with_work_, first_ = true;
+    double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0;
+    double energy_ = 0, balance_ = 0, jacobi_ = 0, jumps_ = 0;
+};
+
+}  // namespace alembert

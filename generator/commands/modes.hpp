@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A scene
+/// without unilateral constraints has the one mode {}.
+///
+///     Modes modes(request, derived, start, first, Work::left_out, on_step);
+///     const LoadedMode& lying = modes({0});
+///     lying.contact.rhs(t, state, rate);
+
+#include <map>
+#include <memory>
+
+#include "alembert/module.hpp"
+#include "alembert/phases.hpp"
+#include "alembert/project.hpp"
+#include "commands/pipeline.hpp"
+#include "emit/emit.hpp"
+
+namespace alembert {
+
+struct LoadedMode {
+    Derived derived;  ///< its mechanism has the closed contacts as constraints
+    Program program;
+    Source source;
+    Module module;
+    std::vector<double> par;  ///< prepared
+    Projection projection;
+    ContactMode contact;
+    bool from_cache = false;
+};
+
+class Modes {
+public:
+    /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode of each step.
+    using OnModeStep = std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
+    Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work, OnModeStep on_step);
+
+    /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what the
+    /// stages throw.
+    const LoadedMode& operator()(const std::vector<int>& closed);
+
+    /// Takes the program of the mode {} from one who has it.
+    void take_free(Program program);
+
+    struct Seconds {
+        double derive = 0, emit = 0, compile = 0;  ///< processor time
+    };
+    const Seconds& seconds() const { return seconds_; }
+
+private:
+    std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
+
+    const Request& request_;
+    const Derived& derived_;
+    const Start& start_;
+    const State<double>& first_;
+    Work work_;
+    OnModeStep on_step_;
+    std::optional<Program> free_;
+    std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;
+    Seconds seconds_;
+};
+
+}  // namespace alembert

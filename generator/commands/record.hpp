@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What a run leaves behind: the rows of its CSV file, and what is said about contacts.
+
+#include "commands/modes.hpp"
+
+namespace alembert {
+
+/// Columns: t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while open), energy,
+/// outputs. Where rates jump there are two rows for one time, before and after; where they only change their law, one.
+std::string csv(const PhasedMotion& motion, const Derived& derived, Modes& modes);
+
+/// [{time, name, event: impact|release|rest, speed_before, speed_after, energy_loss, reaction_impulse}]
+Json contacts_as_json(const std::vector<ContactEvent>& events, const std::vector<std::string>& names);
+
+/// A line each for the first twenty, then how many more.
+std::string contacts_as_text(const std::vector<ContactEvent>& events, const std::vector<std::string>& names);
+
+}  // namespace alembert

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/contact.hpp"
+
+#include <algorithm>
+
+#include "alembert/impact.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double rank_threshold = 1e-9;  // of rows of length 1
+constexpr double negligible_rate = 1e-9, rounding = 1e-13;
+
+/// Rows of length 1 (or 0), and those lengths.
+struct Unit {
+    MatrixXd rows;
+    VectorXd length;
+    explicit Unit(MatrixXd given) : rows(std::move(given)), length(rows.rowwise().norm()) {
+        for (Index i = 0; i < rows.rows(); ++i)
+            if (length[i] > 0) rows.row(i) /= length[i];
+    }
+};
+
+Index rank(const MatrixXd& rows) {
+    if (rows.rows() == 0) return 0;
+    Eigen::ColPivHouseholderQR<MatrixXd> qr;
+    qr.setThreshold(rank_threshold);
+    qr.compute(Unit(rows).rows.transpose());
+    return qr.rank();
+}
+
+/// Moves load between dependent contacts until those that carry any are independent; the forces stay the same.
+void concentrate(const Situation& here, std::vector<int>& carrying, std::vector<double>& load) {
+    const Index m = here.bilateral.rows.rows();
+    for (;;) {
+        const Unit unit(stacked(here.bilateral, selected(here.contacts, carrying)).rows);
+        if (unit.rows.rows() == 0) return;
+        Eigen::FullPivLU<MatrixXd> lu;
+        lu.setThreshold(rank_threshold);
+        lu.compute(unit.rows.transpose());
+        if (lu.dimensionOfKernel() == 0) return;
+        const MatrixXd kernel = lu.kernel();
+        VectorXd shift;
+        for (Index c = 0; c < kernel.cols() && shift.size() == 0; ++c)
+            if (kernel.col(c).tail(kernel.rows() - m).norm() > rank_threshold * kernel.col(c).norm())
+                shift = kernel.col(c).tail(kernel.rows() - m);
+        if (shift.size() == 0) return;  // the bilateral rows alone are dependent
+        if (shift.maxCoeff() <= 0) shift = -shift;
+        for (Index i = 0; i < shift.size(); ++i) shift[i] /= unit.length[m + i];
+        std::size_t first = carrying.size();
+        double part = 0;
+        for (std::size_t i = 0; i < carrying.size(); ++i) {
+            const double d = shift[static_cast<Index>(i)];
+            if (d > 0 && (first == carrying.size() || load[i] / d < part)) part = load[i] / d, first = i;
+        }
+        for (std::size_t i = 0; i < carrying.size(); ++i) load[i] -= part * shift[static_cast<Index>(i)];
+        carrying.erase(carrying.begin() + static_cast<std::ptrdiff_t>(first));
+        load.erase(load.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+}
+
+}  // namespace
+
+Situation::Rows selected(const Situation::Rows& rows, const std::vector<int>& which) {
+    const auto count = static_cast<Index>(which.size());
+    Situation::Rows result{MatrixXd(count, rows.rows.cols()), VectorXd(count), VectorXd(count), VectorXd(count)};
+    for (Index i = 0; i < count; ++i) {
+        const int k = which[static_cast<std::size_t>(i)];
+        result.rows.row(i) = rows.rows.row(k);
+        result.value[i] = rows.value[k];
+        result.drift[i] = rows.drift[k];
+        result.acceleration[i] = rows.acceleration[k];
+    }
+    return result;
+}
+
+Situation::Rows stacked(const Situation::Rows& a, const Situation::Rows& b) {
+    const auto joined = [](const VectorXd& x, const VectorXd& y) {
+        VectorXd result(x.size() + y.size());
+        result << x, y;
+        return result;
+    };
+    Situation::Rows result{MatrixXd(a.rows.rows() + b.rows.rows(), b.rows.cols()), joined(a.value, b.value),
+                           joined(a.drift, b.drift), joined(a.acceleration, b.acceleration)};
+    if (a.rows.rows() > 0) result.rows.topRows(a.rows.rows()) = a.rows;
+    if (b.rows.rows() > 0) result.rows.bottomRows(b.rows.rows()) = b.rows;
+    return result;
+}
+
+VectorXd gap_rates(const Situation& here, const VectorXd& rates) {
+    return here.contacts.rows * rates + here.contacts.drift;
+}
+
+VectorXd negligible_rates(const Situation& here, const VectorXd& rates) {
+    const VectorXd sizes = (negligible_rate * rates.cwiseAbs()).array() + rounding;
+    return here.contacts.rows.cwiseAbs() * sizes + negligible_rate * here.contacts.drift.cwiseAbs();
+}
+
+VectorXd negligible_gaps(const Situation& here, const VectorXd& q, double tolerance) {
+    return tolerance * (here.contacts.rows.cwiseAbs() * q.cwiseAbs().cwiseMax(1.0));
+}
+
+bool is_carried(const Situation& here, const std::vector<int>& closed, int k) {
+    const MatrixXd without = stacked(here.bilateral, selected(here.contacts, closed)).rows;
+    std::vector<int> more = closed;
+    more.push_back(k);
+    return rank(stacked(here.bilateral, selected(here.contacts, more)).rows) == rank(without);
+}
+
+Lasting lasting_contacts(const Situation& here, const std::vector<int>& candidates) {
+    const Situation::Rows contacts = selected(here.contacts, candidates);
+    const ImpactResult result = press(here.M, here.f, here.bilateral.rows, -here.bilateral.acceleration,
+                                      contacts.rows, -contacts.acceleration);
+    Lasting lasting{.failure = result.failure, .acceleration = result.after, .closed = {}, .resting = {}};
+    if (!result) return lasting;
+    std::vector<double> load;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const double pi = result.contact[static_cast<Index>(i)];
+        if (pi <= 0 || !result.stays_closed[i]) continue;
+        lasting.closed.push_back(candidates[i]);
+        load.push_back(pi);
+    }
+    concentrate(here, lasting.closed, load);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (!result.stays_closed[i]) continue;
+        lasting.resting.push_back(candidates[i]);
+        const bool is_in =
+            std::find(lasting.closed.begin(), lasting.closed.end(), candidates[i]) != lasting.closed.end();
+        if (!is_in && !is_carried(here, lasting.closed, candidates[i])) lasting.closed.push_back(candidates[i]);
+    }
+    std::sort(lasting.closed.begin(), lasting.closed.end());
+    return lasting;
+}
+
+}  // namespace alembert

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/settle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "alembert/impact.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double clock_grain = 1e-12;  // of the time; shorter flights cannot be told apart
+constexpr int most_rounds = 4;         // Newton's method from within the tolerance needs one or two
+
+bool contains(const std::vector<int>& list, int k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+}
+
+class Settling {
+public:
+    Settling(const Contacts& contacts, const Instant& instant, std::vector<double>& state)
+        : contacts_(contacts), at_(instant), state_(state), count_(static_cast<int>(contacts.names.size())) {
+        look();
+        n_ = here_.f.size();
+    }
+
+    Settled go() {
+        place();
+        find_near();
+        if (!strike_all()) return std::move(result_);
+        while (lay_one_down()) {
+        }
+        choose();
+        tell_changes();
+        return std::move(result_);
+    }
+
+private:
+    void look() { here_ = contacts_.situation(at_.t, state_.data()); }
+    Eigen::Map<VectorXd> q() { return {state_.data(), n_}; }
+    Eigen::Map<VectorXd> u() { return {state_.data() + n_, n_}; }
+    bool approaches(int k) { return gap_rates(here_, u())[k] < -negligible_rates(here_, u())[k]; }
+    bool parts(int k) { return gap_rates(here_, u())[k] > negligible_rates(here_, u())[k]; }
+
+    /// Positions to the gaps that touch and do not open.
+    void place() {
+        const VectorXd slack = negligible_gaps(here_, q(), at_.tolerance);
+        std::vector<int> touching;
+        for (int k = 0; k < count_; ++k)
+            if (contains(at_.closed, k) || contains(at_.touched, k) ||
+                (std::abs(here_.contacts.value[k]) <= slack[k] && !parts(k)))
+                touching.push_back(k);
+        double former = HUGE_VAL;
+        for (int round = 0; round < most_rounds && !touching.empty(); ++round) {
+            const Situation::Rows rows = stacked(here_.bilateral, selected(here_.contacts, touching));
+            const double size = rows.value.lpNorm<Eigen::Infinity>();
+            if (!(size > 0) || !(size < former / 2)) return;
+            former = size;
+            const MatrixXd weighted = here_.M.ldlt().solve(rows.rows.transpose());
+            const VectorXd change =
+                weighted * (rows.rows * weighted).completeOrthogonalDecomposition().solve(rows.value);
+            if (!change.allFinite()) return;
+            q() -= change;
+            look();
+        }
+    }
+
+    void find_near() {
+        const VectorXd slack = negligible_gaps(here_, q(), at_.tolerance);
+        for (int k = 0; k < count_; ++k)
+            if (contains(at_.closed, k) || contains(at_.touched, k) ||
+                std::abs(here_.contacts.value[k]) <= slack[k])
+                near_.push_back(k);
+    }
+
+    /// New rates; tells the work of impulses Λ along rows: Σ Λ·(mean of value' − drift).
+    void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse) {
+        const std::vector<double> before = state_;
+        const VectorXd mean = rows.rows * (u() + after) / 2;
+        u() = after;
+        look();
+        if (contacts_.on_jump) contacts_.on_jump(at_.t, before.data(), state_.data(), impulse.dot(mean));
+    }
+
+    bool strike_all() {
+        if (std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); })) return true;
+        const Situation::Rows rows = selected(here_.contacts, near_);
+        VectorXd restitution(rows.drift.size());
+        for (std::size_t i = 0; i < near_.size(); ++i)
+            restitution[static_cast<Index>(i)] = contacts_.restitution[near_[i]];
+        const ImpactResult hit = strike(here_.M, u(), VectorXd::Zero(n_), here_.bilateral.rows,
+                                        here_.bilateral.drift, rows.rows, rows.drift, restitution);
+        if (!hit) return fail(near_, hit.failure);
+        const VectorXd before = rows.rows * u() + rows.drift, after = rows.rows * hit.after + rows.drift;
+        for (std::size_t i = 0; i < near_.size(); ++i) {
+            const auto at = static_cast<Index>(i);
+            if (hit.contact[at] <= 0) continue;
+            bounced_.push_back(near_[i]);
+            result_.events.push_back(
+                {.kind = ContactEvent::Kind::impact,
+                 .contact = near_[i],
+                 .time = at_.t,
+                 .speed_before = before[at],
+                 .speed_after = after[at],
+                 .energy_loss = hit.contact[at] * (rows.drift[at] - (before[at] + after[at]) / 2),
+                 .impulse = hit.contact[at]});
+        }
+        VectorXd impulse(hit.bilateral.size() + hit.contact.size());
+        impulse << hit.bilateral, hit.contact;
+        jump_to(hit.after, stacked(here_.bilateral, rows), impulse);
+        return true;
+    }
+
+    std::vector<int> candidates() {
+        std::vector<int> result;
+        for (const int k : near_)
+            if (!approaches(k) && !parts(k)) result.push_back(k);
+        return result;
+    }
+
+    /// Takes its speed from the first contact whose bounces have become too low to follow.
+    bool lay_one_down() {
+        for (const int k : bounced_) {
+            if (!parts(k)) continue;
+            const std::vector<int> resting = candidates();
+            const Lasting motion = lasting_contacts(here_, resting);
+            if (!motion) return false;
+            const double fall =
+                here_.contacts.acceleration[k] - here_.contacts.rows.row(k).dot(motion.acceleration);
+            const double speed = gap_rates(here_, u())[k], e = contacts_.restitution[k];
+            if (!(fall > 0)) continue;
+            const double flight = 2 * speed / fall, all = e < 1 ? flight / (1 - e) : HUGE_VAL;
+            const Situation::Rows rows = stacked(here_.bilateral, selected(here_.contacts, joined(resting, k)));
+            const ImpactResult still = strike(here_.M, u(), VectorXd::Zero(n_), rows.rows, rows.drift,
+                                              MatrixXd(0, n_), VectorXd(), VectorXd());
+            if (!still) continue;
+            const VectorXd displaced = (u() - still.after) * all;
+            const bool is_low =
+                (displaced.cwiseAbs().array() <= at_.tolerance * q().cwiseAbs().cwiseMax(1.0).array()).all();
+            if (!is_low && flight > clock_grain * std::abs(at_.t)) continue;
+            const double last = at_.t + (e < 1 ? all : 0),
+                         loss = still.bilateral.tail(1)[0] * (here_.contacts.drift[k] - speed / 2);
+            rests_[k] = {.kind = ContactEvent::Kind::rest,
+                         .contact = k,
+                         .time = last,
+                         .speed_before = speed,
+                         .energy_loss = loss};
+            for (const int other : bounced_)  // which may come to rest with it
+                if (other != k && parts(other))
+                    rests_.emplace(other,
+                                   ContactEvent{.kind = ContactEvent::Kind::rest, .contact = other, .time = last});
+            jump_to(still.after, rows, still.bilateral);
+            return true;
+        }
+        return false;
+    }
+
+    static std::vector<int> joined(std::vector<int> list, int k) {
+        list.push_back(k);
+        return list;
+    }
+
+    void choose() {
+        const std::vector<int> all = candidates();
+        if (at_.released && contains(all, *at_.released)) {
+            const int k = *at_.released;
+            std::vector<int> others = all;
+            others.erase(std::find(others.begin(), others.end(), k));
+            if (const Lasting without = lasting_contacts(here_, others)) {
+                const double opens =
+                    here_.contacts.rows.row(k).dot(without.acceleration) - here_.contacts.acceleration[k];
+                const double size = acceleration_scale(k, without.acceleration);
+                if (opens >= -at_.tolerance * size) {
+                    take(without);
+                    if (std::abs(opens) <= at_.tolerance * size && is_carried(here_, without.closed, k))
+                        result_.resting.push_back(k);
+                    return;
+                }
+            }
+        }
+        const Lasting lasting = lasting_contacts(here_, all);
+        if (lasting)
+            take(lasting);
+        else
+            fail(all, lasting.failure);
+    }
+
+    /// The size of gap'' beside what the contacts have to hold.
+    double acceleration_scale(int k, const VectorXd& acceleration) const {
+        const Lasting free = lasting_contacts(here_, {});
+        VectorXd size = acceleration.cwiseAbs();
+        if (free) size = size.cwiseMax(free.acceleration.cwiseAbs());
+        return here_.contacts.rows.row(k).cwiseAbs().dot(size) + std::abs(here_.contacts.acceleration[k]);
+    }
+
+    void take(const Lasting& lasting) {
+        result_.closed = lasting.closed;
+        result_.resting = lasting.resting;
+    }
+
+    void tell_changes() {
+        for (const int k : at_.resting)
+            if (!contains(result_.resting, k))
+                result_.events.push_back({.kind = ContactEvent::Kind::release,
+                                          .contact = k,
+                                          .time = at_.t,
+                                          .speed_after = gap_rates(here_, u())[k]});
+        for (const int k : result_.resting) {
+            if (contains(at_.resting, k)) continue;
+            const auto found = rests_.find(k);
+            result_.events.push_back(
+                found != rests_.end()
+                    ? found->second
+                    : ContactEvent{.kind = ContactEvent::Kind::rest, .contact = k, .time = at_.t});
+        }
+    }
+
+    bool fail(const std::vector<int>& those, const std::string& why) {
+        std::string names;
+        for (const int k : those) names += (names.empty() ? "'" : ", '") + contacts_.names[k] + "'";
+        result_.failure = fmt::format(
+            "no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", at_.t, names, why);
+        return false;
+    }
+
+    const Contacts& contacts_;
+    const Instant& at_;
+    std::vector<double>& state_;
+    int count_;
+    Index n_ = 0;
+    Situation here_;
+    std::vector<int> near_, bounced_;
+    std::map<int, ContactEvent> rests_;
+    Settled result_;
+};
+
+}  // namespace
+
+Settled settle(const Contacts& contacts, const Instant& instant, std::vector<double>& state) {
+    return Settling(contacts, instant, state).go();
+}
+
+}  // namespace alembert
