@@ -9,8 +9,6 @@
 
 namespace {
 
-inline double sin(double x) { return __builtin_sin(x); }
-inline double cos(double x) { return __builtin_cos(x); }
 inline double tan(double x) { return __builtin_tan(x); }
 inline double asin(double x) { return __builtin_asin(x); }
 inline double acos(double x) { return __builtin_acos(x); }
@@ -28,8 +26,6 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-template <typename Real> struct pair { Real s, c; };
-template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>

@@ -9,8 +9,6 @@
 
 namespace {
 
-inline double sin(double x) { return __builtin_sin(x); }
-inline double cos(double x) { return __builtin_cos(x); }
 inline double tan(double x) { return __builtin_tan(x); }
 inline double asin(double x) { return __builtin_asin(x); }
 inline double acos(double x) { return __builtin_acos(x); }
@@ -28,8 +26,93 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
+// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+//
+//   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
+//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
+//
+// Angles beyond 1e8, infinities and NaN go to libm.
+
+using real2 = double __attribute__((vector_size(16)));
+using real4 = double __attribute__((vector_size(32)));
+using real8 = double __attribute__((vector_size(64)));
+using bits2 = long long __attribute__((vector_size(16)));
+using bits4 = long long __attribute__((vector_size(32)));
+using bits8 = long long __attribute__((vector_size(64)));
+
 template <typename Real> struct pair { Real s, c; };
+template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
+
+#if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
+inline bool is_near(double) { return false; }  // the reduction does not survive sums in another order
+#else
+[[gnu::always_inline]] inline bool is_near(double x) { return __builtin_fabs(x) <= 1e8; }
+#endif
+
+template <typename Bits, typename Real>
+[[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
+    constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
+    const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
+    const Bits k = __builtin_bit_cast(Bits, shifted);
+    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
+    const Real hi = rest - third, taken = hi - rest;
+    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real z = hi * hi, zz = z * z;
+    const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
+                   zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
+    const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
+                   zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
+    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
+    const Bits differ = (s_bits ^ c_bits) & odd;
+    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
+    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+}
+
+[[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
+    sine = __builtin_sin(x);
+    cosine = __builtin_cos(x);
+}
+
+[[gnu::always_inline]] inline pair<double> sincos(double x) {
+    pair<double> result;
+    if (__builtin_expect(is_near(x), 1))
+        sines_near<long long>(x, result.s, result.c);
+    else
+        sines_far(x, result.s, result.c);
+    return result;
+}
+
+template <typename Wide, typename Bits, typename... Angle>
+[[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
+    sines<double, sizeof...(Angle)> result;
+    Wide s, c;
+    sines_near<Bits>(Wide{x...}, s, c);
+    for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
+    if (__builtin_expect((is_near(x) & ...), 1)) return result;
+    int i = 0;
+    ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
+    return result;
+}
+
+inline double sin(double x) { return sincos(x).s; }
+inline double cos(double x) { return sincos(x).c; }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// Of two to eight angles.
+template <typename Real, typename... Angle>
+[[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
+    constexpr unsigned count = 1 + sizeof...(Angle);
+    if constexpr (!__is_same(Real, double))
+        return { {sin(first), sin(x)...}, {cos(first), cos(x)...} };
+    else if constexpr (count == 2)
+        return sincos_in<real2, bits2>(first, x...);
+    else if constexpr (count <= 4)
+        return sincos_in<real4, bits4>(first, x...);
+    else
+        return sincos_in<real8, bits8>(first, x...);
+}
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>

@@ -81,6 +81,7 @@ public:
                                            cost.total(), cost.additions, cost.multiplications, cost.divisions,
                                            cost.functions));
         file.set("functions", functions);
+        file.set("trigonometric", has_trigonometry());
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
@@ -108,6 +109,12 @@ public:
     }
 
 private:
+    bool has_trigonometry() const {
+        for (int id = 0; id < p_.size(); ++id)
+            if (p_[id].op == Op::sin || p_[id].op == Op::cos) return true;
+        return false;
+    }
+
     /// Everything that depends on parameters alone and is wanted by something that does not.
     void find_constants() {
         std::vector<int> wanted;

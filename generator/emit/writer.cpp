@@ -15,6 +15,7 @@ namespace alembert {
 
 namespace {
 
+constexpr std::size_t widest_group = 8;  // angles whose sines the emitted `sincos` takes at once
 constexpr int widest_expression = 10;  // operations in one statement, so that it can be read
 
 bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
@@ -145,11 +146,57 @@ std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
 
     std::vector<Section> sections(titles.size());
     for (std::size_t s = 0; s < titles.size(); ++s) sections[s].title = titles[s];
-    for (std::size_t s = 0; s < titles.size(); ++s)
+    std::vector<int> first;
+    for (const auto& [id, wish] : wanted_)
+        if (place[id] == 0 && !named_.contains(id)) first.push_back(id);
+    sections[0].lines = trigonometry(first);
+    for (std::size_t s = 1; s < titles.size(); ++s)
         for (const auto& [id, wish] : wanted_)
             if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
     std::erase_if(sections, [](const Section& section) { return section.lines.empty(); });
     return sections;
+}
+
+std::vector<std::string> Writer::trigonometry(const std::vector<int>& nodes) {
+    std::map<int, int> depth;  // how many sines of sines there are in a node
+    int deepest = 0;
+    for (const auto& [id, count] : uses_) {
+        if (is_leaf(id)) continue;
+        int& own = depth[id];
+        for (const int arg : program_[id].args) own = std::max(own, depth[arg]);
+        deepest = std::max(deepest, own += is_trigonometric(program_[id]) ? 1 : 0);
+    }
+    std::vector<std::string> lines;
+    for (int d = 0; d <= deepest; ++d) {
+        for (const int id : nodes)
+            if (!is_trigonometric(program_[id]) && depth[id] == d) lines.push_back(statement(id));
+        std::vector<int> arguments, first;  // and the first node of each
+        for (const int id : nodes)
+            if (const int argument = program_[id].args.empty() ? -1 : program_[id].args[0];
+                is_trigonometric(program_[id]) && depth[id] == d + 1 && std::find(arguments.begin(), arguments.end(), argument) == arguments.end()) {
+                arguments.push_back(argument);
+                first.push_back(id);
+            }
+        for (std::size_t begin = 0; begin < arguments.size(); begin += widest_group) {
+            const std::size_t end = std::min(begin + widest_group, arguments.size());
+            if (end - begin == 1) {
+                lines.push_back(statement(first[begin]));
+                continue;
+            }
+            const std::string group = names_.numbered("trig");
+            std::string of, values;
+            for (std::size_t k = begin; k < end; ++k) {
+                const auto [sine, cosine] = sines_[arguments[k]];
+                const std::string base = trigonometric_name(arguments[k]);
+                of += (of.empty() ? "" : ", ") + text(arguments[k], additive);
+                if (sine >= 0) values += fmt::format("{}{} = {}.sine[{}]", values.empty() ? "" : ", ", named_[sine] = names_.fresh("sin_" + base), group, k - begin);
+                if (cosine >= 0) values += fmt::format("{}{} = {}.cosine[{}]", values.empty() ? "" : ", ", named_[cosine] = names_.fresh("cos_" + base), group, k - begin);
+            }
+            lines.push_back(fmt::format("const auto {} = sincos({});", group, of));
+            lines.push_back("const Real " + values + ";");
+        }
+    }
+    return lines;
 }
 
 std::string Writer::trigonometric_name(int argument) {

@@ -45,6 +45,7 @@ private:
     void count_uses(const std::vector<Goal>& goals);
     void choose_statements(const std::vector<Goal>& goals);
     std::string statement(int node);
+    std::vector<std::string> trigonometry(const std::vector<int>& nodes);
     std::string trigonometric_name(int argument);
     std::string text(int node, int precedence);
     std::string sum_text(const Node& node, bool negated);

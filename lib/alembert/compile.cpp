@@ -100,8 +100,10 @@ std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOp
                                       "-march=native",   "-ffp-contract=fast",
                                       "-fno-math-errno", "-fno-trapping-math",
                                       "-nostdlib",       "-pipe"};
+    // At -O1 g++ leaves out vzeroupper: the host's own SSE code would then run many times slower after a call.
+    if (source_size > large_source) flags.emplace_back("-fexpensive-optimizations");
     if (options.fast_math)
-        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math"})
+        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math", "-DALEMBERT_REASSOCIATES"})
             flags.emplace_back(flag);
     flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
     return flags;
