@@ -90,7 +90,7 @@ template <typename Wide, typename Bits, typename... Angle>
     Wide s, c;
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
-    if (__builtin_expect((is_near(x) & ...), 1)) return result;
+    if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
     int i = 0;
     ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
     return result;
