@@ -30,7 +30,7 @@ Derived derived_again(const Derived& derived, Mechanism mechanism, const std::st
 /// Throws ModelError for equations in generalized speeds, which contacts cannot change.
 void need_rates(const Derived& derived);
 
-/// Lowered in the form that takes the fewest operations, functions counting more.
+/// Lowered in the form that takes the fewest operations.
 Choice lowered(const Derived& derived, const Request& request);
 
 /// Why the numbers fail at a state, in the terms of the scene: a combination of rates that no inertia resists, or the

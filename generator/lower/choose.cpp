@@ -77,12 +77,6 @@ Energy readable_energy(const Mechanism& m, const Energy& energy) {
 
 int operations(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
-/// Operations as time: a sine with its cosine takes some 60 (reduction, two polynomials, into and out of vectors).
-int cost(const Program& program) {
-    const Operations count = program.count(program.right_hand_side());
-    return count.total() + 29 * count.functions;
-}
-
 }  // namespace
 
 std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t budget) {
@@ -99,8 +93,9 @@ Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions
     Choice choice{.program = shared(lower(m, intermediate, energy, options)), .runner_up = {}};
     if (const std::optional<Equations> textbook = textbook_equations(m, equations)) {
         Program program = shared(lower(m, *textbook, readable_energy(m, energy), options));
-        if (program.singular || cost(program) <= cost(choice.program)) std::swap(program, choice.program);
-        choice.runner_up = operations(program);
+        const int ours = operations(program), other = operations(choice.program);
+        if (program.singular || ours <= other) std::swap(program, choice.program);
+        choice.runner_up = std::max(ours, other);
     }
     return choice;
 }

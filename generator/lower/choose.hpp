@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The fastest program by count out of the forms that the equations can take: operations, sines and other functions
-/// being 30 each.
+/// The program with the fewest operations out of the forms that the equations can take.
 ///
 /// Two forms: the textbook's (Fourier normal form, grouped and factored), which is short for a few bodies and has
 /// 2^k terms for k angles, and the one with intermediate symbols, which grows like a polynomial. Both are lowered
