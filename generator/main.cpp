@@ -53,13 +53,18 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, routh, kane, dalembert, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
     CLI::App* derive = verb("derive", "print the equations of motion in textbook form", alembert::derive);
     derive->add_option("--format", request.format, "text, latex or mathml")->check(CLI::IsMember({"text", "latex", "mathml"}));
     derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
+
+    const auto with_reactions = [&](CLI::App* sub) {
+        sub->add_flag("--reactions", request.reactions, "the reaction of each constraint along each coordinate, lambda*df/dq");
+    };
+    with_reactions(derive);
 
     verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
     verb("audit", "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", alembert::audit);
@@ -71,6 +76,8 @@ int main(int argc, char** argv) {
     eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
 
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
+
+    with_reactions(eval);
 
     CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
     emit->add_option("-o,--output", request.output, "folder")->required();
@@ -85,6 +92,7 @@ int main(int argc, char** argv) {
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
     simulate->add_option("-o,--output", request.output, "CSV file");
     simulate->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+    with_reactions(simulate);
     simulate->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
 
     try {

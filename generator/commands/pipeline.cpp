@@ -39,6 +39,14 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
+/// R_<constraint>_<coordinate> as outputs.
+void add_reactions(Mechanism& m) {
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (int i = 0; i < m.size(); ++i)
+            if (!c.row[i].is_zero())
+                m.outputs.push_back({fmt::format("R_{}_{}", c.name, m.q[i].get_name()), m.z->name(c.row[i] * c.multiplier)});
+}
+
 }  // namespace
 
 Derived derived(const Request& request) {
@@ -47,13 +55,15 @@ Derived derived(const Request& request) {
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
+    check_implied(mechanism, redundant);
     for (const int k : redundant)
         std::cerr << describe(scene, {{mechanism.constraints[k].place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
-                                                   "out, and the reactions are those of the others alone",
+                                                   "out, and the reactions of all are the least that keep them",
                                                    mechanism.constraints[k].name),
                                        Severity::warning}});
     mechanism = without_constraints(std::move(mechanism), redundant);
+    if (request.reactions) add_reactions(mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
     if (mechanism.speeds.empty() && !equations.poles.empty())

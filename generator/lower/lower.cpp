@@ -217,6 +217,44 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
         program.roots.push_back({"speed_rate", m.speeds[k].u.get_name(), lowering(rates[k])});
 }
 
+/// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B = A_all A_keptᵀ
+/// they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
+void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power) {
+    lowering.lower_definitions({power});
+    lowering(power);  // constraints that move do their work through the multipliers of those that are kept
+    std::vector<const Mechanism::Constraint*> all;
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list) all.push_back(&c);
+    const std::size_t kept = m.constraints.size();
+    std::vector<ex> wanted;
+    for (const auto* c : all) wanted.insert(wanted.end(), c->row.begin(), c->row.end());
+    lowering.lower_definitions(wanted);
+    const auto dot = [&](const std::vector<int>& a, const std::vector<int>& b) {
+        std::vector<Program::Term> terms;
+        for (std::size_t i = 0; i < a.size(); ++i) terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
+        return program.sum(0, terms);
+    };
+    std::vector<std::vector<int>> rows, B(kept);  // B by columns
+    for (const auto* c : all) {
+        rows.emplace_back();
+        for (const ex& e : c->row) rows.back().push_back(lowering(e));
+    }
+    for (std::size_t k = 0; k < kept; ++k)
+        for (const auto& row : rows) B[k].push_back(dot(row, rows[k]));
+    std::vector<int> square, right, lambda;
+    for (std::size_t k = 0; k < kept; ++k) lambda.push_back(lowering(m.constraints[k].multiplier));
+    for (std::size_t k = 0; k < kept; ++k) {
+        for (std::size_t j = 0; j <= k; ++j) square.push_back(dot(B[k], B[j]));
+        right.push_back(dot({B[k].begin(), B[k].begin() + static_cast<std::ptrdiff_t>(kept)}, lambda));
+    }
+    const auto w = solve_symmetric(program, square, right, static_cast<int>(kept));
+    for (std::size_t c = 0; c < all.size(); ++c) {
+        std::vector<Program::Term> terms;
+        for (std::size_t k = 0; k < kept && w; ++k) terms.emplace_back(1, program.product(1, {{B[k][c], 1}, {(*w)[k], 1}}));
+        if (w || c >= kept) lowering.define(all[c]->multiplier, program.sum(0, terms));
+    }
+}
+
 }  // namespace
 
 Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
@@ -313,12 +351,15 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
             for (const Equations::Eliminated& e : equations.eliminated)
                 lowering.define(m.constraints[e.constraint].multiplier, motion(e.multiplier));
         }
-        for (const Mechanism::Constraint& constraint : m.constraints)
-            program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
+        if (!m.redundant.empty()) share_out(lowering, program, m, energy.power);
+        for (const auto* list : {&m.constraints, &m.redundant})
+            for (const Mechanism::Constraint& constraint : *list)
+                program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
         // The power and outputs may name multipliers; their values are never read, as there is no motion.
         for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
+        for (const Mechanism::Constraint& constraint : m.redundant) lowering.define(constraint.multiplier, program.number(0));
     }
     for (int i = 0; i < m.size() && has_speeds; ++i) {
         program.roots.push_back({"rate", m.q[i].get_name(), lowering(m.qdot[i])});

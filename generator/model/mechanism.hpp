@@ -129,6 +129,7 @@ struct Mechanism {
     std::vector<SpringElement> springs;
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
+    std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
     std::vector<Unilateral> unilateral;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;
