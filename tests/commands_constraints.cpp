@@ -105,6 +105,8 @@ TEST_CASE("commands: what is wrong with constraints has its message and exit cod
     };
     fails(scene("holonomic = \"x^2 + y^2 - 2\""), 3, "constraint 'c' is off by 1 at the start");
     fails(scene("holonomic = \"x^2 + y^2 + 1\"", "x = { guess = 0.6 }"), 4, "the guesses do not converge");
+    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = { guess = 0.6 }", "[[constraint]]\nname = \"d\"\nholonomic = \"2*x^2 + 2*y^2 = 3\"\n"), 3,
+          "constraints 'c' and 'd' contradict each other");
     fails(scene("nonholonomic = \"x'^2 - y'\""), 3, "not linear in the rates");
     fails(scene("holonomic = \"x'\""), 3, "'nonholonomic'");
     fails(scene("holonomic = \"t - t\""), 3, "contains no coordinate");

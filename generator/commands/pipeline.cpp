@@ -11,11 +11,14 @@
 #include <fstream>
 #include <iostream>
 
+#include "analysis/assemble.hpp"
+#include "analysis/audit.hpp"
 #include "analysis/diagnose.hpp"
 #include "analysis/redundancy.hpp"
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -37,6 +40,18 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
     if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
+}
+
+/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
+void refuse_contradiction(const Mechanism& m) {
+    if (m.constraints.empty()) return;
+    Start start = start_of(m);
+    try {
+        assemble(start, m, lower_constraints(m), {});
+    } catch (const std::runtime_error&) {
+        const Audit found = audit_of(m);
+        if (found.contradictory.size() > 1) throw ModelError(found.problem);
+    }
 }
 
 /// R_<constraint>_<coordinate> as outputs.
@@ -63,6 +78,7 @@ Derived derived(const Request& request) {
                                                    mechanism.constraints[k].name),
                                        Severity::warning}});
     mechanism = without_constraints(std::move(mechanism), redundant);
+    refuse_contradiction(mechanism);
     if (request.reactions) add_reactions(mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
