@@ -255,7 +255,8 @@ std::optional<double> Oracle::misfit(const Equality& claim) const {
             Reading reading(scene_, m_, e_, state);
             const Series lhs = reading.of(*claim.lhs.tree), rhs = reading.of(*claim.rhs.tree);
             const Digits off = lhs.at[0] - rhs.at[0];
-            const double size = (lhs.size[0] + rhs.size[0]).magnitude();
+            // An acceleration that is zero has no size but that of its rounding.
+            const double size = std::max(-8.0, (lhs.size[0] + rhs.size[0]).magnitude());
             worst = std::max(worst.value_or(-1000), off.is_zero() ? -1000 : off.magnitude() - size);
             if (*worst > -30) return worst;
         } catch (const std::exception&) {

@@ -87,7 +87,8 @@ private:
         add(kind, side_ == 0 ? text + " = " + other : other + " = " + text);
     }
     void add(const std::string& kind, const std::string& equation) {
-        if (equation != right_[k_]) made[kind].insert(equation);
+        const auto sides = sides_of(equation);
+        if (equation != right_[k_] && sides[0].tree && sides[1].tree) made[kind].insert(equation);
     }
 
     // Terms of a sum
@@ -106,6 +107,15 @@ private:
         int at = tree.offset;
         while (sides_[static_cast<std::size_t>(side_)].text[static_cast<std::size_t>(at)] != '+') --at;
         return at;
+    }
+
+    /// From the first to one past the last character of a term, parentheses around it included.
+    std::pair<int, int> with_parentheses(const Tree& tree) const {
+        const std::string& text = sides_[static_cast<std::size_t>(side_)].text;
+        int open = tree.offset, close = tree.offset + tree.length;
+        while (open > 0 && text[static_cast<std::size_t>(open) - 1] == '(' && close < static_cast<int>(text.size()) && text[static_cast<std::size_t>(close)] == ')')
+            --open, ++close;
+        return {open, close};
     }
 
     void term(const Tree& tree, bool first, bool outermost) {
@@ -129,8 +139,9 @@ private:
         if (inner.kind == Kind::sum) {
             change("missing_term", inner.offset, static_cast<int>(body.size()), "0");
         } else if (moves || outermost) {
-            const int begin = first || negated ? tree.offset : plus_before(tree);
-            change("missing_term", begin, tree.offset + static_cast<int>(slice(tree).size()) - begin, first ? "0" : "");
+            const auto [open, close] = with_parentheses(tree);
+            const int begin = first ? open : negated ? tree.offset : plus_before(tree);
+            change("missing_term", begin, close - begin, first ? "0" : "");
         }
     }
 
