@@ -48,7 +48,7 @@ public:
                 equations.push_back(rewritings_.claim(random_));
                 chosen = equations.size() - 1;
             }
-            const std::vector<StudentSlip> slips = slips_of(scene_, equations, chosen, random_, 1);
+            const std::vector<StudentSlip> slips = slips_of(scene_, equations, m_.q.size(), chosen, random_, 1);
             if (slips.empty()) continue;
             k += judge(slips[random_() % slips.size()].equation, false) ? 1 : 0;
         }

@@ -34,7 +34,7 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
         std::string claims;
         std::vector<StudentSlip> slips;
         for (std::size_t k = 0; k < right.size(); ++k)
-            for (const StudentSlip& slip : slips_of(scene, right, k, random, each)) {
+            for (const StudentSlip& slip : slips_of(scene, right, static_cast<std::size_t>(e.size()), k, random, each)) {
                 std::vector<Diagnostic> mistakes;
                 const Equality equation = parse_equality(slip.equation, {}, mistakes);
                 CAPTURE(slip.equation);

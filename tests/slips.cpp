@@ -32,8 +32,8 @@ std::vector<Side> sides_of(const std::string& equation) {
 
 class Student {
 public:
-    Student(const Scene& scene, const std::vector<std::string>& right, std::size_t k)
-        : right_(right), k_(k), sides_(sides_of(right[k])) {
+    Student(const Scene& scene, const std::vector<std::string>& right, std::size_t rows, std::size_t k)
+        : right_(right), rows_(rows), k_(k), sides_(sides_of(right[k])) {
         for (const Coordinate& q : scene.coordinates) coordinates_.insert(q.name.text);
         for (const Input& input : scene.inputs) moving_.insert(input.name.text);
         std::set<std::string> in_positions;
@@ -96,7 +96,7 @@ private:
     void terms(const Tree& tree, bool outermost) {
         if (tree.kind == Kind::number) return;
         if (tree.kind != Kind::sum) {
-            if (outermost) term(tree, true, true);
+            if (outermost) term(tree, true, true, side_ == 0);
             return;
         }
         for (std::size_t k = 0; k < tree.args.size(); ++k) term(*tree.args[k], k == 0, outermost);
@@ -118,7 +118,7 @@ private:
         return {open, close};
     }
 
-    void term(const Tree& tree, bool first, bool outermost) {
+    void term(const Tree& tree, bool first, bool outermost, bool alone = false) {
         const bool negated = tree.kind == Kind::negate;
         const Tree& inner = negated ? *tree.args[0] : tree;
         const std::string body = slice(inner);
@@ -138,7 +138,7 @@ private:
         // Forgotten
         if (inner.kind == Kind::sum) {
             change("missing_term", inner.offset, static_cast<int>(body.size()), "0");
-        } else if (moves || outermost) {
+        } else if (!alone && (moves || outermost)) {
             const auto [open, close] = with_parentheses(tree);
             const int begin = first ? open : negated ? tree.offset : plus_before(tree);
             change("missing_term", begin, close - begin, first ? "0" : "");
@@ -150,14 +150,18 @@ private:
     void visit(const Tree& tree, bool in_angle, bool exponent) {
         const bool turns = tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos");
         if (tree.kind == Kind::sum && tree.offset != 0 && !in_angle) terms(tree, false);
-        if (tree.kind == Kind::name && !in_angle) name(tree);
+        if (tree.kind == Kind::name && !in_angle) name(tree, false);
+        if (tree.kind == Kind::power && tree.args[0]->kind == Kind::name && !in_angle) {
+            squared(tree);
+            name(*tree.args[0], true);
+            return;
+        }
         if (tree.kind == Kind::number && !in_angle && !exponent) number(tree);
-        if (tree.kind == Kind::power && !in_angle) squared(tree);
         if (turns && !in_angle) trig(tree);
         for (std::size_t k = 0; k < tree.args.size(); ++k) visit(*tree.args[k], in_angle || turns, tree.kind == Kind::power && k == 1);
     }
 
-    void name(const Tree& tree) {
+    void name(const Tree& tree, bool is_base) {
         const int length = static_cast<int>(slice(tree).size());
         if (coordinates_.contains(tree.text) && tree.primes > 0)
             change("lost_dot", tree.offset, length, tree.text + std::string(static_cast<std::size_t>(tree.primes - 1), '\''));
@@ -166,6 +170,7 @@ private:
             const std::string kind = names == &lengths_ ? "wrong_arm" : "factor";
             for (const std::string& other : *names)
                 if (other != tree.text) change(kind, tree.offset, length, other);
+            if (is_base) continue;
             change(kind, tree.offset, length, tree.text + "^2");
             change(kind, tree.offset, length, "1");
         }
@@ -257,10 +262,22 @@ private:
 
     void wrong_rows() {
         const std::vector<Load> own = loads(sides_);
-        for (std::size_t other = 0; other < right_.size(); ++other) {
+        const auto without_parameters = [&](const std::string& load) {
+            std::string bare, word;
+            for (const char c : load + " ") {
+                if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+                    word += c;
+                    continue;
+                }
+                bare += (lengths_.contains(word) || others_.contains(word) ? "" : word) + (std::string("*/ ()").find(c) == std::string::npos ? std::string(1, c) : "");
+                word.clear();
+            }
+            return bare;
+        };
+        for (std::size_t other = 0; k_ < rows_ && other < rows_; ++other) {
             if (other == k_) continue;
             for (const Load& load : loads(sides_of(right_[other]))) {
-                if (std::any_of(own.begin(), own.end(), [&](const Load& o) { return o.text == load.text; })) continue;
+                if (std::any_of(own.begin(), own.end(), [&](const Load& o) { return without_parameters(o.text) == without_parameters(load.text); })) continue;
                 const auto [left, right] = std::pair(sides_[0].text, sides_[1].text);
                 const std::string sign = load.negated ? " - " : " + ";
                 // one too many
@@ -297,14 +314,16 @@ private:
         const std::string angle = angles.empty() ? "" : "*sin(" + *angles.begin() + ")";
         for (const std::string& a : coordinates_)
             for (const std::string& b : coordinates_) {
-                if (b < a) continue;
+                if (b < a || right_[k_].find(a + "'*" + b + "'") != std::string::npos || right_[k_].find(b + "'*" + a + "'") != std::string::npos ||
+                    (a == b && right_[k_].find(a + "'^2") != std::string::npos))
+                    continue;
                 for (const char* sign : {" + ", " - "})
                     add("extra_term", sides_[0].text + sign + mass + arm + "*" + a + "'*" + b + "'" + angle + " = " + sides_[1].text);
             }
     }
 
     const std::vector<std::string>& right_;
-    std::size_t k_;
+    std::size_t rows_, k_;
     std::vector<Side> sides_;
     std::set<std::string> coordinates_, moving_, lengths_, others_;
     int side_ = 0;
@@ -312,10 +331,10 @@ private:
 
 }  // namespace
 
-std::vector<StudentSlip> slips_of(const Scene& scene, const std::vector<std::string>& right, std::size_t k, std::mt19937& random,
-                                  std::size_t each) {
+std::vector<StudentSlip> slips_of(const Scene& scene, const std::vector<std::string>& right, std::size_t rows, std::size_t k,
+                                  std::mt19937& random, std::size_t each) {
     std::vector<StudentSlip> result;
-    for (const auto& [kind, equations] : Student(scene, right, k).made) {
+    for (const auto& [kind, equations] : Student(scene, right, rows, k).made) {
         std::vector<std::string> all(equations.begin(), equations.end());
         std::shuffle(all.begin(), all.end(), random);
         for (std::size_t i = 0; i < std::min(each, all.size()); ++i) result.push_back({kind, all[i]});

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/absent.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/multiple.hpp"
 #include "analysis/nearest.hpp"
@@ -264,7 +265,52 @@ private:
                 return false;
             }
         };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, e_, right);
+        const auto vanishes = [&](const Expression& value) {
+            Program p;
+            const std::optional<int> root = node_of(p, value);
+            return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
+        };
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, e_,
+                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim) { return absent(claim, states); }});
+    }
+
+    /// Nothing where it cannot be read, or holds open names.
+    std::optional<int> node_of(Program& p, const Expression& value) {
+        try {
+            const ex e = claims_.read(value);
+            if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
+            return claims_.lower(p, {e})[0];
+        } catch (const std::exception&) {
+            return std::nullopt;
+        } catch (const SceneMistake&) {
+            return std::nullopt;
+        }
+    }
+
+    std::optional<std::pair<std::string, std::string>> absent(const Claim& claim, States& states) {
+        const ClaimForm form = claims_.read(claim);
+        if (!form.open.empty()) return std::nullopt;
+        Program p;
+        const int residual = claims_.lower(p, {form.residual})[0];
+        std::vector<std::string> texts;
+        std::vector<int> nodes;
+        std::vector<Diagnostic> mistakes;
+        for (std::string& text : terms_of_mechanics(claim, m_, e_)) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
+            if (!node || p.is_zero(*node)) continue;
+            nodes.push_back(*node);
+            texts.push_back(std::move(text));
+        }
+        std::vector<Steady> steady;
+        int independent = 0;
+        for (const Mechanism::Parameter& q : m_.parameters)
+            if (q.independent) steady.push_back({q.symbol.get_name(), p.variable({Variable::Kind::parameter, independent++})});
+        std::vector<ModularPoint> points;
+        for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
+        const auto found = absent_term(p, residual, nodes, steady, points);
+        if (!found) return std::nullopt;
+        return std::pair(found->coefficient, texts[found->term]);
     }
 
     /// Puts a form back.
@@ -285,12 +331,16 @@ private:
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
         if (p.is_zero(root[0])) return false;  // an identity is no repair
+        return is_zero_at_two(p, root[0], states);
+    }
+
+    static bool is_zero_at_two(const Program& p, int root, States& states) {
         for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
             const ExactState* const state = states.get(s);
             if (state == nullptr || s > 20) return false;
-            const auto at = evaluate_mod(p, state->point, root);
+            const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
             if (!at) continue;
-            if (!at->value[root[0]].is_zero()) return false;
+            if (!at->value[root].is_zero()) return false;
             ++lucky;
         }
         return true;

@@ -34,6 +34,7 @@ public:
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
+    GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
 
     /// Lowers into `program`; symbols of multipliers and open names become its unknowns.
     std::vector<int> lower(Program& program, const std::vector<GiNaC::ex>& list) const;
