@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <set>
 
+#include "analysis/nearest.hpp"
 #include "report/derivation.hpp"
 #include "report/text.hpp"
 #include "symbolic/fourier.hpp"
@@ -36,7 +38,8 @@ void add_terms(const Phrase& phrase, std::vector<std::string>& terms) {
 
 void add_terms(const ex& e, const Mechanism& m, std::vector<std::string>& terms) {
     if (m.z->tree_size(e) > largest_tree) return;
-    if (const auto f = fourier(m.z->expand(e), *m.symbols, most_texts); f && f->size() > 0) add_terms(readable(*f), terms);
+    if (const auto f = fourier(m.z->expand(e), *m.symbols, most_texts); f && f->size() > 0)
+        for (const Fourier& part : parts_of(*f)) add_terms(readable(part), terms);
 }
 
 void collect_angles(const Tree& tree, const std::string& text, std::set<std::string>& angles) {
@@ -112,6 +115,24 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
     return terms;
 }
 
+std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
+    std::set<std::string> parameters, sums;
+    for (const Mechanism::Parameter& p : m.parameters) parameters.insert(p.symbol.get_name());
+    const std::function<bool(const Tree&)> is_steady = [&](const Tree& tree) {
+        if (tree.kind == Tree::Kind::name) return parameters.contains(tree.text);
+        return tree.kind != Tree::Kind::derivative && std::all_of(tree.args.begin(), tree.args.end(), [&](const TreePtr& arg) { return is_steady(*arg); });
+    };
+    const std::function<void(const Tree&, const std::string&)> collect = [&](const Tree& tree, const std::string& text) {
+        if (tree.kind == Tree::Kind::sum && is_steady(tree))
+            sums.insert("(" + text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length)) + ")");
+        for (const TreePtr& arg : tree.args) collect(*arg, text);
+    };
+    for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) collect(*side->tree, side->text);
+    std::vector<std::string> result(parameters.begin(), parameters.end());
+    result.insert(result.end(), sums.begin(), sums.end());
+    return result;
+}
+
 namespace {
 
 struct Powers {
@@ -175,7 +196,7 @@ std::string text_of(const std::pair<int, int>& number, const Powers& powers, con
 
 }  // namespace
 
-std::optional<Absent> absent_term(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
+std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
                                   const std::vector<ModularPoint>& points) {
     constexpr std::size_t needed = 3;
     std::vector<int> roots{residual};
@@ -186,13 +207,12 @@ std::optional<Absent> absent_term(const Program& program, int residual, const st
         if (auto values = evaluate_mod(program, point, roots)) at.push_back(std::move(*values));
         if (at.size() == needed) break;
     }
-    if (at.size() < needed) return std::nullopt;
+    if (at.size() < needed) return {};
     std::vector<Prime> ratios;
     for (const Steady& s : steady) ratios.push_back(at[1].value[s.node] * at[0].value[s.node].inverse());
     const std::map<Prime, Powers> table = table_of(ratios);
 
-    std::optional<Absent> best;
-    std::pair<int, std::size_t> least{1000, 0};
+    std::vector<std::pair<int, Absent>> found_terms;
     for (std::size_t k = 0; k < terms.size(); ++k) {
         std::array<Prime, needed> c;
         bool nonzero = true;
@@ -211,12 +231,13 @@ std::optional<Absent> absent_term(const Program& program, int residual, const st
         }
         const auto fraction = small_fraction(number[0]);
         if (!fraction || number[2] != number[0]) continue;
-        const std::pair<int, std::size_t> worth{2 * found->second.size() + (std::abs(fraction->first) != 1) + (fraction->second != 1), k};
-        if (worth >= least) continue;
-        least = worth;
-        best = Absent{k, text_of(*fraction, found->second, steady)};
+        const int effort = 2 * found->second.size() + (std::abs(fraction->first) != 1 ? 1 : 0) + (fraction->second != 1 ? 1 : 0);
+        found_terms.emplace_back(effort, Absent{k, text_of(*fraction, found->second, steady)});
     }
-    return best;
+    std::stable_sort(found_terms.begin(), found_terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Absent> result;
+    for (auto& [effort, term] : found_terms) result.push_back(std::move(term));
+    return result;
 }
 
 }  // namespace alembert

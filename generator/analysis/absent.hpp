@@ -23,6 +23,9 @@ namespace alembert {
 /// differentiates, also derivatives of such terms. At most a few thousand.
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism, const Equations& equations);
 
+/// Parameters, and the sums of parameters in the claim.
+std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);
+
 struct Absent {
     std::size_t term = 0;     ///< which
     std::string coefficient;  ///< "-2*m/l", "1"
@@ -34,8 +37,8 @@ struct Steady {
     int node = 0;
 };
 
-/// The term with the simplest coefficient, if there is one. `points`: at least three states of the mechanism.
-std::optional<Absent> absent_term(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
+/// All such terms, those with the simplest coefficient first. `points`: at least three states of the mechanism.
+std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
                                   const std::vector<ModularPoint>& points);
 
 }  // namespace alembert

@@ -287,9 +287,9 @@ private:
         }
     }
 
-    std::optional<std::pair<std::string, std::string>> absent(const Claim& claim, States& states) {
+    std::vector<std::string> absent(const Claim& claim, States& states) {
         const ClaimForm form = claims_.read(claim);
-        if (!form.open.empty()) return std::nullopt;
+        if (!form.open.empty()) return {};
         Program p;
         const int residual = claims_.lower(p, {form.residual})[0];
         std::vector<std::string> texts;
@@ -303,14 +303,18 @@ private:
             texts.push_back(std::move(text));
         }
         std::vector<Steady> steady;
-        int independent = 0;
-        for (const Mechanism::Parameter& q : m_.parameters)
-            if (q.independent) steady.push_back({q.symbol.get_name(), p.variable({Variable::Kind::parameter, independent++})});
+        for (const std::string& text : steady_sums(claim, m_)) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt) steady.push_back({text, *node});
+        }
         std::vector<ModularPoint> points;
         for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
-        const auto found = absent_term(p, residual, nodes, steady, points);
-        if (!found) return std::nullopt;
-        return std::pair(found->coefficient, texts[found->term]);
+        std::vector<std::string> result;
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) {
+            const std::string& by = term.coefficient;
+            result.push_back(by == "1" ? texts[term.term] : by == "-1" ? "-" + texts[term.term] : by + "*" + texts[term.term]);
+        }
+        return result;
     }
 
     /// Puts a form back.

@@ -133,7 +133,7 @@ private:
         std::string term = slice(leaf.term);
         term.replace(static_cast<std::size_t>(at.offset - leaf.term.offset), static_cast<std::size_t>(at.length), by);
         std::vector<Diagnostic> mistakes;
-        const bool alone = side(leaf.term.left) == trimmed(leaf.term);
+        const bool alone = trimmed({leaf.term.left, 0, static_cast<int>(side(leaf.term.left).size())}) == trimmed(leaf.term);
         if (const Expression changed = parse_expression(term, {}, mistakes); !alone && changed.tree && judge_.vanishes(changed)) found_.reset();
         return found_.has_value();
     }
@@ -315,21 +315,6 @@ private:
         return found_.has_value();
     }
 
-    /// Sums of the terms that differ by powers of parameters only: what is printed as one term.
-    static std::vector<Fourier> parts_of(const Fourier& f) {
-        std::vector<std::vector<Term>> groups;
-        for (const Term& term : f.terms()) {
-            const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return steady_ratio(g[0], term).has_value(); });
-            if (group == groups.end())
-                groups.push_back({term});
-            else
-                group->push_back(term);
-        }
-        std::vector<Fourier> result;
-        for (std::vector<Term>& group : groups) result.push_back(Fourier::collect(std::move(group)));
-        return result;
-    }
-
     /// A term of the nearest equation, the whole of it.
     void missing_own() {
         if (!nearest_) return;
@@ -392,11 +377,11 @@ private:
     }
 
     void absent() {
-        const auto term = judge_.absent(claim_);
-        if (!term) return;
-        const std::string shown = term->first == "1" ? term->second : term->first == "-1" ? "-" + term->second : term->first + "*" + term->second;
-        if (const auto right = ask(sides_[0] + (shown[0] == '-' ? " - " + shown.substr(1) : " + " + shown), sides_[1]))
-            found_ = Slip{"missing_term", shown, *right};
+        constexpr std::size_t most_asked = 12;
+        const std::vector<std::string> terms = judge_.absent(claim_);
+        for (std::size_t k = 0; k < std::min(most_asked, terms.size()) && !found_; ++k)
+            if (const auto right = ask(sides_[0] + (terms[k][0] == '-' ? " - " + terms[k].substr(1) : " + " + terms[k]), sides_[1]))
+                found_ = Slip{"missing_term", terms[k], *right};
     }
 
     const Claim& claim_;

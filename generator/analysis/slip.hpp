@@ -31,8 +31,8 @@ struct Slip {
 struct Judge {
     std::function<bool(const Claim&)> is_right;
     std::function<bool(const Expression&)> vanishes;  ///< on every motion
-    /// A term, times a coefficient, that `claim` lacks on its left side: "2*m", "r'*phi'".
-    std::function<std::optional<std::pair<std::string, std::string>>(const Claim& claim)> absent;
+    /// Terms each of which `claim` may lack on its left side: "2*m*r'*phi'". The simplest first.
+    std::function<std::vector<std::string>(const Claim& claim)> absent;
 };
 
 std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism, const Equations& equations,
