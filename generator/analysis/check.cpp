@@ -112,7 +112,7 @@ private:
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<States> states;
-        for (const int halves : {0, 2}) {
+        for (const int halves : {0, 1, 2}) {
             states.emplace(m_, e_, at, halves);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
@@ -271,7 +271,9 @@ private:
             return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
         };
         c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, e_,
-                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim) { return absent(claim, states); }});
+                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim, std::vector<std::string> terms) {
+                                    return absent(claim, std::move(terms), states);
+                                }});
     }
 
     /// Nothing where it cannot be read, or holds open names.
@@ -287,7 +289,7 @@ private:
         }
     }
 
-    std::vector<std::string> absent(const Claim& claim, States& states) {
+    std::vector<std::string> absent(const Claim& claim, std::vector<std::string> terms, States& states) {
         const ClaimForm form = claims_.read(claim);
         if (!form.open.empty()) return {};
         Program p;
@@ -295,7 +297,8 @@ private:
         std::vector<std::string> texts;
         std::vector<int> nodes;
         std::vector<Diagnostic> mistakes;
-        for (std::string& text : terms_of_mechanics(claim, m_, e_)) {
+        if (terms.empty()) terms = terms_of_mechanics(claim, m_, e_);
+        for (std::string& text : terms) {
             const Expression value = parse_expression(text, {}, mistakes);
             const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
             if (!node || p.is_zero(*node)) continue;

@@ -10,8 +10,9 @@
 ///
 /// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for all values of
 /// the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of them taken. An angle that
-/// occurs in sines and cosines alone is solved for by the tangent of its half. That the order of solving be triangular is
-/// asked for; a set of constraints that has no such order has no states here, and `obstacle` says so.
+/// occurs in sines and cosines alone is solved for by the tangent of its half. Two constraints that share two unknowns and
+/// leave no other way are solved together (analysis/common_zeros.hpp). A set of constraints that has no order of solving of
+/// this kind has no states here, and `obstacle` says so.
 /// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
@@ -44,11 +45,14 @@ public:
     const std::string& obstacle() const { return obstacle_; }
     At where() const { return at_; }
 
-    /// A condition and the variable that it is solved for, and how. In the order of solving.
-    struct Step {
-        int node = 0;        ///< in program()
+    /// A condition and the variable that it is solved for, and how; or two of each. In the order of solving.
+    struct Unknown {
+        int node = 0;        ///< the condition, in program()
         Variable variable{};
         bool turned = false;  ///< as an angle in sines and cosines
+    };
+    struct Step : Unknown {
+        std::optional<Unknown> second = {};
     };
     const std::vector<Step>& steps() const { return steps_; }
 
@@ -67,6 +71,7 @@ public:
 private:
     void order(std::vector<int> conditions);
     bool solve(const Step& step, ExactState& state) const;
+    bool solve_two(const Step& step, ExactState& state) const;
     bool move(ExactState& state) const;
 
     Program program_;

@@ -378,10 +378,17 @@ private:
 
     void absent() {
         constexpr std::size_t most_asked = 12;
-        const std::vector<std::string> terms = judge_.absent(claim_);
-        for (std::size_t k = 0; k < std::min(most_asked, terms.size()) && !found_; ++k)
-            if (const auto right = ask(sides_[0] + (terms[k][0] == '-' ? " - " + terms[k].substr(1) : " + " + terms[k]), sides_[1]))
-                found_ = Slip{"missing_term", terms[k], *right};
+        // A term that is there already, times something: the factor is wrong.
+        std::vector<std::string> own;
+        for (const Summand& s : summands_)
+            if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
+                own.push_back("(" + trimmed(s.negated ? Stretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) + ")");
+        for (const bool there : {true, false}) {
+            const std::vector<std::string> terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
+            for (std::size_t k = 0; k < std::min(most_asked, terms.size()) && !found_; ++k)
+                if (const auto right = ask(sides_[0] + (terms[k][0] == '-' ? " - " + terms[k].substr(1) : " + " + terms[k]), sides_[1]))
+                    found_ = Slip{there ? "factor" : "missing_term", terms[k], *right};
+        }
     }
 
     const Claim& claim_;
