@@ -289,7 +289,7 @@ private:
         }
     }
 
-    std::vector<std::string> absent(const Claim& claim, std::vector<std::string> terms, States& states) {
+    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms, States& states) {
         const ClaimForm form = claims_.read(claim);
         if (!form.open.empty()) return {};
         Program p;
@@ -312,11 +312,8 @@ private:
         }
         std::vector<ModularPoint> points;
         for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
-        std::vector<std::string> result;
-        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) {
-            const std::string& by = term.coefficient;
-            result.push_back(by == "1" ? texts[term.term] : by == "-1" ? "-" + texts[term.term] : by + "*" + texts[term.term]);
-        }
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) result.emplace_back(term.coefficient, texts[term.term]);
         return result;
     }
 

@@ -384,10 +384,13 @@ private:
             if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
                 own.push_back("(" + trimmed(s.negated ? Stretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) + ")");
         for (const bool there : {true, false}) {
-            const std::vector<std::string> terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
-            for (std::size_t k = 0; k < std::min(most_asked, terms.size()) && !found_; ++k)
-                if (const auto right = ask(sides_[0] + (terms[k][0] == '-' ? " - " + terms[k].substr(1) : " + " + terms[k]), sides_[1]))
-                    found_ = Slip{there ? "factor" : "missing_term", terms[k], *right};
+            const auto terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
+            for (std::size_t k = 0; k < std::min(most_asked, terms.size()) && !found_; ++k) {
+                const auto& [by, term] = terms[k];
+                const std::string more = by == "1" ? term : by == "-1" ? "-" + term : by + "*" + term;
+                if (const auto right = ask(sides_[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more), sides_[1]))
+                    found_ = there ? Slip{"factor", term, *right} : Slip{"missing_term", more, *right};
+            }
         }
     }
 

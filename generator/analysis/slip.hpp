@@ -32,8 +32,8 @@ struct Judge {
     std::function<bool(const Claim&)> is_right;
     std::function<bool(const Expression&)> vanishes;  ///< on every motion
     /// Multiples of `terms`, or of what is usual in mechanics if there are none, each of which `claim` may lack on its left side:
-    /// "2*m*r'*phi'". The simplest first.
-    std::function<std::vector<std::string>(const Claim& claim, std::vector<std::string> terms)> absent;
+    /// "2*m" and "r'*phi'". The simplest first.
+    std::function<std::vector<std::pair<std::string, std::string>>(const Claim& claim, std::vector<std::string> terms)> absent;
 };
 
 std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism, const Equations& equations,
