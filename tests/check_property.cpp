@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left undecided.
-// ALEMBERT_CLAIMS sets how many of each there are a scene (40; tests/bench/check_property.sh asks for 500).
+// ALEMBERT_CLAIMS sets how many of each there are a scene (40; tests/bench/check_property.sh asks for 500), ALEMBERT_SCENE picks
+// one scene.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -98,6 +99,7 @@ TEST_CASE("check: random right claims are proved, random wrong ones refuted, at 
     for (const std::string& file : scenes_in("scenes/textbook")) {
         CAPTURE(file);
         CAPTURE(seed);
+        if (const char* const only = std::getenv("ALEMBERT_SCENE"); only != nullptr && file.find(only) == std::string::npos) continue;
         Trial trial(file, seed);
         trial.right(count);
         trial.wrong(count);
@@ -107,5 +109,6 @@ TEST_CASE("check: random right claims are proved, random wrong ones refuted, at 
         if (wanted != nullptr)
             fmt::print("{:<24} proved {:4}  refuted {:4}  undecided {:3}  false proofs {}  false refutations {}  slowest {:.3f} s\n",
                        file.substr(file.rfind('/') + 1), c.proved, c.refuted, c.undecided, c.false_proofs, c.false_refutations, c.slowest);
+        if (wanted != nullptr && c.slowest > 1) fmt::print("  the slowest: {}\n", c.slowest_claim);
     }
 }
