@@ -153,3 +153,75 @@ TEST_CASE("check: momenta are legal in claims; names that are not declared and l
     CHECK(complaint("unknowns r\nr'' = 0\n").find("cannot be left open") != std::string::npos);
     CHECK(complaint("# nothing\n").find("has no claims") != std::string::npos);
 }
+
+TEST_CASE("check: nobody gives the derivative of a multiplier, an acceleration or an unknown function") {
+    for (const char* claims : {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
+        CAPTURE(claims);
+        CHECK_THROWS_AS(checked("sled", claims), SceneError);
+    }
+}
+
+TEST_CASE("check: sizes and signs are those of real numbers, tangents and half angles are known, and identities say nothing") {
+    const Checked result = checked("double_pendulum", R"(
+abs(theta1')^2 = theta1'^2
+abs(theta1')^3 = theta1'^3
+sqrt(theta1'^2) = abs(theta1')
+norm(vel(M1)) = l1*abs(theta1')
+F' = 3/2*cos(3*t)
+0 = 0
+1 = 0
+((m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2))/cos(theta1) + (m1+m2)*g*tan(theta1/2)*(1 + 1/cos(theta1)) = F
+abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'^2*sin(theta1-theta2) + m2*g*sin(theta2)) = F*cos(theta2)*abs(theta1')
+)");
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved, Verdict::proved,
+                                        Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
+// The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
+TEST_CASE("check: a loop whose lengths are numbers is solved for two angles at once") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+alpha = { initial = 0.5, rate = 2.0 }
+beta  = { guess = 0.6, rate_guess = 0 }
+gamma = { guess = 1.4, rate_guess = 0 }
+[energy]
+kinetic = "alpha'^2 + beta'^2/2 + alpha'*beta'*cos(alpha-beta) + 3*gamma'^2"
+[[constraint]]
+name = "x"
+holonomic = "cos(alpha) + 4*cos(beta) - 7/2*cos(gamma) - 3"
+[[constraint]]
+name = "y"
+holonomic = "sin(alpha) + 4*sin(beta) - 7/2*sin(gamma)"
+)toml", "loop.toml");
+    const Checked result = checked(with_claims(scene, R"(
+alpha'*sin(alpha-beta) = 7/2*gamma'*sin(gamma-beta)
+alpha'*sin(alpha-beta) = 4*gamma'*sin(gamma-beta)
+cos(alpha/2)^2 - sin(alpha/2)^2 + 4*cos(beta) - 7/2*cos(gamma) = 3
+alpha'*sin(alpha-gamma) = -4*beta'*sin(beta-gamma)
+beta = 2*atan(2/3)
+6*gamma'' = 7/2*sin(gamma)*lambda_x - 7/2*cos(gamma)*lambda_y
+(alpha'^2 + beta'^2/2 + alpha'*beta'*cos(alpha-beta) + 3*gamma'^2)' = 0
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved, Verdict::proved};
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+    CHECK_FALSE(result.claims[1].counterexample.empty());
+    CHECK_FALSE(result.claims[4].counterexample.empty());
+}
+
+// x² = l² has two branches; nothing says which.
+TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
+    const Scene scene = parse_scene("[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
+                                    "[[constraint]]\nname = \"wall\"\nholonomic = \"x^2 - l^2\"\n", "branch.toml");
+    const Checked result = checked(with_claims(scene, "x = l\nx = -l\nx^2 = l^2\nx' = 0\n(x-l)*(x+l) = 0\n", "claims.txt"));
+    CHECK(result.claims[0].verdict == Verdict::refuted);
+    CHECK(result.claims[1].verdict == Verdict::refuted);
+    for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
+}

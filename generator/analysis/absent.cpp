@@ -80,6 +80,11 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
     add_terms(m.kinetic_energy(), m, energies);
     add_terms(m.potential_energy(), m, energies);
     for (const ex& momentum : m.z->pull_back({{m.lagrangian(), 1}}, m.qdot)) add_terms(momentum, m, energies);
+    for (const auto* parts : {&m.kinetic, &m.potential})  // the whole energy of a body or a spring
+        for (const Part& part : *parts)
+            if (m.z->tree_size(part.value) <= largest_tree)
+                if (const auto f = fourier(m.z->expand(part.value), *m.symbols, most_texts); f && f->size() > 1)
+                    energies.push_back("(" + text(readable(*f)) + ")");
     const Derivation shown = derivation_of(m, e);
     if (!shown.definitions.empty()) return {};
     for (const ReadableEquation& equation : shown.equations) {

@@ -29,6 +29,7 @@ namespace {
 constexpr double wanted_failure = -60;
 constexpr int most_unlucky = 4000;
 constexpr int states_of_rest = 48;
+constexpr std::size_t most_states = 1200;
 
 /// Exact states, made when first asked for.
 class States {
@@ -149,11 +150,12 @@ private:
     std::optional<bool> vanishes_at(States& states, const Program& p, int root, double& failure, bool& exact) const {
         const std::array<int, 1> roots{root};
         failure = 0;
+        double missed = 0;  // log₂ of the chance that no state was on some branch
         int lucky = 0;
         const bool rest = states.motions.where() == Motions::At::rest;
         for (std::size_t s = 0;; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 400) return lucky > 0 && (failure <= wanted_failure || rest) ? std::optional(true) : std::nullopt;
+            if (state == nullptr || s > most_states) return lucky > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest) ? std::optional(true) : std::nullopt;
             const auto at = evaluate_mod(p, state->point, roots);
             if (!at) continue;
             ++lucky;
@@ -163,9 +165,13 @@ private:
             const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
             if (chance > -1) return std::nullopt;
             failure += chance;
-            if (failure <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
+            missed += miss(*state);
+            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
         }
     }
+
+    /// log₂ of the chance that a branch of the constraints is not the one of this state.
+    static double miss(const ExactState& state) { return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure; }
 
     void settle_alone(std::size_t k, States& states) {
         CheckedClaim& c = result_.claims[k];
@@ -339,9 +345,10 @@ private:
     }
 
     static bool is_zero_at_two(const Program& p, int root, States& states) {
-        for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
+        for (std::size_t s = 0, lucky = 0, wanted = 2; lucky < wanted; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 20) return false;
+            if (state == nullptr || s > 30) return false;
+            if (state->branches > 1) wanted = 8;
             const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
             if (!at) continue;
             if (!at->value[root].is_zero()) return false;
@@ -511,11 +518,11 @@ private:
 
     void settle_group(const std::vector<std::size_t>& group, States& states) {
         const Rows rows = rows_of(group);
-        double failure = 0;
+        double failure = 0, missed = 0;
         bool exact = true;
         std::optional<Matrix> bad;
         std::vector<Matrix> seen;
-        for (std::size_t s = 0; s < 400 && failure > wanted_failure && !bad; ++s) {
+        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad; ++s) {
             auto at = matrix(rows, states, s);
             if (!at) {
                 if (states.get(s) == nullptr) break;
@@ -524,9 +531,10 @@ private:
             exact = exact && at->exact;
             if (!consistent(*at)) bad = *at;
             failure += at->chance;
+            missed += miss(*states.get(s));
             seen.push_back(std::move(*at));
         }
-        if (seen.empty() || (!bad && failure > wanted_failure)) {
+        if (seen.empty() || (!bad && (failure > wanted_failure || missed > wanted_failure))) {
             for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
             return;
         }

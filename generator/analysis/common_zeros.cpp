@@ -43,10 +43,13 @@ CommonZeros common_zeros(const TwoConditions& conditions, const ZerosOptions& op
             if (!at) return {};
             y.push_back(resultant((*at)[0], (*at)[1]));
         }
-        const PrimePolynomial eliminated = interpolate(x, y);
+        PrimePolynomial eliminated = interpolate(x, y);
         if (eliminated.size() > highest + 1) continue;
+        const PrimePolynomial circle{1, 0, 1};  // what was multiplied by too often
+        while (options.turned[0] && eliminated.size() > 3 && prime_polynomial::remainder(eliminated, circle).empty())
+            eliminated = prime_polynomial::quotient(eliminated, circle);
         CommonZeros result;
-        result.degree = static_cast<double>(eliminated.size());
+        result.degree = eliminated.empty() ? 0 : eliminated.size() - 1;
         for (const Prime root : roots(eliminated, options.seed)) {
             const auto at = in_second(conditions, options, root, degree);
             if (!at) continue;

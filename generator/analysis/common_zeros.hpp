@@ -29,7 +29,7 @@ struct ZerosOptions {
 
 struct CommonZeros {
     std::vector<std::array<Prime, 2>> list;
-    double degree = 1;  ///< of the eliminated equation
+    std::size_t degree = 0;  ///< of the eliminated equation; 0 where there is none
 };
 
 /// Nothing found where the degrees are too high, the conditions depend on each other, or no zero is in the field.

@@ -120,6 +120,7 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
             if (!program_.is_zero(node)) conditions.push_back(node);
     }
     order(std::move(conditions));
+    find_branches();
 }
 
 // From the last step to the first: a variable that no other condition contains can be found when all else is known.
@@ -176,7 +177,7 @@ void Motions::order(std::vector<int> conditions) {
     }
 }
 
-bool Motions::solve_two(const Step& step, ExactState& state) const {
+Motions::Outcome Motions::solve_two(const Step& step, ExactState& state) const {
     const std::array<Unknown, 2> both{step, *step.second};
     std::array<Prime, 2> plain;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -198,14 +199,14 @@ bool Motions::solve_two(const Step& step, ExactState& state) const {
             return std::array{at->value[nodes[0]], at->value[nodes[1]]};
         },
         {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
-    if (zeros.list.empty()) return false;
+    if (zeros.list.empty()) return {false, zeros.degree};
     const auto& zero = zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
     put(0, zero[0]), put(1, zero[1]);
-    state.degree *= zeros.degree;
-    return true;
+    state.degree *= static_cast<double>(zeros.degree + 1);
+    return {true, zeros.degree};
 }
 
-bool Motions::solve(const Step& step, ExactState& state) const {
+Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
     if (step.second) return solve_two(step, state);
     const std::pair key{step.variable.kind, step.variable.index};
     const Prime plain = state.point.variable(step.variable);
@@ -223,14 +224,14 @@ bool Motions::solve(const Step& step, ExactState& state) const {
             x.push_back(state.point.random(600 + k, static_cast<std::uint64_t>(step.node)));
             put(x.back());
             const std::optional<Prime> value = value_of(program_, step.node, state);
-            if (!value) return false;
+            if (!value) return {};
             y.push_back(step.turned ? *value * (x.back() * x.back() + 1).power(degree / 2) : *value);
         }
         const PrimePolynomial f = interpolate(x, y);
         if (f.size() > degree + 1) continue;
         if (f.empty()) {
             put(x.back());  // holds for every value
-            return true;
+            return {true, 1};
         }
         std::vector<Prime> found = roots(f, state.point.seed);
         std::vector<std::optional<Prime>> all(found.begin(), found.end());
@@ -238,16 +239,35 @@ bool Motions::solve(const Step& step, ExactState& state) const {
             state.point.given_angles[plain] = Turn{-1, 0};
             if (value_of(program_, step.node, state) == Prime(0)) all.emplace_back();
         }
-        if (all.empty()) return false;
+        const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
+        if (all.empty()) return {false, count};
         const std::size_t pick = state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
         if (all[pick])
             put(*all[pick]);
         else
             state.point.given_angles[plain] = Turn{-1, 0};
         state.degree *= static_cast<double>(f.size() - 1);
-        return value_of(program_, step.node, state) == Prime(0);
+        return {value_of(program_, step.node, state) == Prime(0), count};
     }
-    return false;
+    return {};
+}
+
+void Motions::find_branches() {
+    irreducible_.assign(steps_.size(), false);
+    constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
+    std::vector<bool> known(steps_.size(), false);
+    for (std::uint64_t seed = 1; seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end(); ++seed) {
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_}};
+        for (std::size_t k = 0; k < steps_.size(); ++k) {
+            const Outcome outcome = solve(steps_[k], state);
+            if (outcome.found) {
+                known[k] = known[k] || outcome.degree == 1;
+                continue;
+            }
+            if (outcome.degree == 2) known[k] = irreducible_[k] = true;
+            break;
+        }
+    }
 }
 
 std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
@@ -256,8 +276,11 @@ std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pa
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
-    for (const Step& step : steps_)
-        if (!solve(step, state)) return std::nullopt;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const Outcome outcome = solve(steps_[k], state);
+        if (!outcome.found) return std::nullopt;
+        if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
+    }
     if (at_ == At::motion && !move(state)) return std::nullopt;
     return state;
 }
