@@ -670,19 +670,21 @@ private:
             list.insert(list.end(), row.begin(), row.end());
             list.insert(list.end(), unknowns.size() - row.size(), ex(0));
         }
-        States states(m_, e_, Motions::At::motion, 2);
         Program p;
         const std::vector<int> nodes = claims_.lower(p, list);
-        for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
-            const auto at = evaluate_mod(p, states.get(s)->point, nodes);
-            if (!at) continue;
-            std::vector<std::vector<Prime>> all, others;
-            for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
-                all.emplace_back();
-                for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
-                others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+        for (const int halves : {0, 1, 2}) {
+            States states(m_, e_, Motions::At::motion, halves);
+            for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
+                const auto at = evaluate_mod(p, states.get(s)->point, nodes);
+                if (!at) continue;
+                std::vector<std::vector<Prime>> all, others;
+                for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
+                    all.emplace_back();
+                    for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                    others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+                }
+                return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
             }
-            return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
         }
         return false;
     }
