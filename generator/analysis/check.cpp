@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/absent.hpp"
 #include "analysis/claims.hpp"
 #include "analysis/multiple.hpp"
 #include "analysis/nearest.hpp"
@@ -30,6 +31,7 @@ namespace {
 constexpr double wanted_failure = -60;
 constexpr int most_unlucky = 4000;
 constexpr int states_of_rest = 48;
+constexpr std::size_t most_states = 1200;
 
 /// Exact states, made when first asked for.
 class States {
@@ -130,7 +132,7 @@ private:
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<States> states;
-        for (const int halves : {0, 2}) {
+        for (const int halves : {0, 1, 2}) {
             states.emplace(m_, *law_, at, halves);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
@@ -167,11 +169,12 @@ private:
     std::optional<bool> vanishes_at(States& states, const Program& p, int root, double& failure, bool& exact) const {
         const std::array<int, 1> roots{root};
         failure = 0;
+        double missed = 0;  // log₂ of the chance that no state was on some branch
         int lucky = 0;
         const bool rest = states.motions.where() == Motions::At::rest;
         for (std::size_t s = 0;; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 400) return lucky > 0 && (failure <= wanted_failure || rest) ? std::optional(true) : std::nullopt;
+            if (state == nullptr || s > most_states) return lucky > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest) ? std::optional(true) : std::nullopt;
             const auto at = evaluate_mod(p, state->point, roots);
             if (!at) continue;
             ++lucky;
@@ -181,9 +184,13 @@ private:
             const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
             if (chance > -1) return std::nullopt;
             failure += chance;
-            if (failure <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
+            missed += miss(*state);
+            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
         }
     }
+
+    /// log₂ of the chance that a branch of the constraints is not the one of this state.
+    static double miss(const ExactState& state) { return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure; }
 
     void settle_alone(std::size_t k, States& states) {
         CheckedClaim& c = result_.claims[k];
@@ -303,7 +310,56 @@ private:
                 return false;
             }
         };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_, right);
+        const auto vanishes = [&](const Expression& value) {
+            Program p;
+            const std::optional<int> root = node_of(p, value);
+            return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
+        };
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_,
+                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim, std::vector<std::string> terms) {
+                                    return absent(claim, std::move(terms), states);
+                                }});
+    }
+
+    /// Nothing where it cannot be read, or holds open names.
+    std::optional<int> node_of(Program& p, const Expression& value) {
+        try {
+            const ex e = claims_.read(value);
+            if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
+            return claims_.lower(p, {e})[0];
+        } catch (const std::exception&) {
+            return std::nullopt;
+        } catch (const SceneMistake&) {
+            return std::nullopt;
+        }
+    }
+
+    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms, States& states) {
+        const ClaimForm form = claims_.read(claim);
+        if (!form.open.empty()) return {};
+        Program p;
+        const int residual = claims_.lower(p, {form.residual})[0];
+        std::vector<std::string> texts;
+        std::vector<int> nodes;
+        std::vector<Diagnostic> mistakes;
+        if (terms.empty()) terms = terms_of_mechanics(claim, m_, *law_);
+        for (std::string& text : terms) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
+            if (!node || p.is_zero(*node)) continue;
+            nodes.push_back(*node);
+            texts.push_back(std::move(text));
+        }
+        std::vector<Steady> steady;
+        for (const std::string& text : steady_sums(claim, m_)) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt) steady.push_back({text, *node});
+        }
+        std::vector<ModularPoint> points;
+        for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) result.emplace_back(term.coefficient, texts[term.term]);
+        return result;
     }
 
     /// Puts a form back.
@@ -324,12 +380,17 @@ private:
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
         if (p.is_zero(root[0])) return when_ == "impact";  // elsewhere an identity is no repair
-        for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
+        return is_zero_at_two(p, root[0], states);
+    }
+
+    static bool is_zero_at_two(const Program& p, int root, States& states) {
+        for (std::size_t s = 0, lucky = 0, wanted = 2; lucky < wanted; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 20) return false;
-            const auto at = evaluate_mod(p, state->point, root);
+            if (state == nullptr || s > 30) return false;
+            if (state->branches > 1) wanted = 8;
+            const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
             if (!at) continue;
-            if (!at->value[root[0]].is_zero()) return false;
+            if (!at->value[root].is_zero()) return false;
             ++lucky;
         }
         return true;
@@ -496,11 +557,11 @@ private:
 
     void settle_group(const std::vector<std::size_t>& group, States& states) {
         const Rows rows = rows_of(group);
-        double failure = 0;
+        double failure = 0, missed = 0;
         bool exact = true;
         std::optional<Matrix> bad;
         std::vector<Matrix> seen;
-        for (std::size_t s = 0; s < 400 && failure > wanted_failure && !bad; ++s) {
+        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad; ++s) {
             auto at = matrix(rows, states, s);
             if (!at) {
                 if (states.get(s) == nullptr) break;
@@ -509,9 +570,10 @@ private:
             exact = exact && at->exact;
             if (!consistent(*at)) bad = *at;
             failure += at->chance;
+            missed += miss(*states.get(s));
             seen.push_back(std::move(*at));
         }
-        if (seen.empty() || (!bad && failure > wanted_failure)) {
+        if (seen.empty() || (!bad && (failure > wanted_failure || missed > wanted_failure))) {
             for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
             return;
         }
@@ -647,19 +709,21 @@ private:
             list.insert(list.end(), row.begin(), row.end());
             list.insert(list.end(), unknowns.size() - row.size(), ex(0));
         }
-        States states(m_, e_, Motions::At::motion, 2);
         Program p;
         const std::vector<int> nodes = claims_.lower(p, list);
-        for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
-            const auto at = evaluate_mod(p, states.get(s)->point, nodes);
-            if (!at) continue;
-            std::vector<std::vector<Prime>> all, others;
-            for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
-                all.emplace_back();
-                for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
-                others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+        for (const int halves : {0, 1, 2}) {
+            States states(m_, e_, Motions::At::motion, halves);
+            for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
+                const auto at = evaluate_mod(p, states.get(s)->point, nodes);
+                if (!at) continue;
+                std::vector<std::vector<Prime>> all, others;
+                for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
+                    all.emplace_back();
+                    for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                    others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+                }
+                return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
             }
-            return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
         }
         return false;
     }

@@ -53,8 +53,13 @@ Vector3 Translator::vector_of(const Tree& tree) {
     throw SceneMistake{{current_->place(tree.offset), "a number stands where a vector is expected"}};
 }
 
-ex Translator::differentiated(ex value, int times) {
-    for (int i = 0; i < times; ++i) value = mechanism_.time_derivative({value})[0];
+ex Translator::differentiated(ex value, int times, const Tree& tree) {
+    for (int i = 0; i < times; ++i) {
+        if (mechanism_.z->depends(value, without_derivative_))
+            throw SceneMistake{{current_->place(tree.offset), "the derivative of an acceleration, a multiplier or an unknown function: "
+                                                              "mechanics gives none; differentiate what has rates only"}};
+        value = mechanism_.time_derivative({value})[0];
+    }
     return value;
 }
 
@@ -77,7 +82,7 @@ ex Translator::named(const Tree& tree) {
         later_.erase(tree.text);
     }
     if (const auto found = values_.find(tree.text); found != values_.end())
-        return differentiated(found->second, tree.primes);
+        return differentiated(found->second, tree.primes, tree);
     throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
 }
 
@@ -117,7 +122,7 @@ Value Translator::evaluate(const Tree& tree) {
             case Tree::Kind::number: return ex(exact_number(tree.text));
             case Tree::Kind::name: return named(tree);
             case Tree::Kind::call: return call(tree);
-            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes);
+            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes, tree);
             case Tree::Kind::power: return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
             case Tree::Kind::reciprocal: return ex(1 / scalar_of(*tree.args[0]));
             case Tree::Kind::negate: {
