@@ -48,7 +48,7 @@ Derived derived(const Request& request) {
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
     for (const int k : redundant)
-        std::cerr << describe(scene, {{mechanism.constraints[k].place,
+        if (!mechanism.constraints[k].closes_loop) std::cerr << describe(scene, {{mechanism.constraints[k].place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
                                                    "out, and the reactions are those of the others alone",
                                                    mechanism.constraints[k].name),
