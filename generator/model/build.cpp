@@ -418,7 +418,7 @@ private:
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
         for (const Joint& joint : scene_.joints)
-            if (!joint.places_child) attempt([&] { close(joint); });
+            if (joint.closes_loop) attempt([&] { close(joint); });
         for (std::size_t k = 0; k < scene_.unilateral.size(); ++k)
             attempt([&] { add_unilateral(scene_.unilateral[k], static_cast<int>(scene_.constraints.size() + k)); });
     }

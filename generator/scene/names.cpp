@@ -118,7 +118,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     for (const UnilateralRule& rule : scene.unilateral)
         multipliers.push_back({"lambda_" + rule.name.text, rule.name.place});
     for (const Joint& joint : scene.joints)
-        if (!joint.places_child)
+        if (joint.closes_loop)
             for (int k = 1; k <= locked_directions(joint.type); ++k)
                 multipliers.push_back({fmt::format("lambda_{}_{}", joint.name.text, k), joint.name.place});
     for (std::size_t i = 0; i < multipliers.size(); ++i)

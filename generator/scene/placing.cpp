@@ -23,8 +23,10 @@ public:
     void place() {
         check_bodies();
         place_all();
-        for (const Joint& joint : scene_.joints)
-            if (std::find(usable_.begin(), usable_.end(), &joint) != usable_.end()) check_coordinates(joint);
+        for (Joint* joint : usable_) {
+            joint->closes_loop = !joint->places_child && is_placed(joint->parent.body);
+            check_coordinates(*joint);
+        }
         check_own_places();
         // Of a joint whose table is wrong nothing more is known.
         if (usable_.size() == scene_.joints.size()) tell_unplaced();
@@ -91,7 +93,7 @@ private:
         const std::string& type = joint_types()[static_cast<std::size_t>(joint.type)];
         const std::size_t needed = coordinates_of(joint), given = joint.coordinates.size();
         if (!joint.places_child) {
-            if (!is_placed(joint.parent.body)) return;
+            if (!joint.closes_loop) return;
             if (given > 0)
                 complain(joint.coordinates.front().place,
                          fmt::format("body {} is placed already, by {}: joint {} closes a loop and has no coordinates",

@@ -130,7 +130,8 @@ struct Joint {
     std::string angles;
     std::vector<Name> coordinates;  ///< those with a prescribed motion among them, in the order of the type
     bool is_whole = true;              ///< nothing was wrong with its table
-    std::optional<bool> places_child;  ///< or the parent; nothing where it closes a loop
+    std::optional<bool> places_child;  ///< or the parent; nothing where it places none
+    bool closes_loop = false;
 };
 
 struct Force {
