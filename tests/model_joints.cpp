@@ -305,7 +305,7 @@ TEST_CASE("joints: a four-bar linkage closed by a joint accelerates as the one w
         return group(p, start.state(), "acceleration");
     };
     std::vector<double> force, other;
-    const std::vector<double> joints = accelerations("scenes/textbook/four_bar_joints.toml", force),
+    const std::vector<double> joints = accelerations("scenes/gallery/four_bar_joints.toml", force),
                               points = accelerations("scenes/textbook/four_bar.toml", other);
     // The angles of the first are counted from the link before. The start is assembled to 1e-12.
     const double size = std::abs(points[0]) + std::abs(points[1]) + std::abs(points[2]);
@@ -373,6 +373,7 @@ TEST_CASE("joints: a prescribed motion takes a coordinate's place") {
     same_motion(head + R"(
 [[body]]
 name = "cart"
+inertia = [0.5, 0.6, 0.7]
 mass = 2
 [[body]]
 name = "bob"
@@ -412,6 +413,7 @@ parent = "K"
 rotate = [["x", "phi"]]
 [[body]]
 name = "cart"
+inertia = [0.5, 0.6, 0.7]
 mass = 2
 frame = "K"
 position = ["s", 0]
