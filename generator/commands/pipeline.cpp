@@ -47,12 +47,15 @@ Derived derived(const Request& request) {
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
-    for (const int k : redundant)
-        if (!mechanism.constraints[k].closes_loop) std::cerr << describe(scene, {{mechanism.constraints[k].place,
+    for (const int k : redundant) {
+        const Mechanism::Constraint& c = mechanism.constraints[k];
+        if (c.closes_loop) continue;
+        std::cerr << describe(scene, {{c.place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
                                                    "out, and the reactions are those of the others alone",
-                                                   mechanism.constraints[k].name),
+                                                   c.name),
                                        Severity::warning}});
+    }
     mechanism = without_constraints(std::move(mechanism), redundant);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
