@@ -71,12 +71,15 @@ Derived derived(const Request& request) {
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
     check_implied(mechanism, redundant);
-    for (const int k : redundant)
-        std::cerr << describe(scene, {{mechanism.constraints[k].place,
+    for (const int k : redundant) {
+        const Mechanism::Constraint& c = mechanism.constraints[k];
+        if (c.closes_loop) continue;
+        std::cerr << describe(scene, {{c.place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
                                                    "out, and the reactions of all are the least that keep them",
-                                                   mechanism.constraints[k].name),
+                                                   c.name),
                                        Severity::warning}});
+    }
     mechanism = without_constraints(std::move(mechanism), redundant);
     refuse_contradiction(mechanism);
     if (request.reactions) add_reactions(mechanism);

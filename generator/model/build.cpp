@@ -8,6 +8,7 @@
 
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
+#include "model/joints.hpp"
 #include "model/parameter_values.hpp"
 #include "model/places.hpp"
 #include "model/translate.hpp"
@@ -416,6 +417,8 @@ private:
     void add_constraints() {
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
+        for (const Joint& joint : scene_.joints)
+            if (joint.closes_loop) attempt([&] { close(joint); });
         for (std::size_t k = 0; k < scene_.unilateral.size(); ++k)
             attempt([&] { add_unilateral(scene_.unilateral[k], static_cast<int>(scene_.constraints.size() + k)); });
     }
@@ -432,6 +435,43 @@ private:
                            .at = rule.equation.lhs.place()},
                           m_));
         translator_.know(multiplier, m_.constraints.back().multiplier);
+    }
+
+    void close(const Joint& joint) {
+        SourceScope source(*m_.z, "joint " + joint.name.text);
+        int k = 0;
+        for (const ClosingRow& row : closing_rows(joint, places_)) {
+            const std::string name = fmt::format("{}_{}", joint.name.text, ++k), multiplier = "lambda_" + name;
+            const std::vector<ex> slopes = m_.z->pull_back({{row.value, 1}}, row.holonomic ? m_.q : m_.qdot);
+            if (std::all_of(slopes.begin(), slopes.end(), [&](const ex& e) { return is_identically_zero(e, m_); })) {
+                if (row.holonomic) need_closed(joint, row.value, k);
+                m_.identities.push_back(name);
+                translator_.know(multiplier, 0);
+                continue;
+            }
+            m_.constraints.push_back(
+                constraint_of({.name = name,
+                               .holonomic = row.holonomic,
+                               .value = row.value,
+                               .multiplier = m_.symbols->declare(multiplier, Kind::other, static_cast<int>(m_.constraints.size())),
+                               .place = joint.name.place,
+                               .at = joint.name.place},
+                              m_));
+            m_.constraints.back().closes_loop = true;
+            translator_.know(multiplier, m_.constraints.back().multiplier);
+        }
+    }
+
+    // A direction in which no coordinate moves the bodies against each other.
+    void need_closed(const Joint& joint, const ex& value, int k) {
+        constexpr double closed = 1e-9;  // of lengths of order one; what initial values may break a constraint by
+        const bool moves = m_.z->depends(value, {m_.t}) && !is_identically_zero(m_.explicit_time_derivative({value})[0], m_);
+        const double gap = moves ? std::nan("") : places_.number(value);
+        if (std::abs(gap) <= closed) return;
+        throw SceneMistake{{joint.name.place,
+                            fmt::format("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
+                                        "as far as locked) the bodies stand apart {}, and no coordinate can change that",
+                                        joint.name.text, k, moves ? "as time goes on" : fmt::format("by {:.6g}", gap))}};
     }
 
     // gap(q,t) ≥ 0

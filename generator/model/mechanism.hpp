@@ -100,6 +100,7 @@ struct Mechanism {
         GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
         Place place;
+        bool closes_loop = false;             ///< a row of a joint: that it follows from others is nothing to warn of
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
@@ -130,6 +131,7 @@ struct Mechanism {
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
+    std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
     std::vector<Unilateral> unilateral;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;

@@ -34,32 +34,15 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
     return position;
 }
 
-std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node) {
+std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node, std::string_view key) {
     const toml::array* const pair = node.as_array();
     if (!pair || pair->size() != 2) {
         reading.complain(place_of(node),
                          pair ? "a rotation has two parts: [axis, angle]"
-                              : "'rotate' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]");
+                              : fmt::format("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
         return {};
     }
-    Rotation rotation;
-    const toml::node& axis = *pair->get(0);
-    if (const auto* letter = axis.as_string()) {
-        const std::string& name = letter->get();
-        if (name == "x" || name == "y" || name == "z")
-            rotation.letter = name[0];
-        else
-            reading.complain(place_of(axis),
-                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
-                                         in_quotes(name)));
-    } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
-        rotation.axis = read_vector(reading, axis, "the axis");
-    } else {
-        reading.complain(
-            place_of(axis),
-            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
-                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
-    }
+    Rotation rotation = read_axis(reading, *pair->get(0));
     rotation.angle = read_expression(reading, *pair->get(1), "the angle");
     return rotation;
 }
@@ -101,24 +84,53 @@ std::optional<Inertia> read_inertia(const Table& table) {
 
 }  // namespace
 
+Rotation read_axis(const Reading& reading, const toml::node& axis) {
+    Rotation rotation;
+    if (const auto* letter = axis.as_string()) {
+        const std::string& name = letter->get();
+        if (name == "x" || name == "y" || name == "z")
+            rotation.letter = name[0];
+        else
+            reading.complain(place_of(axis),
+                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
+                                         in_quotes(name)));
+    } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
+        rotation.axis = read_vector(reading, axis, "the axis");
+    } else {
+        reading.complain(
+            place_of(axis),
+            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
+                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
+    }
+    return rotation;
+}
+
+std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
+    std::vector<Rotation> rotations;
+    const Entry* const entry = table.find(key);
+    if (!entry) return rotations;
+    const toml::array* const list = entry->node->as_array();
+    if (!list) {
+        table.complain(key, fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]", table.what(key),
+                                        kind_of(*entry->node)));
+        return rotations;
+    }
+    for (const toml::node& node : *list)
+        if (auto rotation = read_rotation(table.reading(), node, key))
+            rotations.push_back(std::move(*rotation));
+        else
+            break;
+    return rotations;
+}
+
 void read_frame(Table table, Scene& scene) {
     table.allow({"name", "parent", "rotate"}, {"quaternion"});
     Frame frame;
     frame.name = table.needed_name("name");
     table.entitle(frame.name);
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
-    if (const Entry* const rotate = table.find("rotate")) {
-        const toml::array* const list = rotate->node->as_array();
-        if (!list)
-            table.complain("rotate", fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
-                                                 table.what("rotate"), kind_of(*rotate->node)));
-        else
-            for (const toml::node& node : *list)
-                if (auto rotation = read_rotation(table.reading(), node))
-                    frame.rotations.push_back(std::move(*rotation));
-                else
-                    break;
-    } else if (!table.has("quaternion")) {
+    frame.rotations = read_rotations(table, "rotate");
+    if (!table.has("rotate") && !table.has("quaternion")) {
         table.complain("rotate", fmt::format("{} needs 'rotate'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
@@ -151,6 +163,7 @@ void read_body(Table table, Scene& scene) {
     body.mass = table.needed_expression("mass");
     if (auto frame = table.name("frame")) body.frame = std::move(*frame);
     body.position = read_position(table, "position", true);
+    body.has_position = table.has("at") || table.has("position");
     body.inertia = read_inertia(table);
     body.about = table.name("about");
     if (body.about && !table.has("inertia"))

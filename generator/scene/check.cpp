@@ -13,10 +13,10 @@ namespace {
 
 class Checker {
 public:
-    Checker(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics)
+    Checker(const Scene& scene, std::vector<Diagnostic>& diagnostics)
         : scene_(scene),
           diagnostics_(diagnostics),
-          names_(declare(scene, others, diagnostics)),
+          names_(declare(scene, diagnostics)),
           quantities_(names_, diagnostics) {}
 
     void check() {
@@ -24,6 +24,7 @@ public:
         check_speeds();
         check_values();
         check_geometry();
+        check_joints();
         check_masses();
         check_loads();
         check_impulses();
@@ -97,6 +98,27 @@ private:
             }
         }
         for (const Point& point : scene_.points) check(point.position);
+    }
+
+    void check_joints() {
+        const Legal constant{.subject = "the place of a joint in its body"}, pitch{.subject = "a pitch"};
+        std::unordered_map<std::string, Place> known;
+        for (const Joint& joint : scene_.joints) {
+            for (const Joint::Side* side : {&joint.parent, &joint.child}) {
+                check(side->point, constant);
+                for (const Rotation& rotation : side->rotate) {
+                    quantities_.check(rotation.angle, constant);
+                    check(rotation.axis, {.subject = "an axis"});
+                }
+            }
+            check(joint.axis.axis, {.subject = "an axis"});
+            quantities_.check(joint.pitch, pitch);
+            if (joint.name.place.line == 0 || !check_name(joint.name)) continue;
+            const auto [first, is_new] = known.emplace(joint.name.text, joint.name.place);
+            if (!is_new)
+                complain(joint.name.place, fmt::format("the name {} is taken: a joint has it on line {}", in_quotes(joint.name.text),
+                                                       first->second.line));
+        }
     }
 
     void check(const Position& position) {
@@ -174,7 +196,7 @@ private:
 
     void check_coordinate(const Name& name) {
         const Declared* const declared = NameSpaces::find(names_.values, name.text);
-        if (declared && (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::other))
+        if (declared && declared->kind == Declared::Kind::coordinate)
             return;
         std::vector<std::string> coordinates;
         for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
@@ -286,15 +308,15 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others) {
+std::vector<Diagnostic> check_scene(const Scene& scene) {
     std::vector<Diagnostic> diagnostics;
-    Checker(scene, others, diagnostics).check();
+    Checker(scene, diagnostics).check();
     return diagnostics;
 }
 
 std::vector<Diagnostic> check_claims(const Scene& scene) {
     std::vector<Diagnostic> diagnostics;
-    Checker(scene, {}, diagnostics).check_claims();
+    Checker(scene, diagnostics).check_claims();
     return diagnostics;
 }
 

@@ -53,6 +53,7 @@ struct Coordinate {
 struct Definition {
     Name name;
     Expression value;
+    bool is_motion = false;  ///< in place of a joint's coordinate: in t, inputs and parameters alone
 };
 
 /// A generalized speed: a form in the rates, linear in them.
@@ -108,6 +109,29 @@ struct Body {
     Position position;  ///< of the mass centre
     std::optional<Inertia> inertia;
     std::optional<Name> about;
+    bool has_position = true;          ///< the scene gives 'at' or 'position'
+    std::optional<std::size_t> joint;  ///< which one places it; its frame then bears its own name
+};
+
+/// Holds two bodies together. The joint's axes stand in each body as `rotate` says, and come together where all its
+/// coordinates are 0.
+struct Joint {
+    enum class Type { fixed, revolute, prismatic, cylindrical, universal, spherical, planar, screw, free };
+    struct Side {
+        Name body{"N", {}};
+        Vector point;  ///< from the mass centre, along the body's frame
+        std::vector<Rotation> rotate;
+    };
+    Name name;
+    Type type = Type::fixed;
+    Side parent, child;
+    Rotation axis;     ///< its angle is null
+    Expression pitch;  ///< null but for a screw
+    std::string angles;
+    std::vector<Name> coordinates;  ///< those with a prescribed motion among them, in the order of the type
+    bool is_whole = true;              ///< nothing was wrong with its table
+    std::optional<bool> places_child;  ///< or the parent; nothing where it places none
+    bool closes_loop = false;
 };
 
 struct Force {
@@ -201,6 +225,7 @@ struct Scene {
     std::vector<Point> points;
     std::vector<Particle> particles;
     std::vector<Body> bodies;
+    std::vector<Joint> joints;
     std::vector<Force> forces;
     std::vector<Torque> torques;
     std::vector<Link> springs, dampers;
