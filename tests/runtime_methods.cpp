@@ -10,6 +10,7 @@
 #include "alembert/integrate.hpp"
 #include "alembert/step.hpp"
 #include "alembert/tableau.hpp"
+#include "alembert/verner.hpp"
 
 using namespace alembert;
 
@@ -41,6 +42,68 @@ void check_conditions(const Table& table, std::vector<int> exact_for_error_row) 
     for (int q = 0; q < table.order; ++q) check_moment(table, table.a[Table::stages], q, 1. / (q + 1));
     for (std::size_t row = 0; row < table.e.size(); ++row)
         for (int q = 0; q < exact_for_error_row[row]; ++q) check_moment(table, table.e[row], q, 0);
+}
+
+/// A rooted tree by the branches at its root, each a position in the list that it is in.
+struct Tree {
+    std::vector<int> branches;
+    int nodes;
+    double gamma;
+};
+
+/// All of at most `most` nodes, in the order of their size: branches from the last taken backwards, so that each
+/// multiset comes once.
+std::vector<Tree> rooted_trees(int most) {
+    std::vector<Tree> trees;
+    const auto graft = [&](auto&& self, int left, int last, const Tree& tree) -> void {
+        if (left == 0) return trees.push_back({tree.branches, tree.nodes, tree.gamma * tree.nodes});
+        for (int k = last; k >= 0; --k) {
+            const int nodes = trees[static_cast<std::size_t>(k)].nodes;
+            const double gamma = trees[static_cast<std::size_t>(k)].gamma;
+            if (nodes > left) continue;
+            Tree more = tree;
+            more.branches.push_back(k);
+            more.gamma *= gamma;
+            self(self, left - nodes, k, more);
+        }
+    };
+    for (int nodes = 1; nodes <= most; ++nodes)
+        graft(graft, nodes - 1, static_cast<int>(trees.size()) - 1, {{}, nodes, 1});
+    return trees;
+}
+
+/// Φ_i of each tree at each stage; the second time with |a_ij|, as the measure of rounding.
+template <class Table>
+void check_trees(const Table& table, std::vector<int> exact_for_error_row) {
+    const std::vector<Tree> trees = rooted_trees(table.order);
+    std::vector<typename Table::Row> phi, size;  // one for each tree: of its stages; of |a|
+    for (const Tree& tree : trees) {
+        phi.emplace_back().fill(1);
+        size.emplace_back().fill(1);
+        for (std::size_t i = 0; i < table.a.size(); ++i)
+            for (const int branch : tree.branches) {
+                double sum = 0, absolute = 0;
+                for (std::size_t j = 0; j < i; ++j) {
+                    sum += table.a[i][j] * phi[static_cast<std::size_t>(branch)][j];
+                    absolute += std::abs(table.a[i][j]) * size[static_cast<std::size_t>(branch)][j];
+                }
+                phi.back()[i] *= sum;
+                size.back()[i] *= absolute;
+            }
+        const auto holds = [&](const typename Table::Row& weights, double expected) {
+            double sum = 0, absolute = 0;
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                sum += weights[i] * phi.back()[i];
+                absolute += std::abs(weights[i]) * size.back()[i];
+            }
+            INFO("tree of " << tree.nodes << " nodes: " << sum << " for " << expected << ", rounding " << absolute);
+            // Each of the nodes brings a rounded coefficient and a sum of some twenty terms.
+            CHECK(std::abs(sum - expected) <= 2 * tree.nodes * epsilon * absolute);
+        };
+        holds(table.a[Table::stages], 1 / tree.gamma);
+        for (std::size_t row = 0; row < table.e.size(); ++row)
+            if (tree.nodes <= exact_for_error_row[row]) holds(table.e[row], 0);
+    }
 }
 
 Rhs pendulum() {
@@ -110,9 +173,24 @@ double observed_dense_order(double h) {
 
 TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the order") {
     check_conditions(euler_tableau, {});
+    check_conditions(rk2_tableau, {});
     check_conditions(rk4_tableau, {});
     check_conditions(dopri5_tableau, {4});
     check_conditions(dop853_tableau, {5, 3});
+    check_conditions(verner76_tableau, {6});
+    check_conditions(verner98_tableau, {8});
+}
+
+// Hairer, Nørsett, Wanner I, §II.2, theorem 2.13: Σ b_i Φ_i(τ) = 1/γ(τ) for the trees τ of at most p nodes. There are
+// 85 of at most 7 nodes and 486 of at most 9.
+TEST_CASE("tableaux: the order conditions hold, tree by tree, with one order less for what is estimated with") {
+    CHECK(rooted_trees(9).size() == 486);
+    check_trees(rk2_tableau, {});
+    check_trees(rk4_tableau, {});
+    check_trees(dopri5_tableau, {4});
+    check_trees(dop853_tableau, {5, 3});
+    check_trees(verner76_tableau, {6});
+    check_trees(verner98_tableau, {8});
 }
 
 // Steps short enough for the leading term of the error to dominate, at times when that term is not near a zero of
@@ -120,9 +198,14 @@ TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the
 TEST_CASE("methods: the error of the logistic equation falls with the order of the method") {
     const auto is_near = [](double order, double theory) { return std::abs(order - theory) < 0.1; };
     CHECK(is_near(observed_order<euler_tableau>(5, 20000), 1));
+    CHECK(is_near(observed_order<rk2_tableau>(5, 4000), 2));
     CHECK(is_near(observed_order<rk4_tableau>(5, 400), 4));
     CHECK(is_near(observed_order<dopri5_tableau>(8, 80), 5));
     CHECK(is_near(observed_order<dop853_tableau>(5, 8), 8));
+    // Verner made the leading terms so small (1.7e-6 in the norm of 7(6)) that the next ones are seen with them as
+    // long as rounding is not; that the leading ones are there is for the trees to say.
+    CHECK(observed_order<verner76_tableau>(5, 16) > 6.9);
+    CHECK(observed_order<verner98_tableau>(5, 8) > 8.9);
 }
 
 TEST_CASE("dense output: the error within a step falls with the order of the continuous extension") {
@@ -130,6 +213,8 @@ TEST_CASE("dense output: the error within a step falls with the order of the con
     CHECK(is_near(observed_dense_order<rk4_tableau>(0.05), 3));
     CHECK(is_near(observed_dense_order<dopri5_tableau>(0.1), 4));
     CHECK(is_near(observed_dense_order<dop853_tableau>(0.4), 7));
+    CHECK(std::abs(observed_dense_order<verner76_tableau>(0.15) - 6) < 0.15);  // at 0.1 rounding begins
+    CHECK(is_near(observed_dense_order<verner98_tableau>(0.6), 8));
 }
 
 TEST_CASE("dense output: the ends of a step are met exactly and its stages are evaluated once") {
@@ -160,7 +245,7 @@ TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
     const std::vector<double> start = {0.5, 0, 0, std::sqrt(3.0)};
     double last = HUGE_VAL;
     for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
-        for (const Method method : {Method::dopri5, Method::dop853}) {
+        for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
             const Trajectory orbit = integrate(
                 kepler, start, {.method = method, .duration = 20 * std::numbers::pi, .tolerance = tolerance});
             const double error = distance(orbit.final_state(), start);
@@ -176,7 +261,7 @@ TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
 
 TEST_CASE("step size: a smaller tolerance gives a smaller error, and few steps are rejected") {
     const Trajectory exact = integrate(pendulum(), pendulum_start, {.duration = 30, .tolerance = 1e-15});
-    for (const Method method : {Method::dopri5, Method::dop853}) {
+    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         double last = HUGE_VAL;
         for (double tolerance = 1e-4; tolerance > 1e-13; tolerance /= 100) {
             const Trajectory motion =

@@ -20,7 +20,7 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
     std::string method = request.method.empty() ? mechanism.run.method : request.method;
     if (method == "auto") method = start.step > 0 || request.step > 0 ? "rk4" : "dop853";
     const auto known = method_named(method);
-    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, euler, rk4, dopri5 or dop853", method));
+    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, {}", method, method_names()));
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     return {.method = *known,
             .start = start.t,

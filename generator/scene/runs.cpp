@@ -17,8 +17,8 @@ struct Method {
 };
 
 constexpr Method methods[] = {
-    {"auto", true, false},   {"euler", true, true},     {"rk2", false, true},       {"rk4", true, true},
-    {"dopri5", true, false}, {"dop853", true, false},   {"verner76", false, false}, {"verner98", false, false},
+    {"auto", true, false},   {"euler", true, true},     {"rk2", true, true},       {"rk4", true, true},
+    {"dopri5", true, false}, {"dop853", true, false},   {"verner76", true, false}, {"verner98", true, false},
     {"abm", false, false},   {"bdf", false, false},     {"taylor", false, false},   {"radau", false, false},
     {"verlet", false, true}, {"kahanli8", false, true}, {"gauss", false, true},     {"rattle", false, true},
     {"cvode", false, false}, {"ida", false, false},
@@ -50,7 +50,7 @@ std::optional<Name> read_method(const Table& table) {
         table.reading().complain(name->place, fmt::format("the method '{}' is not supported yet", known->name));
     else if (table.has("step") && !known->takes_step)
         table.complain("step",
-                       fmt::format("only methods with fixed steps (euler, rk4) take 'step'; {} chooses its own: "
+                       fmt::format("only methods with fixed steps (euler, rk2, rk4) take 'step'; {} chooses its own: "
                                    "give 'tolerance'",
                                    known->name));
     return name;
