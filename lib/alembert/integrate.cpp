@@ -13,7 +13,9 @@
 
 #include "alembert/dop853.hpp"
 #include "alembert/error.hpp"
+#include "alembert/gauss.hpp"
 #include "alembert/run.hpp"
+#include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
 #include "alembert/verner.hpp"
 
@@ -76,7 +78,10 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::dopri5, "dopri5", false, run<Step<dopri5_tableau>>},
                                    {Method::dop853, "dop853", false, run<Step<dop853_tableau>>},
                                    {Method::verner76, "verner76", false, run<Step<verner76_tableau>>},
-                                   {Method::verner98, "verner98", false, run<Step<verner98_tableau>>}};
+                                   {Method::verner98, "verner98", false, run<Step<verner98_tableau>>},
+                                   {Method::verlet, "verlet", true, run<Stepper<Verlet>>},
+                                   {Method::kahanli8, "kahanli8", true, run<Stepper<KahanLi8>>},
+                                   {Method::gauss, "gauss", true, run<Stepper<Gauss>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
@@ -103,6 +108,10 @@ std::string method_names() {
     for (const MethodEntry& one : methods)
         names += fmt::format("{}{}", &one == std::begin(methods) ? "" : &one + 1 == std::end(methods) ? " or " : ", ", one.name);
     return names;
+}
+
+bool needs_separable(Method method) {
+    return method == Method::verlet || method == Method::kahanli8;
 }
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,

@@ -216,6 +216,12 @@ private:
 
     void fail_fixed() {
         const int bad = step_.worst_component();
+        if constexpr (requires { step_.solved(); })
+            if (!step_.solved() && std::isfinite(step_.rate()[bad]))
+                return fail(FailureKind::not_a_number, -1,
+                            fmt::format("the equations of {} could not be solved for the step after t = {:.17g}; take a "
+                                        "shorter step, or radau for a stiff system",
+                                        name(options_.method), step_.time()));
         fail(FailureKind::not_a_number, bad,
              fmt::format(
                  "{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
