@@ -132,7 +132,7 @@ TEST_CASE("statistics: evaluations are counted, and steps are told") {
     });
     const Events events = make_events(
         {{.name = "half"}}, [](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.5; });
-    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
+    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::abm, Method::bdf, Method::radau}) {
         calls = told = 0;
         const Trajectory motion =
             integrate(counted, {1.0},

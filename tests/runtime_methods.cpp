@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "alembert/dop853.hpp"
 #include "alembert/gauss.hpp"
 #include "alembert/integrate.hpp"
+#include "alembert/radau.hpp"
 #include "alembert/step.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
@@ -419,4 +421,158 @@ TEST_CASE("gauss: a step in which its equations have no solution by iteration sa
     const Trajectory motion = integrate(stiff, {1.0}, {.method = Method::gauss, .duration = 1, .step = 0.1});
     REQUIRE(motion.failure);
     CHECK(motion.failure->message.find("the equations of gauss could not be solved") == 0);
+}
+
+namespace {
+
+/// Prothero & Robinson 1974: y' = λ (y − φ) + φ' with φ = sin t and y(0) = φ(0), so that y = φ, however stiff.
+Rhs prothero_robinson(double lambda) {
+    return make_rhs(1, [lambda](double t, const double* y, double* rate) {
+        rate[0] = lambda * (y[0] - std::sin(t)) + std::cos(t);
+    });
+}
+
+/// y'' = μ ((1 − y²) y' − y), the stiff form of Hairer & Wanner II, §IV.10, in the time of the slow motion.
+Rhs van_der_pol(double mu) {
+    return make_rhs(2, [mu](double, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = mu * ((1 - y[0] * y[0]) * y[1] - y[0]);
+    });
+}
+
+/// Errors at the end against steps, for two tolerances: −d ln error/d ln steps, the order that the steps show.
+double order_by_steps(Method method, double coarse, double fine) {
+    double error[2], steps[2];
+    for (int i = 0; i < 2; ++i) {
+        const Trajectory motion =
+            integrate(kepler(), kepler_start,
+                      {.method = method, .duration = 20 * std::numbers::pi, .tolerance = i == 0 ? coarse : fine});
+        CHECK(motion.ending == Ending::completed);
+        error[i] = distance(motion.final_state(), kepler_start);
+        steps[i] = static_cast<double>(motion.statistics.steps);
+    }
+    const double order = std::log(error[0] / error[1]) / std::log(steps[1] / steps[0]);
+    MESSAGE(name(method) << ": errors " << error[0] << " in " << steps[0] << ", " << error[1] << " in " << steps[1]
+                         << " steps, order " << order);
+    return order;
+}
+
+/// The error after `steps` equal steps of an adaptive formula, on y' = y (1 − y).
+template <class Formula>
+double equal_steps_error(int steps) {
+    const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
+    Stepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
+    for (int i = 1; i <= steps; ++i) {
+        step.attempt(5. * i / steps);
+        step.misfit();
+        step.finish();
+        step.advance();
+    }
+    return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-5.)));
+}
+
+constexpr Method stiff_methods[] = {Method::bdf, Method::radau};
+
+}  // namespace
+
+TEST_CASE("radau: the error falls with order 5, and dense output is the collocation polynomial of order 3") {
+    const double coarse = equal_steps_error<Radau>(40), fine = equal_steps_error<Radau>(80);
+    MESSAGE("errors " << coarse << " " << fine);
+    CHECK(std::abs(std::log2(coarse / fine) - 5) < 0.1);
+    const auto within = [](double h) {
+        const Rhs rhs = pendulum();
+        Stepper<Radau> step(rhs, 0, pendulum_start, 1e-14);
+        step.attempt(h);
+        step.misfit();
+        step.finish();
+        double worst = 0;
+        for (int i = 1; i < 16; ++i) {
+            double y[2];
+            step.interpolate(i / 16., y);
+            const Trajectory exact = integrate(rhs, pendulum_start, {.duration = i / 16. * h, .tolerance = 1e-15});
+            worst = std::max(worst, distance({y, 2}, exact.final_state()));
+        }
+        return worst;
+    };
+    const double order = std::log2(within(0.05) / within(0.025));
+    MESSAGE("order within a step " << order);
+    CHECK(std::abs(order - 4) < 0.1);  // h⁴ within a step
+}
+
+// The length of steps goes with tolerance^(1/(k+1)) and local errors with the tolerance, so that the global one goes
+// with steps^(−k); that the control keeps a step until it can be much longer makes the observation rough.
+TEST_CASE("abm: the error of Kepler's orbit falls with order 4 against the number of steps") {
+    CHECK(std::abs(order_by_steps(Method::abm, 1e-7, 1e-11) - 4) < 0.5);
+}
+
+TEST_CASE("bdf: orders up to 5 are reached, and errors follow the tolerance") {
+    CHECK(order_by_steps(Method::bdf, 1e-6, 1e-10) > 4);
+}
+
+TEST_CASE("stiff methods: Prothero and Robinson's equation takes steps for its solution, not for its stiffness") {
+    for (const Method method : stiff_methods)
+        for (const double lambda : {-1e3, -1e6}) {
+            const Trajectory motion = integrate(
+                prothero_robinson(lambda), {0.0}, {.method = method, .duration = 10, .tolerance = 1e-8, .sample = 0.01});
+            REQUIRE(motion.ending == Ending::completed);
+            INFO(name(method) << " " << lambda << ": " << motion.statistics.steps << " steps, "
+                              << motion.statistics.evaluations << " evaluations");
+            CHECK(std::abs(motion.final_state()[0] - std::sin(10)) < 1e-6);
+            CHECK(motion.statistics.steps < 1500);  // dop853 needs 10 |λ|/6
+        }
+}
+
+TEST_CASE("stiff methods: van der Pol's oscillator agrees with dop853 at a tight tolerance") {
+    const double mu = 1e3;
+    const Trajectory exact = integrate(van_der_pol(mu), {2.0, 0.0}, {.duration = 2, .tolerance = 1e-13});
+    for (const Method method : stiff_methods) {
+        const Trajectory motion =
+            integrate(van_der_pol(mu), {2.0, 0.0}, {.method = method, .duration = 2, .tolerance = 1e-9});
+        REQUIRE(motion.ending == Ending::completed);
+        const double error = distance(motion.final_state(), exact.final_state());
+        MESSAGE(name(method) << ": error " << error << ", " << motion.statistics.steps << " steps, "
+                             << motion.statistics.rejected << " rejected, " << motion.statistics.evaluations
+                             << " evaluations; dop853 " << exact.statistics.evaluations);
+        CHECK(error < 1e-5);  // y' is some thousand while y jumps, and an error in the time of a jump remains
+        CHECK(motion.statistics.evaluations < exact.statistics.evaluations / 2);
+    }
+}
+
+// A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular solution
+// is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
+TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") {
+    for (const auto& [method, k] :
+         {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
+        const double stiffness = k, damping = 2 * std::sqrt(k);
+        const Rhs spring = make_rhs(2, [=](double t, const double* y, double* rate) {
+            rate[0] = y[1];
+            rate[1] = -stiffness * (y[0] - std::sin(t)) - damping * y[1];
+        });
+        const std::complex<double> H = stiffness / std::complex<double>(stiffness - 1, damping);
+        const Trajectory motion = integrate(spring, {H.imag(), H.real()},
+                                            {.method = method, .duration = 10, .tolerance = 1e-9, .sample = 0.1});
+        INFO(name(method) << " " << stiffness << ": " << motion.statistics.steps << " steps");
+        REQUIRE(motion.ending == Ending::completed);
+        for (std::size_t row = 0; row < motion.rows(); ++row)
+            CHECK(std::abs(motion.state(row)[0] - (H * std::polar(1.0, motion.times[row])).imag()) < 1e-7);
+        CHECK(motion.statistics.steps < 4000);  // an explicit method needs 10 √k/6 at the least: 17000 for k = 1e8
+    }
+}
+
+TEST_CASE("multistep and implicit methods: a smaller tolerance gives a smaller error, and few steps are rejected") {
+    const Trajectory exact = integrate(pendulum(), pendulum_start, {.duration = 30, .tolerance = 1e-15});
+    for (const Method method : {Method::abm, Method::bdf, Method::radau}) {
+        double last = HUGE_VAL;
+        for (double tolerance = 1e-4; tolerance > 1e-11; tolerance /= 100) {
+            const Trajectory motion =
+                integrate(pendulum(), pendulum_start, {.method = method, .duration = 30, .tolerance = tolerance});
+            const double error = distance(motion.final_state(), exact.final_state());
+            INFO(name(method) << " at " << tolerance << ": " << error << ", " << motion.statistics.steps << " steps, "
+                              << motion.statistics.rejected << " rejected");
+            CHECK(error < last / 3);
+            CHECK(motion.statistics.rejected <= motion.statistics.steps / 4);
+            last = error;
+        }
+        CHECK(last < 1e-6);  // a thousand steps and more, each of 1e-10 at most
+    }
 }

@@ -11,9 +11,12 @@
 
 #include <fmt/format.h>
 
+#include "alembert/abm.hpp"
+#include "alembert/bdf.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/error.hpp"
 #include "alembert/gauss.hpp"
+#include "alembert/radau.hpp"
 #include "alembert/run.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
@@ -81,7 +84,10 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::verner98, "verner98", false, run<Step<verner98_tableau>>},
                                    {Method::verlet, "verlet", true, run<Stepper<Verlet>>},
                                    {Method::kahanli8, "kahanli8", true, run<Stepper<KahanLi8>>},
-                                   {Method::gauss, "gauss", true, run<Stepper<Gauss>>}};
+                                   {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
+                                   {Method::abm, "abm", false, run<Stepper<Abm>>},
+                                   {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
+                                   {Method::radau, "radau", false, run<Stepper<Radau>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
