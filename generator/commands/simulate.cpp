@@ -44,12 +44,12 @@ void need_separable(const Derived& d, std::string_view method) {
     std::vector<GiNaC::symbol> moving = e.q;
     moving.insert(moving.end(), e.u.begin(), e.u.end());
     moving.push_back(d.mechanism.t);
-    for (int i = 0; i < e.size(); ++i) {
+    for (int i = 0; i < e.size(); ++i)
         for (int j = 0; j < e.size(); ++j)
             if (e.z->depends(e.M(i, j), moving))
                 refuse(fmt::format("the inertia of {} changes with the motion", e.q[i].get_name()));
+    for (int i = 0; i < e.size(); ++i)
         if (e.z->depends(e.forcing(i), e.u)) refuse(fmt::format("a rate occurs in the equation of {}", e.q[i].get_name()));
-    }
 }
 
 /// The state where the numbers failed.
