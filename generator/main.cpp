@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "alembert/error.hpp"
+#include "alembert/integrate.hpp"
 #include "commands/command.hpp"
 
 namespace {
@@ -87,7 +88,7 @@ int main(int argc, char** argv) {
     simulate->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
     simulate->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
         ->check(CLI::PositiveNumber);
-    simulate->add_option("--method", request.method, "auto, euler, rk4, dopri5 or dop853");
+    simulate->add_option("--method", request.method, "auto, " + alembert::method_names());
     simulate->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
     simulate->add_option("-o,--output", request.output, "CSV file");

@@ -212,4 +212,33 @@ holonomic = "x^2 + y^2 = 1"
     CHECK(shared["lambda_b"].get<double>() == doctest::Approx(2 * lambda / 5).epsilon(1e-14));
     const auto motion = run({"simulate", twice, "--json", "--duration", "1", "-o", temporary("twice.csv", "")});
     CHECK(motion.exit == 0);
+// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same with
+// what it cannot have, each named.
+TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {
+    const auto scene = [](const std::string& kinetic, const std::string& more) {
+        return temporary("separable.toml", "[coordinates]\nx = { initial = 1 }\ny = { initial = 0.2, rate = 0.3 }\n[energy]\nkinetic = \"" +
+                                               kinetic + "\"\npotential = \"x^2/2 + y^2 + x^2*y^2 + y^4/4\"\n" + more);
+    };
+    const std::string free = scene("x'^2/2 + y'^2", "");
+    const auto end = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"simulate", free, "--json", "--duration", "20"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto result = run(words);
+        REQUIRE(result.exit == 0);
+        return Json::parse(result.out)["final"]["coordinates"];
+    };
+    const Json exact = end({"--tolerance", "1e-13"});
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--method", "kahanli8", "--step", "0.05"}, {"--method", "gauss", "--step", "0.02"}}) {
+        const Json other = end(words);
+        for (const char* name : {"x", "y"}) CHECK(std::abs(other[name].get<double>() - exact[name].get<double>()) < 1e-9);
+    }
+    const auto refused = [&](const std::string& path, const char* reason) {
+        const auto result = run({"simulate", path, "--duration", "1", "--method", "verlet", "--step", "0.01"});
+        CHECK(result.exit != 0);
+        CHECK(result.err.find(reason) != std::string::npos);
+    };
+    refused(scene("x'^2/2 + (1 + x^2)*y'^2", ""), "the inertia of y changes with the motion");
+    refused(scene("x'^2/2 + x*y' + y'^2", ""), "a rate occurs in the equation of");
+    refused(source_path("scenes/textbook/cartesian_pendulum.toml"), "there are constraints");
 }
