@@ -100,6 +100,7 @@ struct Mechanism {
         GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
         Place place;
+        bool norm = false;                    ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.

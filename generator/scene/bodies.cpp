@@ -64,6 +64,21 @@ std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& 
     return rotation;
 }
 
+/// Four names, or none where they are told to be wrong.
+std::vector<Name> read_quaternion(const Table& table) {
+    const toml::node& node = *table.find("quaternion")->node;
+    const toml::array* const list = node.as_array();
+    const std::string expected = "expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]";
+    if (!list || list->size() != 4) {
+        table.complain("quaternion", fmt::format("{} {}; {}", table.what("quaternion"),
+                                                 list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
+        return {};
+    }
+    std::vector<Name> names = table.names("quaternion");
+    if (names.size() != 4) names.clear();
+    return names;
+}
+
 Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
     Inertia inertia;
     const Table table(reading, node, "the inertia", place);
@@ -102,12 +117,16 @@ std::optional<Inertia> read_inertia(const Table& table) {
 }  // namespace
 
 void read_frame(Table table, Scene& scene) {
-    table.allow({"name", "parent", "rotate"}, {"quaternion"});
+    table.allow({"name", "parent", "rotate", "quaternion"});
     Frame frame;
     frame.name = table.needed_name("name");
     table.entitle(frame.name);
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
-    if (const Entry* const rotate = table.find("rotate")) {
+    if (table.has("quaternion")) {
+        if (table.has("rotate"))
+            table.complain("rotate", fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
+        frame.quaternion = read_quaternion(table);
+    } else if (const Entry* const rotate = table.find("rotate")) {
         const toml::array* const list = rotate->node->as_array();
         if (!list)
             table.complain("rotate", fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
@@ -118,8 +137,8 @@ void read_frame(Table table, Scene& scene) {
                     frame.rotations.push_back(std::move(*rotation));
                 else
                     break;
-    } else if (!table.has("quaternion")) {
-        table.complain("rotate", fmt::format("{} needs 'rotate'", table.title()));
+    } else {
+        table.complain("rotate", fmt::format("{} needs 'rotate' or 'quaternion'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
 }

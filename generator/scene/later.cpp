@@ -13,7 +13,6 @@ namespace alembert {
 namespace {
 
 void allow(const Table& table, const std::string& name) {
-    if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
     if (name == "polynomial") table.allow({"coefficients"});
     if (name == "joint")
         table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate",
@@ -37,7 +36,7 @@ bool is_list(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"rolling", "joint", "polynomial"};
+    return {"joint", "polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {
