@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "analysis/diagnose.hpp"
+#include "analysis/gimbal.hpp"
 #include "analysis/redundancy.hpp"
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
@@ -79,6 +80,7 @@ Choice lowered(const Derived& d, const Request& request) {
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism));
     if (const auto combination = massless_combination(program, state))
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",

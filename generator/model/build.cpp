@@ -472,12 +472,15 @@ private:
             slip = add(slip, scale(-1, ground, z), z);
         }
         const std::array<Name, 3> multipliers = multipliers_of(rule);
+        std::vector<GiNaC::symbol> clock{m_.t};
+        for (const Mechanism::Input& input : m_.inputs) clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
         bool any = false;
         for (int k = 0; k < 3; ++k) {
             const std::string name = rule.name.text + "_" + "xyz"[k];
+            const bool drifts = z.depends(slip[k], clock);  // velocities are forms in the rates but for what time does by itself
             const auto [row, drift] = linear_form(slip[k], "rolling '" + name + "'", rule.contact.place, m_);
             if (std::all_of(row.begin(), row.end(), [&](const ex& entry) { return is_identically_zero(entry, m_); })) {
-                if (!drift.is_zero())
+                if (drifts && !drift.is_zero())
                     throw SceneMistake{{rule.name.place,
                                         fmt::format("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
                                                     "coordinates' rates",
@@ -491,7 +494,8 @@ private:
                                                     .value = slip[k],
                                                     .multiplier = m_.symbols->declare(multipliers[k].text, Kind::other, index + k),
                                                     .place = rule.name.place,
-                                                    .at = rule.contact.place},
+                                                    .at = rule.contact.place,
+                                                    .drifts = drifts},
                                                    m_));
             translator_.know(multipliers[k].text, m_.constraints.back().multiplier);
         }
