@@ -474,10 +474,15 @@ private:
         const std::array<Name, 3> multipliers = multipliers_of(rule);
         std::vector<GiNaC::symbol> clock{m_.t};
         for (const Mechanism::Input& input : m_.inputs) clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
+        // Velocities are forms in the rates alone where no place and no attitude depends on time by itself.
+        const auto by_itself = [&](const Vector3& v) { return std::any_of(v.begin(), v.end(), [&](const ex& e) { return z.depends(e, clock); }); };
+        bool drifts = false;
+        for (const std::string& body : {rule.body.text, rule.on.text})
+            for (int k = 0; k < 3; ++k)
+                if (body != "N") drifts = drifts || by_itself(places_.position(body)) || by_itself(places_.orientation(body).axis(k));
         bool any = false;
         for (int k = 0; k < 3; ++k) {
             const std::string name = rule.name.text + "_" + "xyz"[k];
-            const bool drifts = z.depends(slip[k], clock);  // velocities are forms in the rates but for what time does by itself
             const auto [row, drift] = linear_form(slip[k], "rolling '" + name + "'", rule.contact.place, m_);
             if (std::all_of(row.begin(), row.end(), [&](const ex& entry) { return is_identically_zero(entry, m_); })) {
                 if (drifts && !drift.is_zero())
