@@ -247,6 +247,61 @@ TEST_CASE("space: the heavy top follows its elliptic solution, by Euler angles a
     }
 }
 
+// The same disc with a height of its own, held on the plane by a constraint, and the contact from the normal: the rolling's third row follows.
+TEST_CASE("space: the disc by a quaternion and by angles rolls the same way") {
+    std::string text = without(without(without(textbook("rolling_disc_in_space"), "[[frame]]"), "[[point]]"), "[[claim]]");
+    text = without(without(without(text, "[[body]]"), "[[rolling]]"), "[coordinates]");
+    text += R"toml(
+[coordinates]
+x = 0
+y = 0
+z = { guess = 0.5 }
+e0 = "cos(0.15)"
+e1 = "sin(0.15)"
+e2 = 0
+e3 = 0
+[speeds]
+w1 = { form = "dot(omega(disc), ex(D))", initial = 0.2 }
+w2 = { form = "dot(omega(disc), ey(D))", initial = "6 + 0.4*sin(0.3)" }
+w3 = { form = "dot(omega(disc), ez(D))", initial = "0.4*cos(0.3)" }
+[definitions]
+tilt = "dot(ez(N), ey(D))"
+s = "sqrt(1 - tilt^2)"
+[[frame]]
+name = "D"
+quaternion = ["e0", "e1", "e2", "e3"]
+[[body]]
+name = "disc"
+mass = "m"
+frame = "D"
+inertia = ["m*r^2/4", "m*r^2/2", "m*r^2/4"]
+position = ["x", "y", "z"]
+[[constraint]]
+name = "touch"
+holonomic = "z = r*s"
+[[rolling]]
+name = "rim"
+body = "disc"
+contact = ["-r*dot(ez(N), ex(D))/s", 0, "-r*dot(ez(N), ez(D))/s"]
+axes = "D"
+[outputs]
+lean = "tilt"
+)toml";
+    const std::string scene = temporary("disc.toml", text), file = temporary("disc.csv", "");
+    const Json angles = json_of({"simulate", source_path("scenes/textbook/rolling_disc_in_space.toml"), "--json"})["final"];
+    const double theta = number(angles, "coordinates", "theta"), psi = number(angles, "coordinates", "psi");
+    for (const char* by : {"kane", "routh"}) {
+        CAPTURE(by);
+        const Json end = json_of({"simulate", scene, "--json", "--by", by, "-o", file})["final"];
+        CHECK(std::abs(column(file, "lean").back() - std::sin(theta)) < 1e-9);
+        // From the foot of the contact to the mass centre: r sin θ across the heading.
+        CHECK(std::abs(number(end, "coordinates", "x") - (number(angles, "coordinates", "x") + 0.5 * std::sin(theta) * std::sin(psi))) < 1e-9);
+        CHECK(std::abs(number(end, "coordinates", "y") - (number(angles, "coordinates", "y") - 0.5 * std::sin(theta) * std::cos(psi) + 0.5 * std::sin(0.3))) < 1e-9);
+    }
+    const auto proved = run({"agree", scene});
+    CHECK(proved.out.rfind("routh, kane, dalembert: proved", 0) == 0);
+}
+
 TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {
     const std::string by_angles = source_path("scenes/textbook/heavy_top.toml");
     const std::string upright = temporary("upright.toml", replaced(textbook("heavy_top"), "theta = { initial = 1,", "theta = { initial = 0,"));

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -48,12 +49,16 @@ Derived derived(const Request& request) {
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
-    for (const int k : redundant)
+    for (const int k : redundant) {
+        const Place place = mechanism.constraints[k].place;
+        if (std::any_of(scene.rolling.begin(), scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == place; }))
+            continue;  // a rolling has three rows, of which one may well follow from where the body is; `audit` tells it
         std::cerr << describe(scene, {{mechanism.constraints[k].place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
                                                    "out, and the reactions are those of the others alone",
                                                    mechanism.constraints[k].name),
                                        Severity::warning}});
+    }
     mechanism = without_constraints(std::move(mechanism), redundant);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
