@@ -212,6 +212,8 @@ holonomic = "x^2 + y^2 = 1"
     CHECK(shared["lambda_b"].get<double>() == doctest::Approx(2 * lambda / 5).epsilon(1e-14));
     const auto motion = run({"simulate", twice, "--json", "--duration", "1", "-o", temporary("twice.csv", "")});
     CHECK(motion.exit == 0);
+}
+
 // Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same with
 // what it cannot have, each named.
 TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "analysis/assemble.hpp"
 #include "analysis/audit.hpp"
 #include "analysis/diagnose.hpp"
+#include "analysis/gimbal.hpp"
 #include "analysis/redundancy.hpp"
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
@@ -74,6 +76,8 @@ Derived derived(const Request& request) {
     for (const int k : redundant) {
         const Mechanism::Constraint& c = mechanism.constraints[k];
         if (c.closes_loop) continue;
+        if (std::any_of(scene.rolling.begin(), scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == c.place; }))
+            continue;  // a rolling has three rows, of which one may well follow from where the body is; `audit` tells it
         std::cerr << describe(scene, {{c.place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
                                                    "out, and the reactions of all are the least that keep them",
@@ -108,6 +112,7 @@ Choice lowered(const Derived& d, const Request& request) {
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism));
     if (const auto combination = massless_combination(program, state))
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",

@@ -287,6 +287,18 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         if (constraint.position) wanted.push_back(*constraint.position);
         wanted.push_back(constraint.drift);
     }
+    // e·e = 1 of a quaternion: no inertia resists the rate along e, and c Aᵀ(A u' − γ), which is 0, makes the matrix regular.
+    // c is a fourth of the mean diagonal element, so that the new eigenvalue is of the others' size.
+    std::vector<std::tuple<ex, const std::vector<ex>*, ex>> norms;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (!m.constraints[kept[k]].norm) continue;
+        GiNaC::exvector diagonal;
+        for (int i = 0; i < n; ++i)
+            if (!equations.A[k][i].is_zero()) diagonal.push_back(equations.M(i, i));
+        const int count = std::max<int>(1, static_cast<int>(diagonal.size()));
+        norms.emplace_back(m.z->name(GiNaC::add(std::move(diagonal)) / (4 * count)), &equations.A[k], equations.gamma[k]);
+        wanted.push_back(std::get<0>(norms.back()));
+    }
     lowering.lower_definitions(wanted);
     // Open contacts do not push; those that the equations hold closed get their multipliers below.
     for (const Mechanism::Unilateral& contact : m.unilateral) lowering.define(contact.gap.multiplier, program.number(0));
@@ -305,12 +317,18 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
-            mass.push_back(lowering(equations.M(i, j)));
+            std::vector<Program::Term> terms{{1, lowering(equations.M(i, j))}};
+            for (const auto& [c, row, gamma] : norms)
+                terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
+            mass.push_back(program.sum(0, terms));
             program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
     for (int i = 0; i < n; ++i) {
         blame_row(i);
-        forcing.push_back(lowering(equations.forcing(i)));
+        std::vector<Program::Term> terms{{1, lowering(equations.forcing(i))}};
+        for (const auto& [c, row, gamma] : norms)
+            terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
+        forcing.push_back(program.sum(0, terms));
         program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
     }
     program.set_sources({0});

@@ -101,6 +101,7 @@ struct Mechanism {
         GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
         Place place;
         bool closes_loop = false;             ///< a row of a joint: that it follows from others is nothing to warn of
+        bool norm = false;                    ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.

@@ -8,6 +8,12 @@ namespace alembert {
 
 using GiNaC::ex;
 
+std::size_t coordinate_index(const std::string& name, const Mechanism& m) {
+    for (std::size_t i = 0; i < m.q.size(); ++i)
+        if (m.q[i].get_name() == name) return i;
+    throw std::out_of_range("coordinate '" + name + "'");
+}
+
 const Orientation& Places::orientation(const std::string& name) {
     if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
     if (name == "N") return orientations_["N"];
@@ -26,6 +32,15 @@ const Orientation& Places::orientation(const std::string& name) {
 Orientation Places::turn(const Frame& frame) {
     SourceScope source(*m_.z, "frame " + frame.name.text);
     Orientation o = orientation(frame.parent.text);
+    if (!frame.quaternion.empty()) {
+        std::array<ex, 4> e, rate;
+        for (int k = 0; k < 4; ++k) {
+            const std::size_t i = coordinate_index(frame.quaternion[k].text, m_);
+            e[k] = m_.q[i];
+            rate[k] = m_.qdot[i];
+        }
+        return o.turned(e, rate, *m_.z);
+    }
     for (const Rotation& r : frame.rotations) o = turned(o, unit_axis(r), value(r.angle));
     return o;
 }

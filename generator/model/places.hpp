@@ -14,6 +14,9 @@
 
 namespace alembert {
 
+/// The position in Mechanism::q of the coordinate of that name.
+std::size_t coordinate_index(const std::string& name, const Mechanism& mechanism);
+
 class Places {
 public:
     Places(const Scene& scene, const Mechanism& mechanism, Translator& translator)

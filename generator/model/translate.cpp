@@ -86,6 +86,18 @@ ex Translator::named(const Tree& tree) {
     throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
 }
 
+std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
+    const auto is_call = [](const Tree& tree) { return tree.kind == Tree::Kind::call; };
+    if (!is_call(u) || !is_call(v)) return std::nullopt;
+    if (v.text == "omega") return u.text == "omega" ? std::nullopt : own_component(v, u);
+    const std::string axes[] = {"ex", "ey", "ez"};
+    const auto axis = std::find(std::begin(axes), std::end(axes), v.text);
+    if (u.text != "omega" || axis == std::end(axes)) return std::nullopt;
+    const Orientation &turning = queries_.orientation(u.args.at(0)->text), &frame = queries_.orientation(v.args.at(0)->text);
+    if (&turning != &frame) return std::nullopt;
+    return frame.angular_velocity()[axis - std::begin(axes)];
+}
+
 Value Translator::call(const Tree& tree) {
     Intermediates& z = *mechanism_.z;
     const auto name_of = [&](std::size_t k) -> const std::string& { return tree.args.at(k)->text; };
@@ -106,6 +118,8 @@ Value Translator::call(const Tree& tree) {
     if (tree.text == "ex") return queries_.orientation(name_of(0)).axis(0);
     if (tree.text == "ey") return queries_.orientation(name_of(0)).axis(1);
     if (tree.text == "ez") return queries_.orientation(name_of(0)).axis(2);
+    if (tree.text == "dot")
+        if (const auto own = own_component(*tree.args[0], *tree.args[1])) return *own;
     if (tree.text == "dot") return dot(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "cross") return cross(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "norm") return norm(vector_of(*tree.args[0]), z);

@@ -43,6 +43,8 @@ private:
     Vector3 vector_of(const Tree& tree);
     GiNaC::ex named(const Tree& tree);
     Value call(const Tree& tree);
+    /// dot(omega(B), ex(B)), which is known without going by N.
+    std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v);
     GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
 
     const Mechanism& mechanism_;

@@ -47,6 +47,21 @@ std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& 
     return rotation;
 }
 
+/// Four names, or none where they are told to be wrong.
+std::vector<Name> read_quaternion(const Table& table) {
+    const toml::node& node = *table.find("quaternion")->node;
+    const toml::array* const list = node.as_array();
+    const std::string expected = "expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]";
+    if (!list || list->size() != 4) {
+        table.complain("quaternion", fmt::format("{} {}; {}", table.what("quaternion"),
+                                                 list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
+        return {};
+    }
+    std::vector<Name> names = table.names("quaternion");
+    if (names.size() != 4) names.clear();
+    return names;
+}
+
 Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
     Inertia inertia;
     const Table table(reading, node, "the inertia", place);
@@ -124,14 +139,19 @@ std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
 }
 
 void read_frame(Table table, Scene& scene) {
-    table.allow({"name", "parent", "rotate"}, {"quaternion"});
+    table.allow({"name", "parent", "rotate", "quaternion"});
     Frame frame;
     frame.name = table.needed_name("name");
     table.entitle(frame.name);
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
-    frame.rotations = read_rotations(table, "rotate");
-    if (!table.has("rotate") && !table.has("quaternion")) {
-        table.complain("rotate", fmt::format("{} needs 'rotate'", table.title()));
+    if (table.has("quaternion")) {
+        if (table.has("rotate"))
+            table.complain("rotate", fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
+        frame.quaternion = read_quaternion(table);
+    } else if (table.has("rotate")) {
+        frame.rotations = read_rotations(table, "rotate");
+    } else {
+        table.complain("rotate", fmt::format("{} needs 'rotate' or 'quaternion'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
 }

@@ -13,7 +13,6 @@ namespace alembert {
 namespace {
 
 void allow(const Table& table, const std::string& name) {
-    if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
     if (name == "polynomial") table.allow({"coefficients"});
 }
 
@@ -24,7 +23,7 @@ bool is_list(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"rolling", "polynomial"};
+    return {"polynomial"};
 }
 
 bool refuse_later(const Reading& reading, const Entry& entry) {

@@ -52,6 +52,7 @@ constexpr Section sections[] = {
     {"spring", true, each<read_spring>},
     {"damper", true, each<read_damper>},
     {"constraint", true, each<read_constraint>},
+    {"rolling", true, each<read_rolling>},
     {"unilateral", true, each<read_unilateral>},
     {"impulse", true, each<read_impulse>},
     {"impulses", false, one<read_impulses>},

@@ -75,6 +75,7 @@ struct Frame {
     Name name;
     Name parent{"N", {}};
     std::vector<Rotation> rotations;
+    std::vector<Name> quaternion = {};  ///< four coordinates, scalar first; then there are no rotations
 };
 
 /// Where something is: `from` the point, by the `offset` along `axes`. (`at = "P"` is P with a zero offset.)
@@ -187,6 +188,21 @@ struct UnilateralRule {
     Expression restitution;  ///< the number 0 when missing
 };
 
+/// The point of `body` at the mass centre + `contact` has the velocity of the point of `on` there.
+struct RollingRule {
+    Name name;
+    Name body;
+    Vector contact;
+    Name axes{"N", {}};
+    Name on{"N", {}};  ///< the ground
+};
+
+/// "lambda_wheel_x" …: the multipliers of a rolling's rows along the axes of N.
+std::array<Name, 3> multipliers_of(const RollingRule& rule);
+
+/// The multiplier of e·e − 1 = 0, of a frame with a quaternion.
+Name multiplier_of(const Frame& frame);
+
 struct Output {
     Name name;
     Expression value;
@@ -235,6 +251,7 @@ struct Scene {
     std::vector<Impulse> impulses;
     std::vector<GeneralizedForce> generalized_impulses;
     std::vector<ConstraintRule> constraints;
+    std::vector<RollingRule> rolling;
     std::vector<UnilateralRule> unilateral;
     std::vector<Output> outputs;
     std::vector<EventRule> events;

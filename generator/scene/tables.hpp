@@ -39,6 +39,7 @@ void read_torque(Table table, Scene& scene);
 void read_spring(Table table, Scene& scene);
 void read_damper(Table table, Scene& scene);
 void read_constraint(Table table, Scene& scene);
+void read_rolling(Table table, Scene& scene);
 void read_unilateral(Table table, Scene& scene);
 
 // runs.cpp: what is to be done
