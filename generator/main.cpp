@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "alembert/error.hpp"
+#include "alembert/integrate.hpp"
 #include "commands/command.hpp"
 
 namespace {
@@ -53,13 +54,18 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, routh, kane, dalembert, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
     CLI::App* derive = verb("derive", "print the equations of motion in textbook form", alembert::derive);
     derive->add_option("--format", request.format, "text, latex or mathml")->check(CLI::IsMember({"text", "latex", "mathml"}));
     derive->add_flag("--steps", request.steps, "show coordinates, T, V, generalized forces, then the equations");
+
+    const auto with_reactions = [&](CLI::App* sub) {
+        sub->add_flag("--reactions", request.reactions, "the reaction of each constraint along each coordinate, lambda*df/dq");
+    };
+    with_reactions(derive);
 
     verb("agree", "derive by every formalism that applies, and prove that they say the same", alembert::agree);
     verb("audit", "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", alembert::audit);
@@ -72,6 +78,8 @@ int main(int argc, char** argv) {
 
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
 
+    with_reactions(eval);
+
     CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
     emit->add_option("-o,--output", request.output, "folder")->required();
     emit->add_flag("--fold", request.fold, "parameters as constants");
@@ -80,11 +88,12 @@ int main(int argc, char** argv) {
     simulate->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
     simulate->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
         ->check(CLI::PositiveNumber);
-    simulate->add_option("--method", request.method, "auto, euler, rk4, dopri5 or dop853");
+    simulate->add_option("--method", request.method, "auto, " + alembert::method_names());
     simulate->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
     simulate->add_option("-o,--output", request.output, "CSV file");
     simulate->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+    with_reactions(simulate);
     simulate->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
 
     try {

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "analysis/check.hpp"
+#include "formalism/routh.hpp"
+#include "report/derivation.hpp"
+#include "report/text.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 
@@ -168,4 +171,108 @@ unknowns R
     CHECK(result.claims[3].likely->kind == "sign");
     CHECK_FALSE(result.claims[3].counterexample.empty());
     CHECK(result.claims[4].verdict == Verdict::refuted);
+}
+
+TEST_CASE("check: nobody gives the derivative of a multiplier, an acceleration or an unknown function") {
+    for (const char* claims : {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
+        CAPTURE(claims);
+        CHECK_THROWS_AS(checked("sled", claims), SceneError);
+    }
+}
+
+TEST_CASE("check: sizes and signs are those of real numbers, tangents and half angles are known, and identities say nothing") {
+    const Checked result = checked("double_pendulum", R"(
+abs(theta1')^2 = theta1'^2
+abs(theta1')^3 = theta1'^3
+sqrt(theta1'^2) = abs(theta1')
+norm(vel(M1)) = l1*abs(theta1')
+F' = 3/2*cos(3*t)
+0 = 0
+1 = 0
+((m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2))/cos(theta1) + (m1+m2)*g*tan(theta1/2)*(1 + 1/cos(theta1)) = F
+abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'^2*sin(theta1-theta2) + m2*g*sin(theta2)) = F*cos(theta2)*abs(theta1')
+)");
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved, Verdict::proved,
+                                        Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
+// The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
+TEST_CASE("check: a loop whose lengths are numbers is solved for two angles at once") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+alpha = { initial = 0.5, rate = 2.0 }
+beta  = { guess = 0.6, rate_guess = 0 }
+gamma = { guess = 1.4, rate_guess = 0 }
+[energy]
+kinetic = "alpha'^2 + beta'^2/2 + alpha'*beta'*cos(alpha-beta) + 3*gamma'^2"
+[[constraint]]
+name = "x"
+holonomic = "cos(alpha) + 4*cos(beta) - 7/2*cos(gamma) - 3"
+[[constraint]]
+name = "y"
+holonomic = "sin(alpha) + 4*sin(beta) - 7/2*sin(gamma)"
+)toml", "loop.toml");
+    const Checked result = checked(with_claims(scene, R"(
+alpha'*sin(alpha-beta) = 7/2*gamma'*sin(gamma-beta)
+alpha'*sin(alpha-beta) = 4*gamma'*sin(gamma-beta)
+alpha'*sin(alpha-gamma) = -4*beta'*sin(beta-gamma)
+beta = 2*atan(2/3)
+6*gamma'' = 7/2*sin(gamma)*lambda_x - 7/2*cos(gamma)*lambda_y
+(alpha'^2 + beta'^2/2 + alpha'*beta'*cos(alpha-beta) + 3*gamma'^2)' = 0
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+    CHECK_FALSE(result.claims[1].counterexample.empty());
+    CHECK_FALSE(result.claims[3].counterexample.empty());
+}
+
+// x² = l² has two branches; nothing says which.
+TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
+    const Scene scene = parse_scene("[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
+                                    "[[constraint]]\nname = \"wall\"\nholonomic = \"x^2 - l^2\"\n", "branch.toml");
+    const Checked result = checked(with_claims(scene, "x = l\nx = -l\nx^2 = l^2\nx' = 0\n(x-l)*(x+l) = 0\n", "claims.txt"));
+    CHECK(result.claims[0].verdict == Verdict::refuted);
+    CHECK(result.claims[1].verdict == Verdict::refuted);
+    for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
+}
+
+// Beyond the readable size the equations are in intermediate symbols z1, z2 …, which claims may name.
+TEST_CASE("check: a chain of eight rods proves its own equations and refutes one with a sign changed, which it names") {
+    std::string text = "gravity = [0, \"g\"]\n[parameters]\nm = 1\nl = 1\ng = 9.81\n[coordinates]\n", bodies;
+    for (int k = 1; k <= 8; ++k) {
+        text += fmt::format("q{} = 0.1\n", k);
+        bodies += fmt::format("[[frame]]\nname = \"R{0}\"\nparent = \"{1}\"\nrotate = [[\"z\", \"q{0}\"]]\n"
+                              "[[point]]\nname = \"J{0}\"\nfrom = \"{2}\"\noffset = [0, \"l\"]\naxes = \"R{0}\"\n"
+                              "[[body]]\nname = \"B{0}\"\nmass = \"m\"\ninertia = \"m*l^2/12\"\nframe = \"R{0}\"\nfrom = \"{2}\"\n"
+                              "position = [0, \"l/2\"]\naxes = \"R{0}\"\n",
+                              k, k == 1 ? "N" : fmt::format("R{}", k - 1), k == 1 ? "O" : fmt::format("J{}", k - 1));
+    }
+    const Scene scene = parse_scene(text + bodies, "chain.toml");
+    const Mechanism m = build(scene);
+    const Derivation shown = derivation_of(m, routh(m));
+    REQUIRE_FALSE(shown.definitions.empty());
+    std::string claims, wrong;
+    for (const ReadableEquation& equation : shown.equations) {
+        claims += alembert::text(equation.lhs) + " = " + alembert::text(equation.rhs) + "\n";
+        wrong = alembert::text(equation.lhs) + " = " + alembert::text(equation.rhs) + "\n";
+    }
+    wrong.replace(wrong.find(" + "), 3, " - ");
+    const Checked right = checked(with_claims(scene, claims, "claims.txt"));
+    REQUIRE(right.claims.size() == 8);
+    for (const CheckedClaim& c : right.claims) CHECK(c.verdict == Verdict::proved);
+    CHECK(right.complete);
+    const Checked refuted = checked(with_claims(scene, wrong, "claims.txt"));
+    REQUIRE(refuted.claims[0].verdict == Verdict::refuted);
+    CHECK_FALSE(refuted.claims[0].counterexample.empty());
+    REQUIRE(refuted.claims[0].likely);
+    CHECK(refuted.claims[0].likely->kind == "sign");
 }

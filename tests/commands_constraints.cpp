@@ -2,6 +2,8 @@
 // Constrained scenes: closed forms, conservation, and what is wrong with constraints.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -103,6 +105,8 @@ TEST_CASE("commands: what is wrong with constraints has its message and exit cod
     };
     fails(scene("holonomic = \"x^2 + y^2 - 2\""), 3, "constraint 'c' is off by 1 at the start");
     fails(scene("holonomic = \"x^2 + y^2 + 1\"", "x = { guess = 0.6 }"), 4, "the guesses do not converge");
+    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = { guess = 0.6 }", "[[constraint]]\nname = \"d\"\nholonomic = \"2*x^2 + 2*y^2 = 3\"\n"), 3,
+          "constraints 'c' and 'd' contradict each other");
     fails(scene("nonholonomic = \"x'^2 - y'\""), 3, "not linear in the rates");
     fails(scene("holonomic = \"x'\""), 3, "'nonholonomic'");
     fails(scene("holonomic = \"t - t\""), 3, "contains no coordinate");
@@ -142,4 +146,101 @@ duration = 2
     CHECK(result.err.find("circle") == std::string::npos);
     CHECK(Json::parse(result.out)["energy_drift"].get<double>() < 1e-8);
     CHECK(run({"derive", source_path("scenes/textbook/four_bar.toml")}).err.empty());
+}
+
+// The rod of a pendulum pulls with m (g cos + l w²) along itself: at 30° from the lowest point, turning with 2 rad/s.
+TEST_CASE("commands: reactions along the coordinates are those of the free body") {
+    const double th = 0.5235987755982988, w = 2, m = 2, g = 9.81;
+    const auto at = [&](const char* name, double value) { return fmt::format("{}={:.17g}", name, value); };
+    const auto result = run({"eval", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--reactions", "--at", at("x", std::sin(th)),
+                             at("y", -std::cos(th)), at("x'", w * std::cos(th)), at("y'", w * std::sin(th))});
+    REQUIRE(result.exit == 0);
+    const Json rod = Json::parse(result.out)["reactions"]["rod"];
+    const double tension = m * (g * std::cos(th) + w * w);
+    CHECK(rod["x"].get<double>() == doctest::Approx(-tension * std::sin(th)).epsilon(1e-13));
+    CHECK(rod["y"].get<double>() == doctest::Approx(tension * std::cos(th)).epsilon(1e-13));
+    const auto shown = run({"derive", source_path("scenes/textbook/cartesian_pendulum.toml"), "--reactions"});
+    CHECK(shown.out.find("Q(x) of rod = 2*x*lambda_rod") != std::string::npos);
+}
+
+TEST_CASE("commands: constraints that hold together only where the coordinates obey a relation are refused") {
+    const std::string scene = temporary("hidden.toml", R"toml(
+[coordinates]
+x = 0
+y = 1
+z = 0
+[energy]
+kinetic = "(x'^2+y'^2+z'^2)/2"
+[[constraint]]
+name = "a"
+nonholonomic = "x' = y*z'"
+[[constraint]]
+name = "b"
+nonholonomic = "x' = y*z' + z"
+)toml");
+    for (const char* verb : {"derive", "eval", "simulate"}) {
+        const auto result = run({verb, scene});
+        CHECK(result.exit == 3);
+        CHECK(result.err.find("constraint 'b' has a row that follows from the others'") != std::string::npos);
+    }
+}
+
+// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the ratio 1 : 2.
+TEST_CASE("commands: redundant constraints share their reaction in the least way") {
+    const std::string rod = R"toml(
+gravity = [0, "-9.81"]
+[coordinates]
+x = 0.6
+y = -0.8
+[[particle]]
+name = "P"
+mass = 2
+position = ["x", "y"]
+[[constraint]]
+name = "a"
+holonomic = "x^2 + y^2 = 1"
+)toml";
+    const auto one = run({"eval", temporary("one.toml", rod), "--json"});
+    const std::string twice = temporary("twice.toml", rod + "[[constraint]]\nname = \"b\"\nholonomic = \"2*x^2 + 2*y^2 = 2\"\n");
+    const auto two = run({"eval", twice, "--json"});
+    REQUIRE(one.exit == 0);
+    REQUIRE(two.exit == 0);
+    CHECK(two.err.find("constraint 'b' follows from the others") != std::string::npos);
+    const double lambda = Json::parse(one.out)["multipliers"]["lambda_a"];
+    const Json shared = Json::parse(two.out)["multipliers"];
+    CHECK(shared["lambda_a"].get<double>() == doctest::Approx(lambda / 5).epsilon(1e-14));
+    CHECK(shared["lambda_b"].get<double>() == doctest::Approx(2 * lambda / 5).epsilon(1e-14));
+    const auto motion = run({"simulate", twice, "--json", "--duration", "1", "-o", temporary("twice.csv", "")});
+    CHECK(motion.exit == 0);
+}
+
+// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same with
+// what it cannot have, each named.
+TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {
+    const auto scene = [](const std::string& kinetic, const std::string& more) {
+        return temporary("separable.toml", "[coordinates]\nx = { initial = 1 }\ny = { initial = 0.2, rate = 0.3 }\n[energy]\nkinetic = \"" +
+                                               kinetic + "\"\npotential = \"x^2/2 + y^2 + x^2*y^2 + y^4/4\"\n" + more);
+    };
+    const std::string free = scene("x'^2/2 + y'^2", "");
+    const auto end = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"simulate", free, "--json", "--duration", "20"};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto result = run(words);
+        REQUIRE(result.exit == 0);
+        return Json::parse(result.out)["final"]["coordinates"];
+    };
+    const Json exact = end({"--tolerance", "1e-13"});
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--method", "kahanli8", "--step", "0.05"}, {"--method", "gauss", "--step", "0.02"}}) {
+        const Json other = end(words);
+        for (const char* name : {"x", "y"}) CHECK(std::abs(other[name].get<double>() - exact[name].get<double>()) < 1e-9);
+    }
+    const auto refused = [&](const std::string& path, const char* reason) {
+        const auto result = run({"simulate", path, "--duration", "1", "--method", "verlet", "--step", "0.01"});
+        CHECK(result.exit != 0);
+        CHECK(result.err.find(reason) != std::string::npos);
+    };
+    refused(scene("x'^2/2 + (1 + x^2)*y'^2", ""), "the inertia of y changes with the motion");
+    refused(scene("x'^2/2 + x*y' + y'^2", ""), "a rate occurs in the equation of");
+    refused(source_path("scenes/textbook/cartesian_pendulum.toml"), "there are constraints");
 }

@@ -108,7 +108,7 @@ TEST_CASE("trajectory: rows lie on the grid, and the last one is the end, once")
 }
 
 TEST_CASE("trajectory: rows between steps are as good as the steps") {
-    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853}) {
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         const Trajectory motion = integrate(decay(), {1.0},
                                             {.method = method,
                                              .duration = 5,
@@ -132,7 +132,7 @@ TEST_CASE("statistics: evaluations are counted, and steps are told") {
     });
     const Events events = make_events(
         {{.name = "half"}}, [](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.5; });
-    for (const Method method : {Method::euler, Method::rk4, Method::dopri5, Method::dop853}) {
+    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::abm, Method::bdf, Method::radau}) {
         calls = told = 0;
         const Trajectory motion =
             integrate(counted, {1.0},
@@ -182,7 +182,7 @@ TEST_CASE("quadrature: it follows the motion and does not touch its steps") {
 
 // y' = y², y(0) = 1 is 1/(1 − t); y₀ = t is a bystander.
 TEST_CASE("failure: a solution that blows up ends in step size underflow at its pole") {
-    for (const Method method : {Method::dopri5, Method::dop853}) {
+    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         const Trajectory motion = integrate(blow_up(), {0, 1}, {.method = method, .duration = 2});
         REQUIRE(motion.failure);
         CHECK(motion.ending == Ending::failed);

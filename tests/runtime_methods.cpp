@@ -2,14 +2,19 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "alembert/dop853.hpp"
+#include "alembert/gauss.hpp"
 #include "alembert/integrate.hpp"
+#include "alembert/radau.hpp"
 #include "alembert/step.hpp"
+#include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
+#include "alembert/verner.hpp"
 
 using namespace alembert;
 
@@ -41,6 +46,68 @@ void check_conditions(const Table& table, std::vector<int> exact_for_error_row) 
     for (int q = 0; q < table.order; ++q) check_moment(table, table.a[Table::stages], q, 1. / (q + 1));
     for (std::size_t row = 0; row < table.e.size(); ++row)
         for (int q = 0; q < exact_for_error_row[row]; ++q) check_moment(table, table.e[row], q, 0);
+}
+
+/// A rooted tree by the branches at its root, each a position in the list that it is in.
+struct Tree {
+    std::vector<int> branches;
+    int nodes;
+    double gamma;
+};
+
+/// All of at most `most` nodes, in the order of their size: branches from the last taken backwards, so that each
+/// multiset comes once.
+std::vector<Tree> rooted_trees(int most) {
+    std::vector<Tree> trees;
+    const auto graft = [&](auto&& self, int left, int last, const Tree& tree) -> void {
+        if (left == 0) return trees.push_back({tree.branches, tree.nodes, tree.gamma * tree.nodes});
+        for (int k = last; k >= 0; --k) {
+            const int nodes = trees[static_cast<std::size_t>(k)].nodes;
+            const double gamma = trees[static_cast<std::size_t>(k)].gamma;
+            if (nodes > left) continue;
+            Tree more = tree;
+            more.branches.push_back(k);
+            more.gamma *= gamma;
+            self(self, left - nodes, k, more);
+        }
+    };
+    for (int nodes = 1; nodes <= most; ++nodes)
+        graft(graft, nodes - 1, static_cast<int>(trees.size()) - 1, {{}, nodes, 1});
+    return trees;
+}
+
+/// Φ_i of each tree at each stage; the second time with |a_ij|, as the measure of rounding.
+template <class Table>
+void check_trees(const Table& table, std::vector<int> exact_for_error_row) {
+    const std::vector<Tree> trees = rooted_trees(table.order);
+    std::vector<typename Table::Row> phi, size;  // one for each tree: of its stages; of |a|
+    for (const Tree& tree : trees) {
+        phi.emplace_back().fill(1);
+        size.emplace_back().fill(1);
+        for (std::size_t i = 0; i < table.a.size(); ++i)
+            for (const int branch : tree.branches) {
+                double sum = 0, absolute = 0;
+                for (std::size_t j = 0; j < i; ++j) {
+                    sum += table.a[i][j] * phi[static_cast<std::size_t>(branch)][j];
+                    absolute += std::abs(table.a[i][j]) * size[static_cast<std::size_t>(branch)][j];
+                }
+                phi.back()[i] *= sum;
+                size.back()[i] *= absolute;
+            }
+        const auto holds = [&](const typename Table::Row& weights, double expected) {
+            double sum = 0, absolute = 0;
+            for (std::size_t i = 0; i < weights.size(); ++i) {
+                sum += weights[i] * phi.back()[i];
+                absolute += std::abs(weights[i]) * size.back()[i];
+            }
+            INFO("tree of " << tree.nodes << " nodes: " << sum << " for " << expected << ", rounding " << absolute);
+            // Each of the nodes brings a rounded coefficient and a sum of some twenty terms.
+            CHECK(std::abs(sum - expected) <= 2 * tree.nodes * epsilon * absolute);
+        };
+        holds(table.a[Table::stages], 1 / tree.gamma);
+        for (std::size_t row = 0; row < table.e.size(); ++row)
+            if (tree.nodes <= exact_for_error_row[row]) holds(table.e[row], 0);
+    }
 }
 
 Rhs pendulum() {
@@ -110,9 +177,24 @@ double observed_dense_order(double h) {
 
 TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the order") {
     check_conditions(euler_tableau, {});
+    check_conditions(rk2_tableau, {});
     check_conditions(rk4_tableau, {});
     check_conditions(dopri5_tableau, {4});
     check_conditions(dop853_tableau, {5, 3});
+    check_conditions(verner76_tableau, {6});
+    check_conditions(verner98_tableau, {8});
+}
+
+// Hairer, Nørsett, Wanner I, §II.2, theorem 2.13: Σ b_i Φ_i(τ) = 1/γ(τ) for the trees τ of at most p nodes. There are
+// 85 of at most 7 nodes and 486 of at most 9.
+TEST_CASE("tableaux: the order conditions hold, tree by tree, with one order less for what is estimated with") {
+    CHECK(rooted_trees(9).size() == 486);
+    check_trees(rk2_tableau, {});
+    check_trees(rk4_tableau, {});
+    check_trees(dopri5_tableau, {4});
+    check_trees(dop853_tableau, {5, 3});
+    check_trees(verner76_tableau, {6});
+    check_trees(verner98_tableau, {8});
 }
 
 // Steps short enough for the leading term of the error to dominate, at times when that term is not near a zero of
@@ -120,9 +202,14 @@ TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the
 TEST_CASE("methods: the error of the logistic equation falls with the order of the method") {
     const auto is_near = [](double order, double theory) { return std::abs(order - theory) < 0.1; };
     CHECK(is_near(observed_order<euler_tableau>(5, 20000), 1));
+    CHECK(is_near(observed_order<rk2_tableau>(5, 4000), 2));
     CHECK(is_near(observed_order<rk4_tableau>(5, 400), 4));
     CHECK(is_near(observed_order<dopri5_tableau>(8, 80), 5));
     CHECK(is_near(observed_order<dop853_tableau>(5, 8), 8));
+    // Verner made the leading terms so small (1.7e-6 in the norm of 7(6)) that the next ones are seen with them as
+    // long as rounding is not; that the leading ones are there is for the trees to say.
+    CHECK(observed_order<verner76_tableau>(5, 16) > 6.9);
+    CHECK(observed_order<verner98_tableau>(5, 8) > 8.9);
 }
 
 TEST_CASE("dense output: the error within a step falls with the order of the continuous extension") {
@@ -130,6 +217,8 @@ TEST_CASE("dense output: the error within a step falls with the order of the con
     CHECK(is_near(observed_dense_order<rk4_tableau>(0.05), 3));
     CHECK(is_near(observed_dense_order<dopri5_tableau>(0.1), 4));
     CHECK(is_near(observed_dense_order<dop853_tableau>(0.4), 7));
+    CHECK(std::abs(observed_dense_order<verner76_tableau>(0.15) - 6) < 0.15);  // at 0.1 rounding begins
+    CHECK(is_near(observed_dense_order<verner98_tableau>(0.6), 8));
 }
 
 TEST_CASE("dense output: the ends of a step are met exactly and its stages are evaluated once") {
@@ -160,7 +249,7 @@ TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
     const std::vector<double> start = {0.5, 0, 0, std::sqrt(3.0)};
     double last = HUGE_VAL;
     for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
-        for (const Method method : {Method::dopri5, Method::dop853}) {
+        for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
             const Trajectory orbit = integrate(
                 kepler, start, {.method = method, .duration = 20 * std::numbers::pi, .tolerance = tolerance});
             const double error = distance(orbit.final_state(), start);
@@ -176,7 +265,7 @@ TEST_CASE("dop853: Kepler's orbit closes after ten periods to the tolerance") {
 
 TEST_CASE("step size: a smaller tolerance gives a smaller error, and few steps are rejected") {
     const Trajectory exact = integrate(pendulum(), pendulum_start, {.duration = 30, .tolerance = 1e-15});
-    for (const Method method : {Method::dopri5, Method::dop853}) {
+    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         double last = HUGE_VAL;
         for (double tolerance = 1e-4; tolerance > 1e-13; tolerance /= 100) {
             const Trajectory motion =
@@ -207,4 +296,283 @@ TEST_CASE("state: what short steps add to a large state is not lost") {
     const Rhs drift = make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
     const Trajectory motion = integrate(drift, {1e6}, {.method = Method::rk4, .duration = 1, .step = 1e-6});
     CHECK(std::abs(motion.final_state()[0] - 1000001) <= 1.2e-10);  // one unit in the last place
+}
+
+namespace {
+
+/// Kepler's orbit of eccentricity 1/5 from the pericentre; rest after one turn, and H = −1/2.
+Rhs kepler() {
+    return make_rhs(4, [](double, const double* y, double* rate) {
+        const double r = std::hypot(y[0], y[1]);
+        rate[0] = y[2];
+        rate[1] = y[3];
+        rate[2] = -y[0] / (r * r * r);
+        rate[3] = -y[1] / (r * r * r);
+    });
+}
+
+const std::vector<double> kepler_start = {0.8, 0, 0, std::sqrt(1.5)};
+
+double kepler_energy(std::span<const double> y) {
+    return (y[2] * y[2] + y[3] * y[3]) / 2 - 1 / std::hypot(y[0], y[1]);
+}
+
+/// log₂ of the ratio of the errors after one turn in n and 2n steps.
+double order_on_kepler(Method method, int steps) {
+    const auto error = [&](int n) {
+        const double turn = 2 * std::numbers::pi;
+        return distance(
+            integrate(kepler(), kepler_start, {.method = method, .duration = turn, .step = turn / n}).final_state(),
+            kepler_start);
+    };
+    const double coarse = error(steps), fine = error(2 * steps);
+    MESSAGE(name(method) << ", " << steps << " steps: errors " << coarse << " " << fine << ", order "
+                         << std::log2(coarse / fine));
+    return std::log2(coarse / fine);
+}
+
+/// The largest |H − H(0)| in the first and in the last tenth of a run.
+std::pair<double, double> energy_errors(const Rhs& rhs, const std::vector<double>& start, Method method, double step,
+                                        double (*energy)(std::span<const double>)) {
+    const double duration = 1e5 * step, at_start = energy(start);
+    double first = 0, last = 0;
+    const Trajectory motion = integrate(rhs, start,
+                                        {.method = method,
+                                         .duration = duration,
+                                         .step = step,
+                                         .on_step = [&](double t, std::span<const double> y, std::span<const double>) {
+                                             double& worst = t < duration / 2 ? first : last;
+                                             if (t < 0.1 * duration || t > 0.9 * duration)
+                                                 worst = std::max(worst, std::abs(energy(y) - at_start));
+                                         }});
+    CHECK(motion.ending == Ending::completed);
+    MESSAGE(name(method) << ": energy off by " << first << " at first, " << last << " at last");
+    return {first, last};
+}
+
+}  // namespace
+
+TEST_CASE("symplectic methods: the error of Kepler's orbit falls with the order of the method") {
+    CHECK(std::abs(order_on_kepler(Method::verlet, 2000) - 2) < 0.1);
+    CHECK(std::abs(order_on_kepler(Method::kahanli8, 60) - 8) < 0.1);
+    CHECK(std::abs(order_on_kepler(Method::gauss, 60) - 6) < 0.1);
+}
+
+// A method that is not symplectic loses energy in proportion to time: the error at last would be ten times that at
+// first, as rk4 shows.
+TEST_CASE("symplectic methods: the energy does not drift in 10⁵ steps") {
+    for (const auto& [method, step] : {std::pair(Method::verlet, 0.05), std::pair(Method::kahanli8, 0.3)}) {
+        const auto errors = energy_errors(kepler(), kepler_start, method, step, kepler_energy);
+        CHECK(errors.second < 1.1 * errors.first);
+        CHECK(errors.first > 1e-12);  // far above rounding, or nothing is shown
+    }
+    const auto errors = energy_errors(kepler(), kepler_start, Method::rk4, 0.05, kepler_energy);
+    CHECK(errors.second > 5 * errors.first);
+}
+
+// H = p²(1 + q²)/2 + q⁴/4 is not separable: q' = p (1 + q²), p' = −q p² − q³.
+TEST_CASE("gauss: the energy of a system that is not separable does not drift in 10⁵ steps") {
+    const Rhs rhs = make_rhs(2, [](double, const double* y, double* rate) {
+        rate[0] = y[1] * (1 + y[0] * y[0]);
+        rate[1] = -y[0] * y[1] * y[1] - y[0] * y[0] * y[0];
+    });
+    const auto errors = energy_errors(rhs, {0.0, 1.0}, Method::gauss, 0.3, [](std::span<const double> y) {
+        return y[1] * y[1] * (1 + y[0] * y[0]) / 2 + std::pow(y[0], 4) / 4;
+    });
+    CHECK(errors.second < 1.1 * errors.first);
+    CHECK(errors.first > 1e-12);
+}
+
+TEST_CASE("gauss: short steps keep the energy to rounding") {
+    const auto errors = energy_errors(kepler(), kepler_start, Method::gauss, 0.01, kepler_energy);
+    CHECK(errors.second < 1e-14);  // 10⁵ roundings of 1e-16 that do not add up
+}
+
+TEST_CASE("verlet: a state that is not coordinates and their rates is refused") {
+    const Rhs decay = make_rhs(2, [](double, const double* y, double* rate) {
+        rate[0] = -y[0];
+        rate[1] = -y[1];
+    });
+    for (const Method method : {Method::verlet, Method::kahanli8})
+        CHECK_THROWS_WITH_AS(integrate(decay, {1.0, 1.0}, {.method = method, .duration = 1, .step = 0.1}),
+                             doctest::Contains("coordinates followed by their rates"), std::invalid_argument);
+}
+
+// W' = q v and so W = (q² − q₀²)/2, which the trapezoidal rule of each substep carries along in its order.
+TEST_CASE("symplectic methods: a quadrature has their order") {
+    const Rhs rhs = make_rhs(
+        3,
+        [](double, const double* y, double* rate) {
+            rate[0] = y[1];
+            rate[1] = -std::sin(y[0]);
+            rate[2] = y[0] * y[1];
+        },
+        1);
+    for (const auto& [method, bound] : {std::pair(Method::verlet, 1e-3), std::pair(Method::kahanli8, 1e-11)}) {
+        const Trajectory motion =
+            integrate(rhs, {2.0, 0.3, 0.0}, {.method = method, .duration = 10, .step = 0.05, .sample = 0.7});
+        const auto end = motion.final_state();
+        CHECK(std::abs(end[2] - (end[0] * end[0] - 4) / 2) < bound);
+    }
+}
+
+TEST_CASE("gauss: a step in which its equations have no solution by iteration says so") {
+    const Rhs stiff = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = -1e4 * y[0]; });
+    const Trajectory motion = integrate(stiff, {1.0}, {.method = Method::gauss, .duration = 1, .step = 0.1});
+    REQUIRE(motion.failure);
+    CHECK(motion.failure->message.find("the equations of gauss could not be solved") == 0);
+}
+
+namespace {
+
+/// Prothero & Robinson 1974: y' = λ (y − φ) + φ' with φ = sin t and y(0) = φ(0), so that y = φ, however stiff.
+Rhs prothero_robinson(double lambda) {
+    return make_rhs(1, [lambda](double t, const double* y, double* rate) {
+        rate[0] = lambda * (y[0] - std::sin(t)) + std::cos(t);
+    });
+}
+
+/// y'' = μ ((1 − y²) y' − y), the stiff form of Hairer & Wanner II, §IV.10, in the time of the slow motion.
+Rhs van_der_pol(double mu) {
+    return make_rhs(2, [mu](double, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = mu * ((1 - y[0] * y[0]) * y[1] - y[0]);
+    });
+}
+
+/// Errors at the end against steps, for two tolerances: −d ln error/d ln steps, the order that the steps show.
+double order_by_steps(Method method, double coarse, double fine) {
+    double error[2], steps[2];
+    for (int i = 0; i < 2; ++i) {
+        const Trajectory motion =
+            integrate(kepler(), kepler_start,
+                      {.method = method, .duration = 20 * std::numbers::pi, .tolerance = i == 0 ? coarse : fine});
+        CHECK(motion.ending == Ending::completed);
+        error[i] = distance(motion.final_state(), kepler_start);
+        steps[i] = static_cast<double>(motion.statistics.steps);
+    }
+    const double order = std::log(error[0] / error[1]) / std::log(steps[1] / steps[0]);
+    MESSAGE(name(method) << ": errors " << error[0] << " in " << steps[0] << ", " << error[1] << " in " << steps[1]
+                         << " steps, order " << order);
+    return order;
+}
+
+/// The error after `steps` equal steps of an adaptive formula, on y' = y (1 − y).
+template <class Formula>
+double equal_steps_error(int steps) {
+    const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
+    Stepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
+    for (int i = 1; i <= steps; ++i) {
+        step.attempt(5. * i / steps);
+        step.misfit();
+        step.finish();
+        step.advance();
+    }
+    return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-5.)));
+}
+
+constexpr Method stiff_methods[] = {Method::bdf, Method::radau};
+
+}  // namespace
+
+TEST_CASE("radau: the error falls with order 5, and dense output is the collocation polynomial of order 3") {
+    const double coarse = equal_steps_error<Radau>(40), fine = equal_steps_error<Radau>(80);
+    MESSAGE("errors " << coarse << " " << fine);
+    CHECK(std::abs(std::log2(coarse / fine) - 5) < 0.1);
+    const auto within = [](double h) {
+        const Rhs rhs = pendulum();
+        Stepper<Radau> step(rhs, 0, pendulum_start, 1e-14);
+        step.attempt(h);
+        step.misfit();
+        step.finish();
+        double worst = 0;
+        for (int i = 1; i < 16; ++i) {
+            double y[2];
+            step.interpolate(i / 16., y);
+            const Trajectory exact = integrate(rhs, pendulum_start, {.duration = i / 16. * h, .tolerance = 1e-15});
+            worst = std::max(worst, distance({y, 2}, exact.final_state()));
+        }
+        return worst;
+    };
+    const double order = std::log2(within(0.05) / within(0.025));
+    MESSAGE("order within a step " << order);
+    CHECK(std::abs(order - 4) < 0.1);  // h⁴ within a step
+}
+
+// The length of steps goes with tolerance^(1/(k+1)) and local errors with the tolerance, so that the global one goes
+// with steps^(−k); that the control keeps a step until it can be much longer makes the observation rough.
+TEST_CASE("abm: the error of Kepler's orbit falls with order 4 against the number of steps") {
+    CHECK(std::abs(order_by_steps(Method::abm, 1e-7, 1e-11) - 4) < 0.5);
+}
+
+TEST_CASE("bdf: orders up to 5 are reached, and errors follow the tolerance") {
+    CHECK(order_by_steps(Method::bdf, 1e-6, 1e-10) > 4);
+}
+
+TEST_CASE("stiff methods: Prothero and Robinson's equation takes steps for its solution, not for its stiffness") {
+    for (const Method method : stiff_methods)
+        for (const double lambda : {-1e3, -1e6}) {
+            const Trajectory motion = integrate(
+                prothero_robinson(lambda), {0.0}, {.method = method, .duration = 10, .tolerance = 1e-8, .sample = 0.01});
+            REQUIRE(motion.ending == Ending::completed);
+            INFO(name(method) << " " << lambda << ": " << motion.statistics.steps << " steps, "
+                              << motion.statistics.evaluations << " evaluations");
+            CHECK(std::abs(motion.final_state()[0] - std::sin(10)) < 1e-6);
+            CHECK(motion.statistics.steps < 1500);  // dop853 needs 10 |λ|/6
+        }
+}
+
+TEST_CASE("stiff methods: van der Pol's oscillator agrees with dop853 at a tight tolerance") {
+    const double mu = 1e3;
+    const Trajectory exact = integrate(van_der_pol(mu), {2.0, 0.0}, {.duration = 2, .tolerance = 1e-13});
+    for (const Method method : stiff_methods) {
+        const Trajectory motion =
+            integrate(van_der_pol(mu), {2.0, 0.0}, {.method = method, .duration = 2, .tolerance = 1e-9});
+        REQUIRE(motion.ending == Ending::completed);
+        const double error = distance(motion.final_state(), exact.final_state());
+        MESSAGE(name(method) << ": error " << error << ", " << motion.statistics.steps << " steps, "
+                             << motion.statistics.rejected << " rejected, " << motion.statistics.evaluations
+                             << " evaluations; dop853 " << exact.statistics.evaluations);
+        CHECK(error < 1e-5);  // y' is some thousand while y jumps, and an error in the time of a jump remains
+        CHECK(motion.statistics.evaluations < exact.statistics.evaluations / 2);
+    }
+}
+
+// A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular solution
+// is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
+TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") {
+    for (const auto& [method, k] :
+         {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
+        const double stiffness = k, damping = 2 * std::sqrt(k);
+        const Rhs spring = make_rhs(2, [=](double t, const double* y, double* rate) {
+            rate[0] = y[1];
+            rate[1] = -stiffness * (y[0] - std::sin(t)) - damping * y[1];
+        });
+        const std::complex<double> H = stiffness / std::complex<double>(stiffness - 1, damping);
+        const Trajectory motion = integrate(spring, {H.imag(), H.real()},
+                                            {.method = method, .duration = 10, .tolerance = 1e-9, .sample = 0.1});
+        INFO(name(method) << " " << stiffness << ": " << motion.statistics.steps << " steps");
+        REQUIRE(motion.ending == Ending::completed);
+        for (std::size_t row = 0; row < motion.rows(); ++row)
+            CHECK(std::abs(motion.state(row)[0] - (H * std::polar(1.0, motion.times[row])).imag()) < 1e-7);
+        CHECK(motion.statistics.steps < 4000);  // an explicit method needs 10 √k/6 at the least: 17000 for k = 1e8
+    }
+}
+
+TEST_CASE("multistep and implicit methods: a smaller tolerance gives a smaller error, and few steps are rejected") {
+    const Trajectory exact = integrate(pendulum(), pendulum_start, {.duration = 30, .tolerance = 1e-15});
+    for (const Method method : {Method::abm, Method::bdf, Method::radau}) {
+        double last = HUGE_VAL;
+        for (double tolerance = 1e-4; tolerance > 1e-11; tolerance /= 100) {
+            const Trajectory motion =
+                integrate(pendulum(), pendulum_start, {.method = method, .duration = 30, .tolerance = tolerance});
+            const double error = distance(motion.final_state(), exact.final_state());
+            INFO(name(method) << " at " << tolerance << ": " << error << ", " << motion.statistics.steps << " steps, "
+                              << motion.statistics.rejected << " rejected");
+            CHECK(error < last / 3);
+            CHECK(motion.statistics.rejected <= motion.statistics.steps / 4);
+            last = error;
+        }
+        CHECK(last < 1e-6);  // a thousand steps and more, each of 1e-10 at most
+    }
 }

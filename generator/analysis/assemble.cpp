@@ -35,7 +35,7 @@ public:
         settle("position", start_.q, q_free_, "");
         if (!start_.speeds.empty()) {
             solve_for_rates();
-            check(p_.nodes_of("velocity"), start_.qdot, false);
+            check(p_.nodes_of("velocity"), start_.qdot, false, true);
             return std::move(moved_);
         }
         const std::vector<double> given = start_.qdot;
@@ -69,7 +69,8 @@ private:
             const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(J);
             if (solver.rank() < n)
                 throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
-                                       "at these coordinates; start elsewhere, or choose other coordinates",
+                                       "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
+                                       "angles in gimbal lock)",
                                        start_.t, start_.q);
             const Eigen::VectorXd step = solver.solve(misfit);
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
@@ -107,7 +108,7 @@ private:
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
-        check(nodes, x, n > 0);
+        check(nodes, x, n > 0, n > 0);
         for (const int i : free)
             if (std::abs(x[i] - before[i]) > 1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
                 moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
@@ -123,11 +124,12 @@ private:
         return 64 * std::numeric_limits<double>::epsilon() * row * largest;
     }
 
-    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed) const {
+    /// `solved`: x is what a linear system gave.
+    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed, bool solved) const {
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (guessed ? rounding(k, x, value) : 0)) continue;
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0)) continue;
             if (!std::isfinite(misfit))
                 throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
                                              "a root or a logarithm of what has none; give other initial values",

@@ -11,9 +11,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/absent.hpp"
 #include "analysis/claims.hpp"
+#include "analysis/exact_states.hpp"
 #include "analysis/multiple.hpp"
 #include "analysis/nearest.hpp"
+#include "analysis/open_rows.hpp"
 #include "analysis/slip.hpp"
 #include "formalism/rest.hpp"
 #include "formalism/routh.hpp"
@@ -28,55 +31,8 @@ using GiNaC::numeric;
 namespace {
 
 constexpr double wanted_failure = -60;
-constexpr int most_unlucky = 4000;
 constexpr int states_of_rest = 48;
-
-/// Exact states, made when first asked for.
-class States {
-public:
-    States(const Mechanism& m, const Equations& e, Motions::At at, int halves) : motions(m, e, at, halves) {}
-
-    const ExactState* get(std::size_t k) {
-        while (made_.size() <= k && unlucky_ < most_unlucky && motions.obstacle().empty()) {
-            if (auto state = motions.at(++seed_))
-                made_.push_back(std::move(*state));
-            else
-                ++unlucky_;
-        }
-        return k < made_.size() ? &made_[k] : nullptr;
-    }
-
-    const Motions motions;
-
-private:
-    std::vector<ExactState> made_;
-    std::uint64_t seed_ = 0;
-    int unlucky_ = 0;
-};
-
-/// Rows that are linear in the open names: of a claim itself, and of its derivatives where it is an integral.
-struct Rows {
-    struct Row {
-        std::size_t claim;
-        int rest;               ///< the row at open names zero
-        std::vector<int> slope;  ///< by open name
-        bool derived = false;    ///< a time derivative of its claim
-        bool last = false;       ///< the highest of them
-    };
-    Program program;
-    std::vector<Row> list;
-
-    std::vector<int> roots() const {
-        std::vector<int> result;
-        for (const Row& row : list) {
-            result.push_back(row.rest);
-            result.insert(result.end(), row.slope.begin(), row.slope.end());
-        }
-        return result;
-    }
-};
-
-int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) { return reduce_rows(rows, columns); }
+constexpr std::size_t most_states = 1200;
 
 class Checker {
 public:
@@ -129,8 +85,8 @@ private:
 
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
-        std::optional<States> states;
-        for (const int halves : {0, 2}) {
+        std::optional<ExactStates> states;
+        for (const int halves : {0, 1, 2}) {
             states.emplace(m_, *law_, at, halves);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
@@ -164,14 +120,15 @@ private:
     }
 
     /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an error.
-    std::optional<bool> vanishes_at(States& states, const Program& p, int root, double& failure, bool& exact) const {
+    std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure, bool& exact) const {
         const std::array<int, 1> roots{root};
         failure = 0;
+        double missed = 0;  // log₂ of the chance that no state was on some branch
         int lucky = 0;
         const bool rest = states.motions.where() == Motions::At::rest;
         for (std::size_t s = 0;; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 400) return lucky > 0 && (failure <= wanted_failure || rest) ? std::optional(true) : std::nullopt;
+            if (state == nullptr || s > most_states) return lucky > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest) ? std::optional(true) : std::nullopt;
             const auto at = evaluate_mod(p, state->point, roots);
             if (!at) continue;
             ++lucky;
@@ -181,11 +138,15 @@ private:
             const double chance = std::log2(degree) + at->conditions + state->conditions - 61;
             if (chance > -1) return std::nullopt;
             failure += chance;
-            if (failure <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
+            missed += miss(*state);
+            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || lucky >= states_of_rest)) return true;
         }
     }
 
-    void settle_alone(std::size_t k, States& states) {
+    /// log₂ of the chance that a branch of the constraints is not the one of this state.
+    static double miss(const ExactState& state) { return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure; }
+
+    void settle_alone(std::size_t k, ExactStates& states) {
         CheckedClaim& c = result_.claims[k];
         Program p;
         const int root = claims_.lower(p, {forms_[k].residual})[0];
@@ -225,7 +186,7 @@ private:
         return false;
     }
 
-    bool show_counterexample(CheckedClaim& c, States& states, const Program& p, int root) {
+    bool show_counterexample(CheckedClaim& c, ExactStates& states, const Program& p, int root) {
         const auto start = std::chrono::steady_clock::now();
         for (unsigned seed = 0; seed < 1200; ++seed) {
             if (std::chrono::steady_clock::now() - start > std::chrono::milliseconds(400) && seed > 40) break;
@@ -281,7 +242,7 @@ private:
 
     // What is wrong
 
-    void refine(std::size_t k, States& states) {
+    void refine(std::size_t k, ExactStates& states) {
         CheckedClaim& c = result_.claims[k];
         if (states.motions.where() == Motions::At::rest) {
             c.reason = name_branch(k, states);
@@ -303,7 +264,56 @@ private:
                 return false;
             }
         };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_, right);
+        const auto vanishes = [&](const Expression& value) {
+            Program p;
+            const std::optional<int> root = node_of(p, value);
+            return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
+        };
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_,
+                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim, std::vector<std::string> terms) {
+                                    return absent(claim, std::move(terms), states);
+                                }});
+    }
+
+    /// Nothing where it cannot be read, or holds open names.
+    std::optional<int> node_of(Program& p, const Expression& value) {
+        try {
+            const ex e = claims_.read(value);
+            if (m_.z->depends(e, claims_.open_symbols())) return std::nullopt;
+            return claims_.lower(p, {e})[0];
+        } catch (const std::exception&) {
+            return std::nullopt;
+        } catch (const SceneMistake&) {
+            return std::nullopt;
+        }
+    }
+
+    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms, ExactStates& states) {
+        const ClaimForm form = claims_.read(claim);
+        if (!form.open.empty()) return {};
+        Program p;
+        const int residual = claims_.lower(p, {form.residual})[0];
+        std::vector<std::string> texts;
+        std::vector<int> nodes;
+        std::vector<Diagnostic> mistakes;
+        if (terms.empty()) terms = terms_of_mechanics(claim, m_, *law_);
+        for (std::string& text : terms) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
+            if (!node || p.is_zero(*node)) continue;
+            nodes.push_back(*node);
+            texts.push_back(std::move(text));
+        }
+        std::vector<Steady> steady;
+        for (const std::string& text : steady_sums(claim, m_)) {
+            const Expression value = parse_expression(text, {}, mistakes);
+            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt) steady.push_back({text, *node});
+        }
+        std::vector<ModularPoint> points;
+        for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) result.emplace_back(term.coefficient, texts[term.term]);
+        return result;
     }
 
     /// Puts a form back.
@@ -314,7 +324,7 @@ private:
         ~Formed() { checker.forms_[k] = form; }
     };
 
-    bool holds_quickly(std::size_t k, States& states) {
+    bool holds_quickly(std::size_t k, ExactStates& states) {
         if (!forms_[k].open.empty()) {
             // With the claims of its group that are right; if they leave it open, with all.
             std::vector<std::size_t> group = group_of(k), right = group;
@@ -324,27 +334,32 @@ private:
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
         if (p.is_zero(root[0])) return when_ == "impact";  // elsewhere an identity is no repair
-        for (std::size_t s = 0, lucky = 0; lucky < 2; ++s) {
+        return is_zero_at_two(p, root[0], states);
+    }
+
+    static bool is_zero_at_two(const Program& p, int root, ExactStates& states) {
+        for (std::size_t s = 0, lucky = 0, wanted = 2; lucky < wanted; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > 20) return false;
-            const auto at = evaluate_mod(p, state->point, root);
+            if (state == nullptr || s > 30) return false;
+            if (state->branches > 1) wanted = 8;
+            const auto at = evaluate_mod(p, state->point, std::array<int, 1>{root});
             if (!at) continue;
-            if (!at->value[root[0]].is_zero()) return false;
+            if (!at->value[root].is_zero()) return false;
             ++lucky;
         }
         return true;
     }
 
-    bool agrees(std::size_t k, const std::vector<std::size_t>& group, States& states) {
-        const Rows rows = rows_of(group);
+    bool agrees(std::size_t k, const std::vector<std::size_t>& group, ExactStates& states) {
+        const OpenRows rows = open_rows(claims_, forms_, group);
         for (std::size_t s = 0; s < 2; ++s) {
-            const auto at = matrix(rows, states, s);
-            if (!at || !consistent(*at) || pins(rows, *at, {}, k)) return false;
+            const auto at = matrix_at(rows, states, s);
+            if (!at || !consistent(at->rows) || pins(rows, *at, {}, k)) return false;
         }
         return true;
     }
 
-    bool holds_at_scene_values(std::size_t k, States& states) {
+    bool holds_at_scene_values(std::size_t k, ExactStates& states) {
         if (!forms_[k].open.empty() || !states.motions.steps().empty()) return false;
         ModularPoint point;
         int independent = 0;
@@ -371,7 +386,7 @@ private:
     }
 
     /// Which factor of an equation of rest vanishes where the claim does not.
-    std::string name_branch(std::size_t k, States& states) const {
+    std::string name_branch(std::size_t k, ExactStates& states) const {
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
         for (std::size_t s = 0; states.get(s) != nullptr && s < 64; ++s) {
@@ -390,65 +405,10 @@ private:
 
     // Claims with open names
 
-    Rows rows_of(const std::vector<std::size_t>& group) {
-        Rows rows;
-        const std::vector<GiNaC::symbol> symbols = claims_.open_symbols();
-        GiNaC::exmap zero;
-        std::vector<ex> list;
-        for (const std::size_t k : group) {
-            std::vector<ex> parts{forms_[k].residual};
-            parts.insert(parts.end(), forms_[k].derivatives.begin(), forms_[k].derivatives.end());
-            for (std::size_t r = 0; r < parts.size(); ++r) {
-                rows.list.push_back({.claim = k, .rest = 0, .slope = {}, .derived = r > 0, .last = r + 1 == parts.size()});
-                const std::vector<ex> slopes = m_.z->pull_back({{parts[r], 1}}, symbols);
-                GiNaC::exvector rest{parts[r]};
-                for (std::size_t j = 0; j < symbols.size(); ++j) rest.push_back(-slopes[j] * symbols[j]);
-                list.push_back(GiNaC::add(std::move(rest)));
-                list.insert(list.end(), slopes.begin(), slopes.end());
-            }
-        }
-        const std::vector<int> nodes = claims_.lower(rows.program, list);
-        std::size_t next = 0;
-        for (Rows::Row& row : rows.list) {
-            row.rest = nodes[next++];
-            for (std::size_t j = 0; j < symbols.size(); ++j) row.slope.push_back(nodes[next++]);
-        }
-        return rows;
-    }
-
-    struct Matrix {
-        std::vector<std::vector<Prime>> rows;  ///< slopes, then −rest
-        double chance = 0;                     ///< log₂
-        bool exact = true;
-    };
-
-    std::optional<Matrix> matrix(const Rows& rows, States& states, std::size_t s) const {
+    static std::optional<OpenMatrix> matrix_at(const OpenRows& rows, ExactStates& states, std::size_t s) {
         const ExactState* const state = states.get(s);
-        if (state == nullptr) return std::nullopt;
-        ModularPoint point = state->point;
-        const std::vector<int> roots = rows.roots();
-        const auto at = evaluate_mod(rows.program, point, roots);
-        if (!at) return std::nullopt;
-        Matrix result;
-        double degree = 1;
-        for (const int id : roots) degree = std::max(degree, at->degree[id]);
-        degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state->degree);
-        result.chance = std::log2(degree) + at->conditions + state->conditions - 61;
-        result.exact = at->exact && state->exact;
-        for (const Rows::Row& row : rows.list) {
-            result.rows.emplace_back();
-            for (const int id : row.slope) result.rows.back().push_back(at->value[id]);
-            result.rows.back().push_back(-at->value[row.rest]);
-        }
-        return result;
+        return state == nullptr ? std::nullopt : open_matrix(rows, *state);
     }
-
-    static bool consistent(const std::vector<std::vector<Prime>>& rows) {
-        if (rows.empty()) return true;
-        const std::size_t columns = rows[0].size() - 1;
-        return rank_of(rows, columns) == rank_of(rows, columns + 1);
-    }
-    static bool consistent(const Matrix& m) { return consistent(m.rows); }
 
     /// All claims that share open names with claim k, through others too.
     std::vector<std::size_t> group_of(std::size_t k) const {
@@ -468,7 +428,7 @@ private:
         return group;
     }
 
-    void settle_open(const std::vector<std::size_t>& open, States& states) {
+    void settle_open(const std::vector<std::size_t>& open, ExactStates& states) {
         std::set<std::size_t> done;
         for (const std::size_t k : open) {
             CheckedClaim& c = result_.claims[k];
@@ -494,24 +454,25 @@ private:
         return constant && function;
     }
 
-    void settle_group(const std::vector<std::size_t>& group, States& states) {
-        const Rows rows = rows_of(group);
-        double failure = 0;
+    void settle_group(const std::vector<std::size_t>& group, ExactStates& states) {
+        const OpenRows rows = open_rows(claims_, forms_, group);
+        double failure = 0, missed = 0;
         bool exact = true;
-        std::optional<Matrix> bad;
-        std::vector<Matrix> seen;
-        for (std::size_t s = 0; s < 400 && failure > wanted_failure && !bad; ++s) {
-            auto at = matrix(rows, states, s);
+        std::optional<OpenMatrix> bad;
+        std::vector<OpenMatrix> seen;
+        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad; ++s) {
+            auto at = matrix_at(rows, states, s);
             if (!at) {
                 if (states.get(s) == nullptr) break;
                 continue;
             }
             exact = exact && at->exact;
-            if (!consistent(*at)) bad = *at;
+            if (!consistent(at->rows)) bad = *at;
             failure += at->chance;
+            missed += miss(*states.get(s));
             seen.push_back(std::move(*at));
         }
-        if (seen.empty() || (!bad && failure > wanted_failure)) {
+        if (seen.empty() || (!bad && (failure > wanted_failure || missed > wanted_failure))) {
             for (const std::size_t k : group) result_.claims[k].reason = "it could not be evaluated at any state";
             return;
         }
@@ -542,42 +503,8 @@ private:
         }
     }
 
-    /// Does the last row of claim k raise the rank of all the others? Then it only determines something open.
-    static bool pins(const Rows& rows, const Matrix& at, const std::set<std::size_t>& without, std::size_t k) {
-        std::vector<std::vector<Prime>> all, others;
-        for (std::size_t r = 0; r < rows.list.size(); ++r) {
-            if (without.contains(rows.list[r].claim)) continue;
-            all.push_back(at.rows[r]);
-            if (rows.list[r].claim != k || !rows.list[r].last) others.push_back(at.rows[r]);
-        }
-        if (all.empty()) return false;
-        const std::size_t columns = all[0].size() - 1;
-        return rank_of(all, columns) > (others.empty() ? 0 : rank_of(others, columns));
-    }
-
-    /// The fewest claims without which the others can be satisfied; where there is a choice, all of them.
-    static std::set<std::size_t> culprits(const Rows& rows, const Matrix& at, const std::vector<std::size_t>& group) {
-        const auto rest = [&](const std::set<std::size_t>& without) {
-            std::vector<std::vector<Prime>> result;
-            for (std::size_t r = 0; r < rows.list.size(); ++r)
-                if (!without.contains(rows.list[r].claim)) result.push_back(at.rows[r]);
-            return result;
-        };
-        std::set<std::size_t> found;
-        for (const std::size_t a : group)
-            if (consistent(rest({a}))) found.insert(a);
-        if (!found.empty()) return found;
-        for (std::size_t i = 0; i < group.size(); ++i)
-            for (std::size_t j = i + 1; j < group.size(); ++j)
-                if (consistent(rest({group[i], group[j]}))) {
-                    if (!found.empty()) return {group.begin(), group.end()};
-                    found = {group[i], group[j]};
-                }
-        return found.empty() ? std::set<std::size_t>(group.begin(), group.end()) : found;
-    }
-
     /// A state, what the other claims make of the open names there, and what is left of this claim.
-    void open_counterexample(std::size_t k, const Rows& rows, const std::set<std::size_t>& wrong, States& states) {
+    void open_counterexample(std::size_t k, const OpenRows& rows, const std::set<std::size_t>& wrong, ExactStates& states) {
         CheckedClaim& c = result_.claims[k];
         const std::vector<int> roots = rows.roots();
         const std::size_t columns = claims_.open().size();
@@ -647,19 +574,21 @@ private:
             list.insert(list.end(), row.begin(), row.end());
             list.insert(list.end(), unknowns.size() - row.size(), ex(0));
         }
-        States states(m_, e_, Motions::At::motion, 2);
         Program p;
         const std::vector<int> nodes = claims_.lower(p, list);
-        for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
-            const auto at = evaluate_mod(p, states.get(s)->point, nodes);
-            if (!at) continue;
-            std::vector<std::vector<Prime>> all, others;
-            for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
-                all.emplace_back();
-                for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
-                others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+        for (const int halves : {0, 1, 2}) {
+            ExactStates states(m_, e_, Motions::At::motion, halves);
+            for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
+                const auto at = evaluate_mod(p, states.get(s)->point, nodes);
+                if (!at) continue;
+                std::vector<std::vector<Prime>> all, others;
+                for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
+                    all.emplace_back();
+                    for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                    others.emplace_back(all.back().begin() + m_.size(), all.back().end());
+                }
+                return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
             }
-            return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
         }
         return false;
     }

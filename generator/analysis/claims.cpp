@@ -60,6 +60,7 @@ void Claims::open_name(const std::string& name, bool constant) {
     const GiNaC::symbol symbol = m_.symbols->declare(name, SymbolInfo::Kind::other, index);
     open_.push_back({name, constant, symbol, {Variable::Kind::unknown, index}});
     formulas_.know(name, symbol);
+    if (!constant) formulas_.has_no_derivative(symbol);
 }
 
 std::vector<GiNaC::symbol> Claims::open_symbols() const {

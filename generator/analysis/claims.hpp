@@ -35,6 +35,7 @@ public:
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);
+    GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
 
     /// Rates after the scene's impulses (§ `analysis/impact.hpp`), as expressions at the pose where it starts; nothing where
     /// they are known in numbers only, or not at all: then `impact_obstacle` says why.

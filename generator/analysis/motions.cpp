@@ -5,8 +5,8 @@
 #include <array>
 #include <set>
 
+#include "analysis/common_zeros.hpp"
 #include "lower/lower.hpp"
-#include "lower/prime_polynomial.hpp"
 
 namespace alembert {
 
@@ -37,6 +37,32 @@ Occurrences occurrences(const Program& p, int root) {
         for (const int arg : node.args) stack.emplace_back(arg, inside);
     }
     return result;
+}
+
+/// Two conditions that alone hold two variables, both of them.
+struct Coupled {
+    std::size_t first, second;
+    Motions::Step step;
+};
+
+std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const std::set<std::pair<Variable::Kind, int>>& taken) {
+    const auto usable = [&](const auto& variable, std::size_t a, std::size_t b) {
+        if (taken.contains(variable) || !held[b].contains(variable)) return false;
+        for (std::size_t c = 0; c < held.size(); ++c) {
+            const auto found = held[c].find(variable);
+            if (found != held[c].end() && ((c != a && c != b) || (found->second.plain && found->second.turned))) return false;
+        }
+        return held[a].at(variable).turned == held[b].at(variable).turned && variable.first != Variable::Kind::time;
+    };
+    for (std::size_t a = 0; a < held.size(); ++a)
+        for (std::size_t b = a + 1; b < held.size(); ++b) {
+            std::vector<Motions::Unknown> found;
+            for (const auto& [variable, how] : held[a])
+                if (usable(variable, a, b)) found.push_back({0, {variable.first, variable.second}, how.turned});
+            // The last declared: drivers come first.
+            if (found.size() >= 2) return Coupled{a, b, {{found[found.size() - 2]}, found.back()}};
+        }
+    return std::nullopt;
 }
 
 std::optional<Prime> value_of(const Program& p, int node, const ExactState& state) {
@@ -97,6 +123,7 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
             if (!program_.is_zero(node)) conditions.push_back(node);
     }
     order(std::move(conditions));
+    find_branches();
 }
 
 // From the last step to the first: a variable that no other condition contains can be found when all else is known.
@@ -121,25 +148,69 @@ void Motions::order(std::vector<int> conditions) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
                     if (elsewhere || only_parameters || (how.plain && how.turned)) continue;
-                    chosen = {c, {conditions[c], {variable.first, variable.second}, how.turned}};
+                    chosen = {c, {{conditions[c], {variable.first, variable.second}, how.turned}}};
                     break;
                 }
             if (chosen) break;
+        }
+        std::optional<std::size_t> partner;
+        if (!chosen) {
+            if (auto pair = coupled(held, taken)) {
+                partner = pair->second;
+                chosen = {pair->first, pair->step};
+                chosen->second.node = conditions[pair->first];
+                chosen->second.second->node = conditions[pair->second];
+            }
         }
         if (!chosen) {
             obstacle_ = at_ == At::rest ? "the equations of rest cannot be solved one after the other"
                                         : "the constraints cannot be solved one after the other";
             return;
         }
-        const auto [c, step] = *chosen;
+        const Step& step = chosen->second;
         taken.insert({step.variable.kind, step.variable.index});
+        if (step.second) taken.insert({step.second->variable.kind, step.second->variable.index});
         steps_.insert(steps_.begin(), step);
-        conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
-        held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
+        const auto drop = [&](std::size_t c) {
+            conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
+            held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
+        };
+        if (partner) drop(*partner);  // the later one
+        drop(chosen->first);
     }
 }
 
-bool Motions::solve(const Step& step, ExactState& state) const {
+Motions::Outcome Motions::solve_two(const Step& step, ExactState& state) const {
+    const std::array<Unknown, 2> both{step, *step.second};
+    std::array<Prime, 2> plain;
+    for (std::size_t k = 0; k < 2; ++k) {
+        plain[k] = state.point.variable(both[k].variable);
+        state.point.given[{both[k].variable.kind, both[k].variable.index}] = plain[k];
+    }
+    const auto put = [&](std::size_t k, Prime x) {
+        if (both[k].turned)
+            state.point.given_angles[plain[k]] = Turn::rational(x);
+        else
+            state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
+    };
+    const CommonZeros zeros = common_zeros(
+        [&](Prime x, Prime y) -> std::optional<std::array<Prime, 2>> {
+            put(0, x), put(1, y);
+            const std::array<int, 2> nodes{both[0].node, both[1].node};
+            const auto at = evaluate_mod(program_, state.point, nodes);
+            if (!at) return std::nullopt;
+            return std::array{at->value[nodes[0]], at->value[nodes[1]]};
+        },
+        {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
+    if (zeros.list.empty()) return {false, zeros.degree};
+    const auto& zero = zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
+    put(0, zero[0]), put(1, zero[1]);
+    state.degree *= static_cast<double>(zeros.degree + 1);
+    return {true, zeros.degree};
+}
+
+Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
+    if (step.second) return solve_two(step, state);
     const std::pair key{step.variable.kind, step.variable.index};
     const Prime plain = state.point.variable(step.variable);
     state.point.given[key] = plain;
@@ -156,14 +227,14 @@ bool Motions::solve(const Step& step, ExactState& state) const {
             x.push_back(state.point.random(600 + k, static_cast<std::uint64_t>(step.node)));
             put(x.back());
             const std::optional<Prime> value = value_of(program_, step.node, state);
-            if (!value) return false;
+            if (!value) return {};
             y.push_back(step.turned ? *value * (x.back() * x.back() + 1).power(degree / 2) : *value);
         }
         const PrimePolynomial f = interpolate(x, y);
         if (f.size() > degree + 1) continue;
         if (f.empty()) {
             put(x.back());  // holds for every value
-            return true;
+            return {true, 1};
         }
         std::vector<Prime> found = roots(f, state.point.seed);
         std::vector<std::optional<Prime>> all(found.begin(), found.end());
@@ -171,16 +242,35 @@ bool Motions::solve(const Step& step, ExactState& state) const {
             state.point.given_angles[plain] = Turn{-1, 0};
             if (value_of(program_, step.node, state) == Prime(0)) all.emplace_back();
         }
-        if (all.empty()) return false;
+        const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
+        if (all.empty()) return {false, count};
         const std::size_t pick = state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
         if (all[pick])
             put(*all[pick]);
         else
             state.point.given_angles[plain] = Turn{-1, 0};
         state.degree *= static_cast<double>(f.size() - 1);
-        return value_of(program_, step.node, state) == Prime(0);
+        return {value_of(program_, step.node, state) == Prime(0), count};
     }
-    return false;
+    return {};
+}
+
+void Motions::find_branches() {
+    irreducible_.assign(steps_.size(), false);
+    constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
+    std::vector<bool> known(steps_.size(), false);
+    for (std::uint64_t seed = 1; seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end(); ++seed) {
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_}};
+        for (std::size_t k = 0; k < steps_.size(); ++k) {
+            const Outcome outcome = solve(steps_[k], state);
+            if (outcome.found) {
+                known[k] = known[k] || outcome.degree == 1;
+                continue;
+            }
+            if (outcome.degree == 2) known[k] = irreducible_[k] = true;
+            break;
+        }
+    }
 }
 
 std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
@@ -189,8 +279,11 @@ std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pa
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
-    for (const Step& step : steps_)
-        if (!solve(step, state)) return std::nullopt;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+        const Outcome outcome = solve(steps_[k], state);
+        if (!outcome.found) return std::nullopt;
+        if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
+    }
     if (at_ == At::motion && !move(state)) return std::nullopt;
     return state;
 }

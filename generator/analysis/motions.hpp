@@ -10,11 +10,16 @@
 ///
 /// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for all values of
 /// the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of them taken. An angle that
-/// occurs in sines and cosines alone is solved for by the tangent of its half. That the order of solving be triangular is
-/// asked for; a set of constraints that has no such order has no states here, and `obstacle` says so.
+/// occurs in sines and cosines alone is solved for by the tangent of its half. Two constraints that share two unknowns and
+/// leave no other way are solved together (analysis/common_zeros.hpp). A set of constraints that has no order of solving of
+/// this kind has no states here, and `obstacle` says so.
 /// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// `unknown` m + k is the multiplier of unilateral constraint k, random, in equations that hold it.
+///
+/// Constraints may have several branches (x² = l²: x = l and x = −l), and what holds on one need not hold on the others: of the
+/// roots of a polynomial of degree d one is drawn, so that a branch is met at 1/d of the seeds at least. Where a quadratic equation
+/// has no root at some seed it is irreducible, and what holds at a random one of its roots holds at the other.
 ///
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
 /// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
@@ -27,6 +32,7 @@ namespace alembert {
 struct ExactState {
     ModularPoint point;     ///< coordinates, rates, accelerations; `unknown` k is the multiplier of constraint k
     double degree = 1;      ///< of the accelerations in the random values, at most: for Schwartz's bound
+    double branches = 1;    ///< roots that the conditions have, each perhaps on a branch of its own: this one was drawn from them
     double conditions = 0;  ///< doublings of the chance of a failure (ModularValues)
     bool exact = true;      ///< no function was met whose identities are unknown
 };
@@ -46,11 +52,14 @@ public:
     const std::string& obstacle() const { return obstacle_; }
     At where() const { return at_; }
 
-    /// A condition and the variable that it is solved for, and how. In the order of solving.
-    struct Step {
-        int node = 0;        ///< in program()
+    /// A condition and the variable that it is solved for, and how; or two of each. In the order of solving.
+    struct Unknown {
+        int node = 0;        ///< the condition, in program()
         Variable variable{};
         bool turned = false;  ///< as an angle in sines and cosines
+    };
+    struct Step : Unknown {
+        std::optional<Unknown> second = {};
     };
     const std::vector<Step>& steps() const { return steps_; }
 
@@ -68,12 +77,19 @@ public:
 
 private:
     void order(std::vector<int> conditions);
-    bool solve(const Step& step, ExactState& state) const;
+    struct Outcome {
+        bool found = false;
+        std::size_t degree = 0;  ///< of the polynomial
+    };
+    Outcome solve(const Step& step, ExactState& state) const;
+    Outcome solve_two(const Step& step, ExactState& state) const;
+    void find_branches();
     bool move(ExactState& state) const;
 
     Program program_;
     System system_;
     std::vector<Step> steps_;
+    std::vector<bool> irreducible_;  ///< by step
     std::string obstacle_;
     At at_;
     int n_ = 0, m_ = 0, halves_ = 0;

@@ -30,6 +30,20 @@ std::optional<Fourier> steady_ratio(const Term& a, const Term& b) {
     return Fourier::collect({{ratio, b.coefficient / a.coefficient}});
 }
 
+std::vector<Fourier> parts_of(const Fourier& f) {
+    std::vector<std::vector<Term>> groups;
+    for (const Term& term : f.terms()) {
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return steady_ratio(g[0], term).has_value(); });
+        if (group == groups.end())
+            groups.push_back({term});
+        else
+            group->push_back(term);
+    }
+    std::vector<Fourier> result;
+    for (std::vector<Term>& group : groups) result.push_back(Fourier::collect(std::move(group)));
+    return result;
+}
+
 std::vector<std::optional<Fourier>> rows_of(const Mechanism& m, const Equations& e) {
     std::vector<std::optional<Fourier>> rows;
     for (int i = 0; i < e.size(); ++i) {

@@ -31,6 +31,9 @@ std::optional<Nearest> nearest_equation(const GiNaC::ex& residual, const Mechani
 /// The rows' normal forms, M u' − f − Aᵀλ and A u' − γ; nothing in place of what is too large.
 std::vector<std::optional<Fourier>> rows_of(const Mechanism& mechanism, const Equations& equations);
 
+/// Sums of the terms that differ by powers of parameters only: what stands as one term in a textbook.
+std::vector<Fourier> parts_of(const Fourier& f);
+
 /// c·m with b = c·m·a, m a product of powers of parameters; nothing where there is none.
 std::optional<Fourier> steady_ratio(const Term& a, const Term& b);
 

@@ -248,14 +248,51 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
     return std::nullopt;
 }
 
+void put(RealState& state, const Key& key, const numeric& x) {
+    if (state.angle.contains(key))
+        put_angle(state, key, {x});
+    else
+        state.value[key] = x;
+}
+
+/// Newton's method for two conditions, in 50 digits; the derivatives from differences of 1e-25.
+bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
+    const std::array<Key, 2> keys{Key{step.variable.kind, step.variable.index}, Key{step.second->variable.kind, step.second->variable.index}};
+    const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
+    std::array<numeric, 2> x{numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)};
+    for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
+    const auto at = [&](const numeric& first, const numeric& second) {
+        put(state, keys[0], first);
+        put(state, keys[1], second);
+        return evaluate(motions.program(), state, {step.node, step.second->node});
+    };
+    for (int round = 0; round < 40; ++round) {
+        const auto f = at(x[0], x[1]), fx = at(x[0] + small, x[1]), fy = at(x[0], x[1] + small);
+        if (!f || !fx || !fy) return false;
+        const auto change = solve_rows({{((*fx)[0] - (*f)[0]) / small, ((*fy)[0] - (*f)[0]) / small, (*f)[0]},
+                                        {((*fx)[1] - (*f)[1]) / small, ((*fy)[1] - (*f)[1]) / small, (*f)[1]}}, 2);
+        if (!change) return false;
+        numeric length = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            x[k] -= (*change)[k];
+            length += GiNaC::abs((*change)[k]);
+        }
+        if (length > 1000) return false;
+        if (length > GiNaC::pow(numeric(10), numeric(-45))) continue;
+        return at(x[0], x[1]).has_value();
+    }
+    return false;
+}
+
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
     for (const Motions::Step& step : motions.steps()) {
+        if (step.second) {
+            if (!floats || !solve_two(motions, state, step, seed)) return false;
+            continue;
+        }
         const Key key{step.variable.kind, step.variable.index};
         const auto at = [&](const numeric& x, bool cleared) -> std::optional<numeric> {
-            if (state.angle.contains(key))
-                put_angle(state, key, {x});
-            else
-                state.value[key] = x;
+            put(state, key, x);
             const auto value = evaluate(motions.program(), state, {step.node});
             if (!value) return std::nullopt;
             return cleared ? (*value)[0] * (1 + x * x) : (*value)[0];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/redundancy.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <random>
@@ -105,9 +107,41 @@ std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vect
 }
 
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions) {
+    for (const int k : positions) mechanism.redundant.push_back(mechanism.constraints[k]);
     for (auto k = positions.rbegin(); k != positions.rend(); ++k)
         mechanism.constraints.erase(mechanism.constraints.begin() + *k);
     return mechanism;
+}
+
+void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant) {
+    if (redundant.empty()) return;
+    Mechanism others = without_constraints(mechanism, redundant);
+    others.q_is_guess.assign(mechanism.q.size(), true);
+    others.qdot_is_guess.assign(mechanism.q.size(), true);
+    others.speeds.clear();
+    const Program program = lower_constraints(mechanism), constraints = lower_constraints(others);
+    const std::vector<int> velocity = program.nodes_of("velocity");
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> away(-0.3, 0.3), rate(-1, 1);
+    for (int k = 0; k < states; ++k) {
+        Start start = start_of(others);
+        for (double& q : start.q) q += away(random) * (1 + std::abs(q));
+        for (double& u : start.qdot) u += rate(random);
+        try {
+            assemble(start, others, constraints, {});
+        } catch (const std::runtime_error&) {
+            continue;
+        }
+        const std::vector<double> value = interpret(program, start.state());
+        for (const int r : redundant) {
+            const double misfit = std::abs(value[velocity[r]]);
+            if (std::isfinite(misfit) && misfit > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
+                throw ModelError(fmt::format("constraint '{0}' has a row that follows from the others', and asks for other rates than "
+                                             "they do: together they hold only where a relation between the coordinates does; "
+                                             "write that relation as a holonomic constraint in place of '{0}'",
+                                             mechanism.constraints[r].name));
+        }
+    }
 }
 
 }  // namespace alembert

@@ -25,4 +25,8 @@ std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vect
 /// The mechanism without these; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
 
+/// Of constraints whose rows follow from the others: does what they ask of the rates follow too? Throws ModelError where it does
+/// not, as for x' = y*z' beside x' = y*z' + z: together they ask for z = 0, which is a constraint of its own.
+void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant);
+
 }  // namespace alembert

@@ -33,14 +33,15 @@ struct Summand {
 struct Leaf {
     const Tree* tree;
     Stretch at, whole;
+    Stretch term;  ///< the innermost term of a sum, of a derivative or of a side that it is part of
     bool in_angle = false, exponent = false;
 };
 
 class Search {
 public:
     Search(const Claim& claim, const ex& residual, const Mechanism& m, const Equations& e,
-           const std::function<bool(const Claim&)>& is_right)
-        : claim_(claim), m_(m), e_(e), is_right_(is_right), sides_{claim.equation.lhs.text, claim.equation.rhs.text} {
+           const Judge& judge)
+        : claim_(claim), m_(m), e_(e), judge_(judge), sides_{claim.equation.lhs.text, claim.equation.rhs.text} {
         nearest_ = nearest_equation(residual, m, e);
         for (const bool left : {true, false}) {
             const Expression& side = left ? claim.equation.lhs : claim.equation.rhs;
@@ -62,9 +63,11 @@ public:
         if (!found_) numbers();
         if (!found_) parameters(false);
         if (!found_) powers();
+        if (!found_) missing_own();
         if (!found_) wrong_row();
         if (!found_) extra();
         if (!found_) missing();
+        if (!found_ && asked_ < most_asked) absent();
         return found_;
     }
 
@@ -80,18 +83,19 @@ private:
         if (tree.kind == Kind::number && trimmed(stretch(tree, left)) == "0") return;
         const Stretch at = stretch(tree, left);
         summands_.push_back({at, first, tree.kind == Kind::negate, inner.kind == Kind::sum, whole.value_or(at), in_angle});
-        collect(tree, left, whole.value_or(at), in_angle);
+        collect(tree, left, whole.value_or(at), at, in_angle);
     }
 
-    void collect(const Tree& tree, bool left, const Stretch& whole, bool in_angle, bool exponent = false) {
+    void collect(const Tree& tree, bool left, const Stretch& whole, const Stretch& term, bool in_angle, bool exponent = false) {
         if (tree.kind == Kind::name || tree.kind == Kind::number || tree.kind == Kind::power || tree.kind == Kind::call)
-            leaves_.push_back({&tree, stretch(tree, left), whole, in_angle, exponent});
+            leaves_.push_back({&tree, stretch(tree, left), whole, term, in_angle, exponent});
         const bool turns = tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan");
         for (std::size_t k = 0; k < tree.args.size(); ++k)
             if (tree.kind == Kind::sum)
                 collect_summand(*tree.args[k], left, k == 0, whole, in_angle);
             else
-                collect(*tree.args[k], left, whole, in_angle || turns, tree.kind == Kind::power && k == 1);
+                collect(*tree.args[k], left, whole, tree.kind == Kind::derivative ? stretch(*tree.args[k], left) : term, in_angle || turns,
+                        tree.kind == Kind::power && k == 1);
     }
 
     const std::string& side(bool left) const { return sides_[left ? 0 : 1]; }
@@ -108,10 +112,12 @@ private:
 
     /// The claim with these sides, if that is right.
     std::optional<std::string> ask(const std::string& lhs, const std::string& rhs) {
+        asked_ += lhs.size() + rhs.size();
+        if (asked_ > most_asked) return std::nullopt;
         std::vector<Diagnostic> mistakes;
         Claim repaired = claim_;
         repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes);
-        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !is_right_(repaired)) return std::nullopt;
+        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired)) return std::nullopt;
         return text_of(repaired.equation);
     }
 
@@ -122,6 +128,18 @@ private:
         if (const auto right = ask(sides[0], sides[1])) found_ = Slip{kind, term, *right};
         return found_.has_value();
     }
+
+    /// The same inside a term. A change that makes the term vanish on every motion sets nothing right.
+    bool try_change(const Leaf& leaf, const Stretch& at, const std::string& by, const std::string& kind) {
+        if (found_ || !try_change(at, by, kind, trimmed(leaf.whole))) return found_.has_value();
+        std::string term = slice(leaf.term);
+        term.replace(static_cast<std::size_t>(at.offset - leaf.term.offset), static_cast<std::size_t>(at.length), by);
+        std::vector<Diagnostic> mistakes;
+        const bool alone = trimmed({leaf.term.left, 0, static_cast<int>(side(leaf.term.left).size())}) == trimmed(leaf.term);
+        if (const Expression changed = parse_expression(term, {}, mistakes); !alone && changed.tree && judge_.vanishes(changed)) found_.reset();
+        return found_.has_value();
+    }
+    bool try_change(const Leaf& leaf, const std::string& by, const std::string& kind) { return try_change(leaf, leaf.at, by, kind); }
 
     /// The sign before a summand that is not the first of its sum.
     std::optional<Stretch> operator_before(const Summand& s) const {
@@ -151,7 +169,7 @@ private:
         for (const Leaf& leaf : leaves_) {
             if (leaf.tree->kind != Kind::call || (leaf.tree->text != "sin" && leaf.tree->text != "cos")) continue;
             const std::string other = leaf.tree->text == "sin" ? "cos" : "sin";
-            if (try_change({leaf.at.left, leaf.at.offset, 3}, other, "swapped_trig", trimmed(leaf.whole))) return;
+            if (try_change(leaf, {leaf.at.left, leaf.at.offset, 3}, other, "swapped_trig")) return;
         }
     }
 
@@ -172,7 +190,7 @@ private:
             if (!is_trig(leaf)) continue;
             for (const std::string& candidate : candidates)
                 if (candidate != argument(leaf) &&
-                    try_change(leaf.at, leaf.tree->text + "(" + candidate + ")", "wrong_argument", trimmed(leaf.whole)))
+                    try_change(leaf, leaf.tree->text + "(" + candidate + ")", "wrong_argument"))
                     return;
         }
     }
@@ -206,13 +224,13 @@ private:
                 if (leaf.tree->kind != Kind::name || !is_coordinate(leaf.tree->text) || leaf.in_angle) continue;
                 const int primes = leaf.tree->primes + more;
                 if (primes < 0 || primes > 2) continue;
-                if (try_change(leaf.at, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''), "lost_dot", trimmed(leaf.whole)))
+                if (try_change(leaf, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''), "lost_dot"))
                     return;
             }
         // θ'² written θ'
         for (const Leaf& leaf : leaves_)
             if (leaf.tree->kind == Kind::name && is_coordinate(leaf.tree->text) && leaf.tree->primes == 1 &&
-                try_change(leaf.at, "(" + slice(leaf.at) + ")^2", "lost_dot", trimmed(leaf.whole)))
+                try_change(leaf, "(" + slice(leaf.at) + ")^2", "lost_dot"))
                 return;
     }
 
@@ -221,8 +239,8 @@ private:
             const std::string name = p.symbol.get_name();
             parameters_.push_back(name);
             bool is_length = p.unit == "m";
-            for (const MassElement& body : m_.masses)
-                for (const ex& x : body.position) is_length = is_length || m_.z->depends(x, {p.symbol});
+            for (const MassElement& body : m_.masses)  // where units are not given; an angular rate is in positions too
+                for (const ex& x : body.position) is_length = is_length || (p.unit.empty() && m_.z->depends(x, {p.symbol}));
             const bool without_units = m_.masses.empty() && p.unit.empty();
             if (is_length || (without_units && std::string("lLrRabdhs").find(name[0]) != std::string::npos)) lengths_.insert(name);
         }
@@ -235,11 +253,11 @@ private:
             if (leaf.tree->kind != Kind::name || lengths_.contains(leaf.tree->text) != lengths) continue;
             if (std::find(parameters_.begin(), parameters_.end(), leaf.tree->text) == parameters_.end()) continue;
             for (const std::string& other : parameters_)
-                if (other != leaf.tree->text && lengths_.contains(other) == lengths && try_change(leaf.at, other, kind, trimmed(leaf.whole)))
+                if (other != leaf.tree->text && lengths_.contains(other) == lengths && try_change(leaf, other, kind))
                     return;
-            if (try_change(leaf.at, "1", kind, trimmed(leaf.whole))) return;
+            if (try_change(leaf, "1", kind)) return;
             for (const char* exponent : {"2", "3", "-1"})
-                if (try_change(leaf.at, leaf.tree->text + "^" + exponent, kind, trimmed(leaf.whole))) return;
+                if (try_change(leaf, leaf.tree->text + "^" + exponent, kind)) return;
         }
         for (const Summand& s : summands_)
             for (const std::string& name : parameters_)
@@ -258,7 +276,7 @@ private:
         for (const char* other : {"1", "2", "3", "4", "1/2", "6", "8", "12"})
             for (const Leaf& leaf : leaves_)
                 if (leaf.tree->kind == Kind::number && !leaf.exponent && leaf.tree->text != other &&
-                    try_change(leaf.at, other, leaf.in_angle ? "wrong_argument" : "factor", trimmed(leaf.whole)))
+                    try_change(leaf, other, leaf.in_angle ? "wrong_argument" : "factor"))
                     return;
         for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4", "3/2", "2/3", "4/3", "3/4", "6", "1/6", "5", "1/5", "8", "1/8", "12", "1/12"}) {
             for (const Summand& s : summands_) {
@@ -285,7 +303,7 @@ private:
             const Tree& base = *leaf.tree->args[0];
             const std::string kind = base.kind == Kind::name && lengths_.contains(base.text) ? "wrong_arm" : "factor";
             for (const char* other : {"1", "2", "3", "4"})
-                if (try_change(exponent, other, kind, trimmed(leaf.whole))) return;
+                if (try_change(leaf, exponent, other, kind)) return;
         }
     }
 
@@ -299,6 +317,16 @@ private:
         return found_.has_value();
     }
 
+    /// A term of the nearest equation, the whole of it.
+    void missing_own() {
+        if (!nearest_) return;
+        const auto rows = rows_of(m_, e_);
+        const auto& row = rows[static_cast<std::size_t>(nearest_->row)];
+        const Fourier term = Rational(-1) * nearest_->wrong;
+        for (const Fourier& part : parts_of(nearest_->scale * *row))
+            if (is_zero(part - term)) try_without(nearest_->wrong, "missing_term", text(readable(term)));
+    }
+
     /// A force of the claim's own row and one of another, exchanged; or one too many.
     void wrong_row() {
         if (!nearest_ || nearest_->row >= e_.size()) return;
@@ -308,7 +336,11 @@ private:
             for (const GiNaC::symbol& rate : m_.qdot) still[rate] = 0;
             for (const ex& force : {e_.applied[i], ex(m_.z->expand(e_.own[i]).subs(still, GiNaC::subs_options::no_pattern))})
                 if (m_.z->tree_size(force) < 3000)
-                    if (const auto f = fourier(m_.z->expand(force), *m_.symbols, 2000); f && f->size() > 0) result.push_back(*f);
+                    if (const auto f = fourier(m_.z->expand(force), *m_.symbols, 2000); f && f->size() > 0) {
+                        result.push_back(*f);
+                        const std::vector<Fourier> parts = parts_of(*f);
+                        if (parts.size() > 1) result.insert(result.end(), parts.begin(), parts.end());
+                    }
             return result;
         };
         std::vector<Fourier> left{nearest_->wrong};  // what remains once the own force is put back
@@ -346,10 +378,28 @@ private:
         try_without(nearest_->wrong, "missing_term", text(shown));
     }
 
+    void absent() {
+        constexpr std::size_t most_tried = 12;
+        // A term that is there already, times something: the factor is wrong.
+        std::vector<std::string> own;
+        for (const Summand& s : summands_)
+            if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
+                own.push_back("(" + trimmed(s.negated ? Stretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) + ")");
+        for (const bool there : {true, false}) {
+            const auto terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
+            for (std::size_t k = 0; k < std::min(most_tried, terms.size()) && !found_; ++k) {
+                const auto& [by, term] = terms[k];
+                const std::string more = by == "1" ? term : by == "-1" ? "-" + term : by + "*" + term;
+                if (const auto right = ask(sides_[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more), sides_[1]))
+                    found_ = there ? Slip{"factor", term, *right} : Slip{"missing_term", more, *right};
+            }
+        }
+    }
+
     const Claim& claim_;
     const Mechanism& m_;
     const Equations& e_;
-    const std::function<bool(const Claim&)>& is_right_;
+    const Judge& judge_;
     std::array<std::string, 2> sides_;
     std::vector<Summand> summands_;
     std::vector<Leaf> leaves_;
@@ -357,13 +407,15 @@ private:
     std::set<std::string> lengths_;
     std::optional<Nearest> nearest_;
     std::optional<Slip> found_;
+    static constexpr std::size_t most_asked = 300000;  // bytes of claims: some tenths of a second
+    std::size_t asked_ = 0;
 };
 
 }  // namespace
 
 std::optional<Slip> likely_slip(const Claim& claim, const ex& residual, const Mechanism& mechanism, const Equations& equations,
-                                const std::function<bool(const Claim&)>& is_right) {
-    return Search(claim, residual, mechanism, equations, is_right).find();
+                                const Judge& judge) {
+    return Search(claim, residual, mechanism, equations, judge).find();
 }
 
 }  // namespace alembert

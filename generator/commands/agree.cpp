@@ -16,9 +16,9 @@ int agree(const Request& request) {
     const auto start = std::chrono::steady_clock::now();
     const Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
-    const Mechanism mechanism = build(scene);
-    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(without_constraints(mechanism, redundant_constraints(mechanism))))
-        fail(scene, {*mistake});
+    Mechanism mechanism = build(scene);
+    if (!mechanism.speeds.empty()) mechanism = without_constraints(mechanism, redundant_constraints(mechanism));
+    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     const Derivations all = derive_all(mechanism);
     const Agreement result = agree(all.equations, mechanism);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -34,6 +34,7 @@ Json json_of(const Audit& audit, const Mechanism& m) {
         one["notes"] = c.notes;
         json["constraints"].push_back(one);
     }
+    json["identities"] = m.identities;
     json["rank"] = audit.rank;
     json["degrees_of_freedom"] = audit.degrees_of_freedom;
     json["coordinates_free"] = audit.integrals ? Json(m.size() - *audit.integrals) : Json(nullptr);
@@ -71,6 +72,8 @@ void print(const Audit& audit, const Mechanism& m) {
     if (audit.integrals && m.size() - *audit.integrals != audit.degrees_of_freedom)
         fmt::print(" (independent rates), {} coordinates that can be reached", m.size() - *audit.integrals);
     fmt::print("\n");
+    if (!m.identities.empty())
+        fmt::print("Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
     if (audit.constraints.empty()) {
         fmt::print("There are no constraints.\n");
         return;

@@ -16,6 +16,7 @@ struct Request {
     bool json = false;
     std::string format = "text";  ///< derive: text, latex, mathml
     bool steps = false;           ///< derive
+    bool reactions = false;       ///< derive, eval, simulate: A^T lambda of each constraint
     bool fold = false;            ///< emit: parameters as constants
     bool fast_math = false;
     std::vector<std::string> at;  ///< eval: NAME=VALUE

@@ -248,6 +248,10 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
         result["gaps"] = Json::object();
         for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
     }
+    if (!shown.reactions.empty()) {
+        result["reactions"] = Json::object();
+        for (const Statement& r : shown.reactions) result["reactions"][r.of][text(*r.by)] = text(r.value);
+    }
     result["kinetic"] = text(shown.kinetic);
     result["potential"] = text(shown.potential);
     if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
@@ -281,6 +285,7 @@ int derive(const Request& request) {
     Derivation shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
     shown.formalism = d.equations.formalism;
     show_own_steps(shown, d.mechanism, d.equations);
+    if (request.reactions) show_reactions(shown, d.mechanism);
     if (request.json) {
         std::cout << as_json(shown, d.mechanism).dump(2) << "\n";
         return 0;
@@ -318,6 +323,10 @@ int derive(const Request& request) {
         blocks.push_back({all ? "The constraints, which the speeds obey:"
                               : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
         for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
+    if (!shown.reactions.empty()) {
+        blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
+        for (const Statement& r : shown.reactions) blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
     }
     if (!shown.gaps.empty()) {
         blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});

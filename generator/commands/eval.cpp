@@ -23,6 +23,17 @@ Json named_values(const Program& program, const std::vector<double>& value, cons
 }
 constexpr double closed_gap = 1e-9;  // · max(1, |q|), as much as the initial values of a constraint may be off
 
+/// {constraint: {coordinate: force}}
+Json reactions_of(const Mechanism& m, const Json& outputs) {
+    Json result = Json::object();
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (const GiNaC::symbol& q : m.q) {
+            const std::string output = fmt::format("R_{}_{}", c.name, q.get_name());
+            if (outputs.contains(output)) result[c.name][q.get_name()] = outputs[output];
+        }
+    return result;
+}
+
 }  // namespace
 
 int eval(const Request& request) {
@@ -95,6 +106,7 @@ int eval(const Request& request) {
     result["outputs"] = Json::object();
     for (const Root& root : program.roots)
         if (root.group == "output") result["outputs"][root.name] = value[root.node];
+    if (request.reactions) result["reactions"] = reactions_of(d.mechanism, result["outputs"]);
     if (request.json) {
         std::cout << result.dump(2) << "\n";
         return 0;

@@ -5,17 +5,22 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "analysis/assemble.hpp"
+#include "analysis/audit.hpp"
 #include "analysis/diagnose.hpp"
+#include "analysis/gimbal.hpp"
 #include "analysis/redundancy.hpp"
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -39,6 +44,26 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
+/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
+void refuse_contradiction(const Mechanism& m) {
+    if (m.constraints.empty()) return;
+    Start start = start_of(m);
+    try {
+        assemble(start, m, lower_constraints(m), {});
+    } catch (const std::runtime_error&) {
+        const Audit found = audit_of(m);
+        if (found.contradictory.size() > 1) throw ModelError(found.problem);
+    }
+}
+
+/// R_<constraint>_<coordinate> as outputs.
+void add_reactions(Mechanism& m) {
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (int i = 0; i < m.size(); ++i)
+            if (!c.row[i].is_zero())
+                m.outputs.push_back({fmt::format("R_{}_{}", c.name, m.q[i].get_name()), m.z->name(c.row[i] * c.multiplier)});
+}
+
 }  // namespace
 
 Derived derived(const Request& request) {
@@ -47,13 +72,21 @@ Derived derived(const Request& request) {
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
     const std::vector<int> redundant = redundant_constraints(mechanism);
-    for (const int k : redundant)
-        std::cerr << describe(scene, {{mechanism.constraints[k].place,
+    check_implied(mechanism, redundant);
+    for (const int k : redundant) {
+        const Mechanism::Constraint& c = mechanism.constraints[k];
+        if (c.closes_loop) continue;
+        if (std::any_of(scene.rolling.begin(), scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == c.place; }))
+            continue;  // a rolling has three rows, of which one may well follow from where the body is; `audit` tells it
+        std::cerr << describe(scene, {{c.place,
                                        fmt::format("constraint '{}' follows from the others; its equation is left "
-                                                   "out, and the reactions are those of the others alone",
-                                                   mechanism.constraints[k].name),
+                                                   "out, and the reactions of all are the least that keep them",
+                                                   c.name),
                                        Severity::warning}});
+    }
     mechanism = without_constraints(std::move(mechanism), redundant);
+    refuse_contradiction(mechanism);
+    if (request.reactions) add_reactions(mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     Equations equations = equations_by(request.by, mechanism);
     if (mechanism.speeds.empty() && !equations.poles.empty())
@@ -79,6 +112,7 @@ Choice lowered(const Derived& d, const Request& request) {
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism));
     if (const auto combination = massless_combination(program, state))
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",

@@ -22,9 +22,10 @@ const char* word(ContactEvent::Kind kind) {
 /// One phase's rows, without the last one if it is said again by the next.
 void add_rows(std::string& text, const Phase& phase, const LoadedMode& mode, const Derived& d, std::size_t rows) {
     const alembert_solver_table& table = mode.module.table();
-    const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size();
+    const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size(),
+               redundant = d.mechanism.redundant.size(), held = static_cast<std::size_t>(table.constraints);
     std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)), out(static_cast<std::size_t>(table.outputs)),
-        lambda(static_cast<std::size_t>(table.constraints)), all(bilateral + d.mechanism.unilateral.size());
+        lambda(held + redundant), all(bilateral + redundant + d.mechanism.unilateral.size());
     for (std::size_t row = 0; row < rows; ++row) {
         const double t = phase.motion.times[row];
         const auto state = phase.motion.state(row);
@@ -34,8 +35,9 @@ void add_rows(std::string& text, const Phase& phase, const LoadedMode& mode, con
         table.outputs_at(t, state.data(), rate.data(), mode.par.data(), out.data());
         table.multipliers_at(t, state.data(), mode.par.data(), lambda.data());
         std::copy_n(lambda.begin(), bilateral, all.begin());
+        std::copy_n(lambda.begin() + static_cast<std::ptrdiff_t>(held), redundant, all.begin() + static_cast<std::ptrdiff_t>(bilateral));
         for (std::size_t i = 0; i < phase.closed.size(); ++i)
-            all[bilateral + static_cast<std::size_t>(phase.closed[i])] = lambda[bilateral + i];
+            all[bilateral + redundant + static_cast<std::size_t>(phase.closed[i])] = lambda[bilateral + i];
         text += fmt::format("{:.17g}", t);
         for (std::size_t i = 0; i < n; ++i) text += fmt::format(",{:.17g}", state[i]);
         for (std::size_t i = 0; i < n; ++i) text += fmt::format(",{:.17g}", rate[i]);
@@ -52,7 +54,8 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes) {
     std::string text = "t";
     for (const GiNaC::symbol& q : d.mechanism.q) text += "," + q.get_name();
     for (const GiNaC::symbol& q : d.mechanism.q) text += "," + q.get_name() + "'";
-    for (const Mechanism::Constraint& c : d.mechanism.constraints) text += "," + c.multiplier.get_name();
+    for (const auto* list : {&d.mechanism.constraints, &d.mechanism.redundant})
+        for (const Mechanism::Constraint& c : *list) text += "," + c.multiplier.get_name();
     for (const Mechanism::Unilateral& c : d.mechanism.unilateral) text += "," + c.gap.multiplier.get_name();
     text += ",energy";
     for (const Part& output : d.mechanism.outputs) text += "," + output.label;

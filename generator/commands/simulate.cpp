@@ -20,7 +20,7 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
     std::string method = request.method.empty() ? mechanism.run.method : request.method;
     if (method == "auto") method = start.step > 0 || request.step > 0 ? "rk4" : "dop853";
     const auto known = method_named(method);
-    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, euler, rk4, dopri5 or dop853", method));
+    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, {}", method, method_names()));
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     return {.method = *known,
             .start = start.t,
@@ -29,6 +29,27 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
             .step = wish(request.step, start.step),
             .sample = wish(request.sample, start.sample),
             .budget = request.budget};
+}
+
+/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no coordinate)
+/// occurs. What occurs only to cancel counts as there.
+void need_separable(const Derived& d, std::string_view method) {
+    const auto refuse = [&](const std::string& why) {
+        throw ModelError(fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
+                                     "alone, but {}; take gauss (symplectic for any energy) or dop853", method, why));
+    };
+    const Equations& e = d.equations;
+    if (!e.h.empty()) refuse("the equations are in generalized speeds");
+    if (!d.mechanism.constraints.empty() || !d.mechanism.unilateral.empty()) refuse("there are constraints");
+    std::vector<GiNaC::symbol> moving = e.q;
+    moving.insert(moving.end(), e.u.begin(), e.u.end());
+    moving.push_back(d.mechanism.t);
+    for (int i = 0; i < e.size(); ++i)
+        for (int j = 0; j < e.size(); ++j)
+            if (e.z->depends(e.M(i, j), moving))
+                refuse(fmt::format("the inertia of {} changes with the motion", e.q[i].get_name()));
+    for (int i = 0; i < e.size(); ++i)
+        if (e.z->depends(e.forcing(i), e.u)) refuse(fmt::format("a rate occurs in the equation of {}", e.q[i].get_name()));
 }
 
 /// The state where the numbers failed.
@@ -162,6 +183,7 @@ int simulate(const Request& request) {
     const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), {});
     const State<double> first = state_of(start, d.mechanism, d.equations);
     Options options = options_of(request, d.mechanism, start);
+    if (needs_separable(options.method)) need_separable(d, name(options.method));
     std::optional<ContactView> view;
     Contacts contacts;
     if (has_contacts) {

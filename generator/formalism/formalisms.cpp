@@ -8,6 +8,7 @@
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
+#include "formalism/nielsen.hpp"
 #include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 
@@ -20,6 +21,7 @@ const std::vector<Formalism>& formalisms() {
         {"routh", "Routh's equations with multipliers", routh},
         {"kane", "Kane's equations", kane},
         {"dalembert", "the general equation of dynamics", dalembert},
+        {"nielsen", "Nielsen's equations", nielsen},
         {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
         {"routhian", "Routh's procedure, the momenta eliminated", routhian},
     };

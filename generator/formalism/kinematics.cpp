@@ -97,7 +97,7 @@ private:
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) throw ModelError(message_);
-        if (z_.depends(det, m_.moving())) poles.push_back(moving_factors(det));
+        if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) poles.push_back(moving);
         for (std::size_t c = 0; c < columns.size(); ++c)
             for (std::size_t r = 0; r < block.size(); ++r) {
                 std::vector<unsigned> other_rows = block, other_columns = columns;
@@ -119,7 +119,8 @@ private:
         ex result = 1;
         const auto take = [&](const ex& factor) {
             const bool is_power = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
-            if (z_.depends(factor, m_.moving())) result *= is_power ? factor.op(0) : factor;
+            const bool is_pole = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::negint);  // never zero
+            if (!is_pole && z_.depends(factor, m_.moving())) result *= is_power ? factor.op(0) : factor;
         };
         if (GiNaC::is_a<GiNaC::mul>(plain))
             for (const ex& factor : plain) take(factor);

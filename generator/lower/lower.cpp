@@ -217,6 +217,44 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
         program.roots.push_back({"speed_rate", m.speeds[k].u.get_name(), lowering(rates[k])});
 }
 
+/// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B = A_all A_keptᵀ
+/// they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
+void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power) {
+    lowering.lower_definitions({power});
+    lowering(power);  // constraints that move do their work through the multipliers of those that are kept
+    std::vector<const Mechanism::Constraint*> all;
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list) all.push_back(&c);
+    const std::size_t kept = m.constraints.size();
+    std::vector<ex> wanted;
+    for (const auto* c : all) wanted.insert(wanted.end(), c->row.begin(), c->row.end());
+    lowering.lower_definitions(wanted);
+    const auto dot = [&](const std::vector<int>& a, const std::vector<int>& b) {
+        std::vector<Program::Term> terms;
+        for (std::size_t i = 0; i < a.size(); ++i) terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
+        return program.sum(0, terms);
+    };
+    std::vector<std::vector<int>> rows, B(kept);  // B by columns
+    for (const auto* c : all) {
+        rows.emplace_back();
+        for (const ex& e : c->row) rows.back().push_back(lowering(e));
+    }
+    for (std::size_t k = 0; k < kept; ++k)
+        for (const auto& row : rows) B[k].push_back(dot(row, rows[k]));
+    std::vector<int> square, right, lambda;
+    for (std::size_t k = 0; k < kept; ++k) lambda.push_back(lowering(m.constraints[k].multiplier));
+    for (std::size_t k = 0; k < kept; ++k) {
+        for (std::size_t j = 0; j <= k; ++j) square.push_back(dot(B[k], B[j]));
+        right.push_back(dot({B[k].begin(), B[k].begin() + static_cast<std::ptrdiff_t>(kept)}, lambda));
+    }
+    const auto w = solve_symmetric(program, square, right, static_cast<int>(kept));
+    for (std::size_t c = 0; c < all.size(); ++c) {
+        std::vector<Program::Term> terms;
+        for (std::size_t k = 0; k < kept && w; ++k) terms.emplace_back(1, program.product(1, {{B[k][c], 1}, {(*w)[k], 1}}));
+        if (w || c >= kept) lowering.define(all[c]->multiplier, program.sum(0, terms));
+    }
+}
+
 }  // namespace
 
 Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
@@ -249,6 +287,18 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         if (constraint.position) wanted.push_back(*constraint.position);
         wanted.push_back(constraint.drift);
     }
+    // e·e = 1 of a quaternion: no inertia resists the rate along e, and c Aᵀ(A u' − γ), which is 0, makes the matrix regular.
+    // c is a fourth of the mean diagonal element, so that the new eigenvalue is of the others' size.
+    std::vector<std::tuple<ex, const std::vector<ex>*, ex>> norms;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        if (!m.constraints[kept[k]].norm) continue;
+        GiNaC::exvector diagonal;
+        for (int i = 0; i < n; ++i)
+            if (!equations.A[k][i].is_zero()) diagonal.push_back(equations.M(i, i));
+        const int count = std::max<int>(1, static_cast<int>(diagonal.size()));
+        norms.emplace_back(m.z->name(GiNaC::add(std::move(diagonal)) / (4 * count)), &equations.A[k], equations.gamma[k]);
+        wanted.push_back(std::get<0>(norms.back()));
+    }
     lowering.lower_definitions(wanted);
     // Open contacts do not push; those that the equations hold closed get their multipliers below.
     for (const Mechanism::Unilateral& contact : m.unilateral) lowering.define(contact.gap.multiplier, program.number(0));
@@ -267,12 +317,18 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
-            mass.push_back(lowering(equations.M(i, j)));
+            std::vector<Program::Term> terms{{1, lowering(equations.M(i, j))}};
+            for (const auto& [c, row, gamma] : norms)
+                terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
+            mass.push_back(program.sum(0, terms));
             program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
     for (int i = 0; i < n; ++i) {
         blame_row(i);
-        forcing.push_back(lowering(equations.forcing(i)));
+        std::vector<Program::Term> terms{{1, lowering(equations.forcing(i))}};
+        for (const auto& [c, row, gamma] : norms)
+            terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
+        forcing.push_back(program.sum(0, terms));
         program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
     }
     program.set_sources({0});
@@ -313,12 +369,15 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
             for (const Equations::Eliminated& e : equations.eliminated)
                 lowering.define(m.constraints[e.constraint].multiplier, motion(e.multiplier));
         }
-        for (const Mechanism::Constraint& constraint : m.constraints)
-            program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
+        if (!m.redundant.empty()) share_out(lowering, program, m, energy.power);
+        for (const auto* list : {&m.constraints, &m.redundant})
+            for (const Mechanism::Constraint& constraint : *list)
+                program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
         // The power and outputs may name multipliers; their values are never read, as there is no motion.
         for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
+        for (const Mechanism::Constraint& constraint : m.redundant) lowering.define(constraint.multiplier, program.number(0));
     }
     for (int i = 0; i < m.size() && has_speeds; ++i) {
         program.roots.push_back({"rate", m.q[i].get_name(), lowering(m.qdot[i])});

@@ -112,6 +112,22 @@ inline Prime value_at(const PrimePolynomial& f, Prime x) {
     return result;
 }
 
+/// Zero if and only if f and g have a common root, or one of them is zero (von zur Gathen & Gerhard, Modern Computer Algebra, §6.3).
+inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
+    Prime result = 1;
+    while (true) {
+        if (f.empty() || g.empty()) return 0;
+        if (g.size() == 1) return result * g[0].power(f.size() - 1);
+        // Res(f, g) = (−1)^(deg f · deg g) lc(g)^(deg f − deg r) Res(g, r), r the remainder of f
+        PrimePolynomial rest = prime_polynomial::remainder(f, g);
+        if (rest.empty()) return 0;
+        if ((f.size() - 1) % 2 == 1 && (g.size() - 1) % 2 == 1) result = -result;
+        result *= g.back().power(f.size() - rest.size());
+        f = std::move(g);
+        g = std::move(rest);
+    }
+}
+
 /// In ascending order. Of the zero polynomial: none.
 inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
     using namespace prime_polynomial;

@@ -8,6 +8,7 @@
 
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
+#include "model/joints.hpp"
 #include "model/parameter_values.hpp"
 #include "model/places.hpp"
 #include "model/translate.hpp"
@@ -416,8 +417,100 @@ private:
     void add_constraints() {
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
-        for (std::size_t k = 0; k < scene_.unilateral.size(); ++k)
-            attempt([&] { add_unilateral(scene_.unilateral[k], static_cast<int>(scene_.constraints.size() + k)); });
+        int index = static_cast<int>(scene_.constraints.size());
+        for (const Frame& frame : scene_.frames)
+            if (!frame.quaternion.empty()) attempt([&] { add_norm(frame, index++); });
+        for (const RollingRule& rule : scene_.rolling) {
+            attempt([&] { add_rolling(rule, index); });
+            index += 3;
+        }
+        for (const Joint& joint : scene_.joints)
+            if (joint.closes_loop) attempt([&] { close(joint); });
+        for (const UnilateralRule& rule : scene_.unilateral) attempt([&] { add_unilateral(rule, index++); });
+    }
+
+    // e·e − 1 = 0
+    void add_norm(const Frame& frame, int index) {
+        SourceScope source(*m_.z, "frame " + frame.name.text);
+        ex value = -1, start = 0;
+        bool moves = false;
+        for (const Name& name : frame.quaternion) {
+            const std::size_t i = coordinate_index(name.text, m_);
+            value += m_.q[i] * m_.q[i];
+            start += m_.q_start[i] * m_.q_start[i];
+            moves = moves || m_.q_is_guess[i];
+        }
+        const double square = values_->number(m_.z->expand(start));
+        if (!moves && !(std::abs(square - 1) <= 1e-9))
+            throw SceneMistake{{frame.quaternion[0].place,
+                                fmt::format("the sum of squares of the quaternion of frame '{}' is {:.12g} at the start; expected 1: "
+                                            "divide each initial value by {:.12g}, or give them as guesses",
+                                            frame.name.text, square, std::sqrt(square))}};
+        const std::string multiplier = multiplier_of(frame).text;
+        m_.constraints.push_back(constraint_of({.name = frame.name.text,
+                                                .holonomic = true,
+                                                .value = value,
+                                                .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
+                                                .place = frame.name.place,
+                                                .at = frame.quaternion[0].place},
+                                               m_));
+        m_.constraints.back().norm = true;
+        translator_.know(multiplier, m_.constraints.back().multiplier);
+    }
+
+    // v_C + ω × c − v_on − ω_on × (r_C + c − r_on) = 0 along x, y, z
+    void add_rolling(const RollingRule& rule, int index) {
+        SourceScope source(*m_.z, "rolling " + rule.name.text);
+        Intermediates& z = *m_.z;
+        const Vector3 c = places_.along(rule.contact, rule.axes);
+        const auto turning = [&](const std::string& body, const Vector3& arm) {
+            const Orientation& o = places_.orientation(body);
+            return cross(o.to_inertial(o.angular_velocity(), z), arm, z);
+        };
+        Vector3 slip = add(places_.velocity(rule.body.text), turning(rule.body.text, c), z);
+        if (rule.on.text != "N") {
+            const Vector3 touching = add(places_.position(rule.body.text), c, z);
+            const Vector3 arm = add(touching, scale(-1, places_.position(rule.on.text), z), z);
+            const Vector3 ground = add(places_.velocity(rule.on.text), turning(rule.on.text, arm), z);
+            slip = add(slip, scale(-1, ground, z), z);
+        }
+        const std::array<Name, 3> multipliers = multipliers_of(rule);
+        std::vector<GiNaC::symbol> clock{m_.t};
+        for (const Mechanism::Input& input : m_.inputs) clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
+        // Velocities are forms in the rates alone where no place and no attitude depends on time by itself.
+        const auto by_itself = [&](const Vector3& v) { return std::any_of(v.begin(), v.end(), [&](const ex& e) { return z.depends(e, clock); }); };
+        bool drifts = false;
+        for (const std::string& body : {rule.body.text, rule.on.text})
+            for (int k = 0; k < 3; ++k)
+                if (body != "N") drifts = drifts || by_itself(places_.position(body)) || by_itself(places_.orientation(body).axis(k));
+        bool any = false;
+        for (int k = 0; k < 3; ++k) {
+            const std::string name = rule.name.text + "_" + "xyz"[k];
+            const auto [row, drift] = linear_form(slip[k], "rolling '" + name + "'", rule.contact.place, m_);
+            if (std::all_of(row.begin(), row.end(), [&](const ex& entry) { return is_identically_zero(entry, m_); })) {
+                if (drifts && !drift.is_zero())
+                    throw SceneMistake{{rule.name.place,
+                                        fmt::format("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
+                                                    "coordinates' rates",
+                                                    rule.name.text, "xyz"[k])}};
+                translator_.know(multipliers[k].text, 0);
+                continue;
+            }
+            any = true;
+            m_.constraints.push_back(constraint_of({.name = name,
+                                                    .holonomic = false,
+                                                    .value = slip[k],
+                                                    .multiplier = m_.symbols->declare(multipliers[k].text, Kind::other, index + k),
+                                                    .place = rule.name.place,
+                                                    .at = rule.contact.place,
+                                                    .drifts = drifts},
+                                                   m_));
+            translator_.know(multipliers[k].text, m_.constraints.back().multiplier);
+        }
+        if (!any)
+            throw SceneMistake{{rule.name.place, fmt::format("rolling '{}' says nothing: the point of '{}' at the contact moves with '{}' "
+                                                             "in every motion",
+                                                             rule.name.text, rule.body.text, rule.on.text)}};
     }
 
     void add_constraint(const ConstraintRule& rule, int index) {
@@ -432,6 +525,43 @@ private:
                            .at = rule.equation.lhs.place()},
                           m_));
         translator_.know(multiplier, m_.constraints.back().multiplier);
+    }
+
+    void close(const Joint& joint) {
+        SourceScope source(*m_.z, "joint " + joint.name.text);
+        int k = 0;
+        for (const ClosingRow& row : closing_rows(joint, places_)) {
+            const std::string name = fmt::format("{}_{}", joint.name.text, ++k), multiplier = "lambda_" + name;
+            const std::vector<ex> slopes = m_.z->pull_back({{row.value, 1}}, row.holonomic ? m_.q : m_.qdot);
+            if (std::all_of(slopes.begin(), slopes.end(), [&](const ex& e) { return is_identically_zero(e, m_); })) {
+                if (row.holonomic) need_closed(joint, row.value, k);
+                m_.identities.push_back(name);
+                translator_.know(multiplier, 0);
+                continue;
+            }
+            m_.constraints.push_back(
+                constraint_of({.name = name,
+                               .holonomic = row.holonomic,
+                               .value = row.value,
+                               .multiplier = m_.symbols->declare(multiplier, Kind::other, static_cast<int>(m_.constraints.size())),
+                               .place = joint.name.place,
+                               .at = joint.name.place},
+                              m_));
+            m_.constraints.back().closes_loop = true;
+            translator_.know(multiplier, m_.constraints.back().multiplier);
+        }
+    }
+
+    // A direction in which no coordinate moves the bodies against each other.
+    void need_closed(const Joint& joint, const ex& value, int k) {
+        constexpr double closed = 1e-9;  // of lengths of order one; what initial values may break a constraint by
+        const bool moves = m_.z->depends(value, {m_.t}) && !is_identically_zero(m_.explicit_time_derivative({value})[0], m_);
+        const double gap = moves ? std::nan("") : places_.number(value);
+        if (std::abs(gap) <= closed) return;
+        throw SceneMistake{{joint.name.place,
+                            fmt::format("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
+                                        "as far as locked) the bodies stand apart {}, and no coordinate can change that",
+                                        joint.name.text, k, moves ? "as time goes on" : fmt::format("by {:.6g}", gap))}};
     }
 
     // gap(q,t) ≥ 0

@@ -58,6 +58,7 @@ Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& m) {
         velocity = m.time_derivative({value})[0];
     } else {
         std::tie(made.row, made.drift) = linear_form(value, "constraint '" + rule.name + "'", rule.at, m);
+        if (!rule.drifts) made.drift = 0;
     }
     if (all_zero(made.row))
         throw SceneMistake{{rule.at, fmt::format("constraint '{}' contains no {}", rule.name,

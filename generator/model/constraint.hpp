@@ -17,6 +17,7 @@ struct Rule {
     GiNaC::symbol multiplier;
     Place place;     ///< of the name
     Place at;        ///< of the expression, for messages
+    bool drifts = true;  ///< false: a nonholonomic value is known to vanish with the rates
 };
 
 /// Throws SceneMistake for a value that is not linear in the rates, or in which no coordinate (holonomic) or rate

@@ -13,7 +13,12 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m)
     for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.derivative[0]);
     for (const Mechanism::Definition& d : m.definitions) know(d.name, d.value);
     for (const Mechanism::Speed& s : m.speeds) know(s.u.get_name(), s.form);
+    for (const GiNaC::symbol& acceleration : m.qddot) has_no_derivative(acceleration);
+    for (const Mechanism::Input& input : m.inputs) has_no_derivative(input.derivative[2]);
+    for (const Mechanism::Constraint& c : m.constraints) has_no_derivative(c.multiplier);
+    for (const Mechanism::Unilateral& u : m.unilateral) has_no_derivative(u.gap.multiplier);
     for (const Mechanism::Constraint& c : m.constraints) know(c.multiplier.get_name(), c.multiplier);
+    for (const std::string& name : m.identities) know("lambda_" + name, 0);
     for (const Mechanism::Unilateral& u : m.unilateral) know(u.gap.multiplier.get_name(), u.gap.multiplier);
     const std::vector<GiNaC::ex> p = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
     for (int i = 0; i < m.size(); ++i) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Rotation by φ about a unit vector a (Rodrigues):  R = cos φ E + (1 − cos φ) a aᵀ + sin φ ã,
 // composition R_NC = R_NB R_BC, addition of angular velocities ω_NC = R_BCᵀ ω_NB + φ' a
-// (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2).
+// (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2). By a quaternion e = (e₀, ε):
+//   R = ((e₀² − ε·ε) E + 2 ε εᵀ + 2 e₀ ε̃)/(e·e),   ω = 2 (e₀ ε' − e₀' ε − ε × ε')/(e·e) along the new axes
+// (Goldstein, Classical Mechanics (1980), §4-5; vec(e* e') doubled). Divided by e·e they hold for every e, so that T and V do
+// not change along e and all formalisms give the same multiplier of e·e = 1, which is 0.
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -62,6 +65,37 @@ Orientation Orientation::turned(const Vector3& axis, const ex& angle, const ex& 
         for (int j = 0; j < 3; ++j) sum += R[j][k] * base.w_NB_B[j];
         step.w_NB_B[k] = z.name(sum);
     }
+    result.steps_.push_back(std::move(step));
+    return result;
+}
+
+Orientation Orientation::turned(const std::array<ex, 4>& e, const std::array<ex, 4>& rate, Intermediates& z) const {
+    const auto sq = [&](int k) { return e[k] * e[k]; };
+    const ex inverse = z.name(1 / z.name(sq(0) + sq(1) + sq(2) + sq(3)));
+    std::array<Vector3, 3> R;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        R[i][i] = sq(0) + sq(i + 1) - sq(j + 1) - sq(k + 1);
+        R[i][j] = 2 * (e[i + 1] * e[j + 1] - e[0] * e[k + 1]);
+        R[j][i] = 2 * (e[i + 1] * e[j + 1] + e[0] * e[k + 1]);
+    }
+    const Step& base = steps_.back();
+    Step step{{0, 0, 0}, 0, 0, {}, {}};
+    for (Vector3& row : R)
+        for (ex& entry : row) entry = z.name(z.name(entry) * inverse);
+    for (int k = 0; k < 3; ++k) {
+        const int i = k, j = (k + 1) % 3, l = (k + 2) % 3;
+        const ex own = e[0] * rate[i + 1] - e[i + 1] * rate[0] + e[l + 1] * rate[j + 1] - e[j + 1] * rate[l + 1];
+        ex sum = 2 * z.name(own) * inverse;
+        for (int a = 0; a < 3; ++a) {
+            sum += R[a][k] * base.w_NB_B[a];
+            ex entry = 0;
+            for (int b = 0; b < 3; ++b) entry += base.R_NB[a][b] * R[b][k];
+            step.R_NB[a][k] = z.name(entry);
+        }
+        step.w_NB_B[k] = z.name(sum);
+    }
+    Orientation result = *this;
     result.steps_.push_back(std::move(step));
     return result;
 }

@@ -100,6 +100,8 @@ struct Mechanism {
         GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
         Place place;
+        bool closes_loop = false;             ///< a row of a joint: that it follows from others is nothing to warn of
+        bool norm = false;                    ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
@@ -129,6 +131,8 @@ struct Mechanism {
     std::vector<SpringElement> springs;
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
+    std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
+    std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
     std::vector<Unilateral> unilateral;
     std::vector<Part> outputs, events;
     std::vector<bool> event_stops;

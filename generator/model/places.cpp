@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/places.hpp"
 
+#include "model/joints.hpp"
 #include "model/parameter_values.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
+
+std::size_t coordinate_index(const std::string& name, const Mechanism& m) {
+    for (std::size_t i = 0; i < m.q.size(); ++i)
+        if (m.q[i].get_name() == name) return i;
+    throw std::out_of_range("coordinate '" + name + "'");
+}
 
 const Orientation& Places::orientation(const std::string& name) {
     if (const auto found = orientations_.find(name); found != orientations_.end()) return found->second;
@@ -13,18 +20,46 @@ const Orientation& Places::orientation(const std::string& name) {
     for (const Frame& frame : scene_.frames)
         if (frame.name.text == name) return orientations_[name] = turn(frame);
     for (const Body& body : scene_.bodies)
-        if (body.name.text == name) return orientation(body.frame.text);
+        if (body.name.text == name) {
+            if (!body.joint) return orientation(body.frame.text);
+            const Joint& joint = scene_.joints[*body.joint];
+            SourceScope source(*m_.z, "joint " + joint.name.text);
+            return orientations_[name] = orientation_by(joint, *this);
+        }
     throw std::out_of_range("frame '" + name + "'");
 }
 
 Orientation Places::turn(const Frame& frame) {
     SourceScope source(*m_.z, "frame " + frame.name.text);
     Orientation o = orientation(frame.parent.text);
-    for (const Rotation& r : frame.rotations) {
-        const ex angle = m_.z->name(translator_.scalar(r.angle));
-        o = o.turned(unit_axis(r), angle, m_.time_derivative({angle})[0], *m_.z);
+    if (!frame.quaternion.empty()) {
+        std::array<ex, 4> e, rate;
+        for (int k = 0; k < 4; ++k) {
+            const std::size_t i = coordinate_index(frame.quaternion[k].text, m_);
+            e[k] = m_.q[i];
+            rate[k] = m_.qdot[i];
+        }
+        return o.turned(e, rate, *m_.z);
     }
+    for (const Rotation& r : frame.rotations) o = turned(o, unit_axis(r), value(r.angle));
     return o;
+}
+
+Orientation Places::turned(const Orientation& o, const Vector3& axis, const ex& angle) {
+    return o.turned(axis, angle, rate(angle), *m_.z);
+}
+
+ex Places::value(const Name& name) {
+    const Tree self{.kind = Tree::Kind::name, .text = name.text};
+    return value(Expression{name.text, {name.place}, std::make_shared<Tree>(self)});
+}
+
+double Places::number(const ex& e) const { return ParameterValues(m_).number(m_.z->expand(e)); }
+
+const Joint* Places::joint_of(const std::string& name) const {
+    for (const Body& body : scene_.bodies)
+        if (body.name.text == name) return body.joint ? &scene_.joints[*body.joint] : nullptr;
+    return nullptr;
 }
 
 Vector3 Places::unit_axis(const Rotation& r) {
@@ -61,6 +96,10 @@ const Position* Places::find(const std::string& name) const {
 Vector3 Places::position(const std::string& name) {
     if (name == "O") return {0, 0, 0};
     if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
+    if (const Joint* joint = joint_of(name)) {
+        SourceScope source(*m_.z, "joint " + joint->name.text);
+        return positions_[name] = position_by(*joint, *this);
+    }
     const Position* where = find(name);
     if (where == nullptr) throw std::out_of_range("point '" + name + "'");
     SourceScope source(*m_.z, "point " + name);

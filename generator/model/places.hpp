@@ -14,6 +14,9 @@
 
 namespace alembert {
 
+/// The position in Mechanism::q of the coordinate of that name.
+std::size_t coordinate_index(const std::string& name, const Mechanism& mechanism);
+
 class Places {
 public:
     Places(const Scene& scene, const Mechanism& mechanism, Translator& translator)
@@ -27,10 +30,22 @@ public:
     Vector3 vector(const Vector& v);
     /// Components along N of a vector written along `axes`.
     Vector3 along(const Vector& v, const Name& axes);
+    /// The direction of a rotation's axis.
+    Vector3 unit_axis(const Rotation& rotation);
+    Orientation turned(const Orientation& o, const Vector3& axis, const GiNaC::ex& angle);
+    /// The mass centre; of N the origin.
+    Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
+
+    GiNaC::ex value(const Expression& e) { return m_.z->name(translator_.scalar(e)); }
+    GiNaC::ex value(const Name& name);
+    GiNaC::ex rate(const GiNaC::ex& value) { return m_.time_derivative({value})[0]; }
+    /// At the scene's parameters.
+    double number(const GiNaC::ex& e) const;
+    Intermediates& z() { return *m_.z; }
 
 private:
     Orientation turn(const Frame& frame);
-    Vector3 unit_axis(const Rotation& rotation);
+    const Joint* joint_of(const std::string& body) const;
     const Position* find(const std::string& point) const;
 
     const Scene& scene_;

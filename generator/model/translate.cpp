@@ -53,8 +53,13 @@ Vector3 Translator::vector_of(const Tree& tree) {
     throw SceneMistake{{current_->place(tree.offset), "a number stands where a vector is expected"}};
 }
 
-ex Translator::differentiated(ex value, int times) {
-    for (int i = 0; i < times; ++i) value = mechanism_.time_derivative({value})[0];
+ex Translator::differentiated(ex value, int times, const Tree& tree) {
+    for (int i = 0; i < times; ++i) {
+        if (mechanism_.z->depends(value, without_derivative_))
+            throw SceneMistake{{current_->place(tree.offset), "the derivative of an acceleration, a multiplier or an unknown function: "
+                                                              "mechanics gives none; differentiate what has rates only"}};
+        value = mechanism_.time_derivative({value})[0];
+    }
     return value;
 }
 
@@ -77,8 +82,20 @@ ex Translator::named(const Tree& tree) {
         later_.erase(tree.text);
     }
     if (const auto found = values_.find(tree.text); found != values_.end())
-        return differentiated(found->second, tree.primes);
+        return differentiated(found->second, tree.primes, tree);
     throw SceneMistake{{place, fmt::format("unknown name '{}' in this expression", tree.text)}};
+}
+
+std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
+    const auto is_call = [](const Tree& tree) { return tree.kind == Tree::Kind::call; };
+    if (!is_call(u) || !is_call(v)) return std::nullopt;
+    if (v.text == "omega") return u.text == "omega" ? std::nullopt : own_component(v, u);
+    const std::string axes[] = {"ex", "ey", "ez"};
+    const auto axis = std::find(std::begin(axes), std::end(axes), v.text);
+    if (u.text != "omega" || axis == std::end(axes)) return std::nullopt;
+    const Orientation &turning = queries_.orientation(u.args.at(0)->text), &frame = queries_.orientation(v.args.at(0)->text);
+    if (&turning != &frame) return std::nullopt;
+    return frame.angular_velocity()[axis - std::begin(axes)];
 }
 
 Value Translator::call(const Tree& tree) {
@@ -101,6 +118,8 @@ Value Translator::call(const Tree& tree) {
     if (tree.text == "ex") return queries_.orientation(name_of(0)).axis(0);
     if (tree.text == "ey") return queries_.orientation(name_of(0)).axis(1);
     if (tree.text == "ez") return queries_.orientation(name_of(0)).axis(2);
+    if (tree.text == "dot")
+        if (const auto own = own_component(*tree.args[0], *tree.args[1])) return *own;
     if (tree.text == "dot") return dot(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "cross") return cross(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "norm") return norm(vector_of(*tree.args[0]), z);
@@ -117,7 +136,7 @@ Value Translator::evaluate(const Tree& tree) {
             case Tree::Kind::number: return ex(exact_number(tree.text));
             case Tree::Kind::name: return named(tree);
             case Tree::Kind::call: return call(tree);
-            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes);
+            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes, tree);
             case Tree::Kind::power: return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
             case Tree::Kind::reciprocal: return ex(1 / scalar_of(*tree.args[0]));
             case Tree::Kind::negate: {

@@ -31,6 +31,9 @@ public:
     /// A name whose value is made when first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<GiNaC::ex()> value) { later_[name] = std::move(value); }
 
+    /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a mistake.
+    void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
+
     /// Throws SceneMistake for what the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
 
@@ -40,12 +43,15 @@ private:
     Vector3 vector_of(const Tree& tree);
     GiNaC::ex named(const Tree& tree);
     Value call(const Tree& tree);
-    GiNaC::ex differentiated(GiNaC::ex value, int times);
+    /// dot(omega(B), ex(B)), which is known without going by N.
+    std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v);
+    GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
 
     const Mechanism& mechanism_;
     GeometryQueries queries_;
     std::map<std::string, GiNaC::ex> values_;
     std::map<std::string, std::function<GiNaC::ex()>> later_;
+    std::vector<GiNaC::symbol> without_derivative_;
     const Expression* current_ = nullptr;
 };
 

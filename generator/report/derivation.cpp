@@ -186,6 +186,21 @@ private:
 
 }  // namespace
 
+void show_reactions(Derivation& shown, const Mechanism& m) {
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (int i = 0; i < m.size(); ++i) {
+            const ex force = c.row[i] * c.multiplier;
+            if (force.is_zero() || m.z->tree_size(force) > largest_tree) continue;
+            const auto f = fourier(m.z->expand(force), *m.symbols, 20 * most_terms);
+            if (!f || f->size() > most_terms) continue;
+            shown.reactions.push_back({.kind = Statement::Kind::work,
+                                       .letter = "Q",
+                                       .of = c.name,
+                                       .by = phrases::symbol(m.q[i], m.symbols->info(m.q[i])),
+                                       .value = readable(*f)});
+        }
+}
+
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
     return Making(mechanism, equations).make();
 }

@@ -53,9 +53,13 @@ struct Derivation {
     std::vector<Phrase> poles;             ///< where one of these vanishes the rates do not follow from the speeds
     std::vector<std::pair<Phrase, Phrase>> speeds;      ///< chosen by the program: u = N(q,t) q'
     std::string choice;                    ///< in words, where the speeds were chosen by the program
+    std::vector<Statement> reactions;         ///< of each constraint along each coordinate, where they are asked for
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
     std::vector<std::pair<std::string, Phrase>> gaps;         ///< by name: what is not negative
 };
+
+/// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
+void show_reactions(Derivation& shown, const Mechanism& mechanism);
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
 

@@ -11,6 +11,8 @@
 #include <cln/integer.h>
 #include <cln/integer_io.h>
 
+#include "symbolic/functions.hpp"
+
 namespace alembert {
 
 namespace {
@@ -148,6 +150,7 @@ GiNaC::ex expression(const Phrase& phrase) {
             break;
     }
     if (phrase.name == "sqrt") return GiNaC::sqrt(args[0]);
+    if (phrase.name == "abs") return absolute(args.at(0));
     const auto count = static_cast<unsigned>(args.size());
     return GiNaC::function(GiNaC::function::find_function(phrase.name, count), args);
 }

@@ -34,34 +34,32 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
     return position;
 }
 
-std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node) {
+std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node, std::string_view key) {
     const toml::array* const pair = node.as_array();
     if (!pair || pair->size() != 2) {
         reading.complain(place_of(node),
                          pair ? "a rotation has two parts: [axis, angle]"
-                              : "'rotate' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]");
+                              : fmt::format("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
         return {};
     }
-    Rotation rotation;
-    const toml::node& axis = *pair->get(0);
-    if (const auto* letter = axis.as_string()) {
-        const std::string& name = letter->get();
-        if (name == "x" || name == "y" || name == "z")
-            rotation.letter = name[0];
-        else
-            reading.complain(place_of(axis),
-                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
-                                         in_quotes(name)));
-    } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
-        rotation.axis = read_vector(reading, axis, "the axis");
-    } else {
-        reading.complain(
-            place_of(axis),
-            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
-                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
-    }
+    Rotation rotation = read_axis(reading, *pair->get(0));
     rotation.angle = read_expression(reading, *pair->get(1), "the angle");
     return rotation;
+}
+
+/// Four names, or none where they are told to be wrong.
+std::vector<Name> read_quaternion(const Table& table) {
+    const toml::node& node = *table.find("quaternion")->node;
+    const toml::array* const list = node.as_array();
+    const std::string expected = "expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]";
+    if (!list || list->size() != 4) {
+        table.complain("quaternion", fmt::format("{} {}; {}", table.what("quaternion"),
+                                                 list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
+        return {};
+    }
+    std::vector<Name> names = table.names("quaternion");
+    if (names.size() != 4) names.clear();
+    return names;
 }
 
 Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
@@ -101,25 +99,59 @@ std::optional<Inertia> read_inertia(const Table& table) {
 
 }  // namespace
 
+Rotation read_axis(const Reading& reading, const toml::node& axis) {
+    Rotation rotation;
+    if (const auto* letter = axis.as_string()) {
+        const std::string& name = letter->get();
+        if (name == "x" || name == "y" || name == "z")
+            rotation.letter = name[0];
+        else
+            reading.complain(place_of(axis),
+                             fmt::format("the axis {} is none of \"x\", \"y\", \"z\"; or give a vector of three",
+                                         in_quotes(name)));
+    } else if (const auto* components = axis.as_array(); components && components->size() == 3) {
+        rotation.axis = read_vector(reading, axis, "the axis");
+    } else {
+        reading.complain(
+            place_of(axis),
+            fmt::format("the axis is {}; expected \"x\", \"y\", \"z\" or a vector of three",
+                        components ? fmt::format("an array of {}", components->size()) : kind_of(axis)));
+    }
+    return rotation;
+}
+
+std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
+    std::vector<Rotation> rotations;
+    const Entry* const entry = table.find(key);
+    if (!entry) return rotations;
+    const toml::array* const list = entry->node->as_array();
+    if (!list) {
+        table.complain(key, fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]", table.what(key),
+                                        kind_of(*entry->node)));
+        return rotations;
+    }
+    for (const toml::node& node : *list)
+        if (auto rotation = read_rotation(table.reading(), node, key))
+            rotations.push_back(std::move(*rotation));
+        else
+            break;
+    return rotations;
+}
+
 void read_frame(Table table, Scene& scene) {
-    table.allow({"name", "parent", "rotate"}, {"quaternion"});
+    table.allow({"name", "parent", "rotate", "quaternion"});
     Frame frame;
     frame.name = table.needed_name("name");
     table.entitle(frame.name);
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
-    if (const Entry* const rotate = table.find("rotate")) {
-        const toml::array* const list = rotate->node->as_array();
-        if (!list)
-            table.complain("rotate", fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
-                                                 table.what("rotate"), kind_of(*rotate->node)));
-        else
-            for (const toml::node& node : *list)
-                if (auto rotation = read_rotation(table.reading(), node))
-                    frame.rotations.push_back(std::move(*rotation));
-                else
-                    break;
-    } else if (!table.has("quaternion")) {
-        table.complain("rotate", fmt::format("{} needs 'rotate'", table.title()));
+    if (table.has("quaternion")) {
+        if (table.has("rotate"))
+            table.complain("rotate", fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
+        frame.quaternion = read_quaternion(table);
+    } else if (table.has("rotate")) {
+        frame.rotations = read_rotations(table, "rotate");
+    } else {
+        table.complain("rotate", fmt::format("{} needs 'rotate' or 'quaternion'", table.title()));
     }
     scene.frames.push_back(std::move(frame));
 }
@@ -151,6 +183,7 @@ void read_body(Table table, Scene& scene) {
     body.mass = table.needed_expression("mass");
     if (auto frame = table.name("frame")) body.frame = std::move(*frame);
     body.position = read_position(table, "position", true);
+    body.has_position = table.has("at") || table.has("position");
     body.inertia = read_inertia(table);
     body.about = table.name("about");
     if (body.about && !table.has("inertia"))

@@ -13,10 +13,10 @@ namespace {
 
 class Checker {
 public:
-    Checker(const Scene& scene, const std::vector<std::string>& others, std::vector<Diagnostic>& diagnostics)
+    Checker(const Scene& scene, std::vector<Diagnostic>& diagnostics)
         : scene_(scene),
           diagnostics_(diagnostics),
-          names_(declare(scene, others, diagnostics)),
+          names_(declare(scene, diagnostics)),
           quantities_(names_, diagnostics) {}
 
     void check() {
@@ -24,6 +24,7 @@ public:
         check_speeds();
         check_values();
         check_geometry();
+        check_joints();
         check_masses();
         check_loads();
         check_impulses();
@@ -89,14 +90,45 @@ private:
     void check_geometry() {
         const Legal angle{.subject = "an angle", .order = 0, .input_order = 0, .time = true};
         const Legal axis{.subject = "an axis"};
+        std::unordered_map<std::string, const Frame*> quaternions;  // by coordinate
         for (const Frame& frame : scene_.frames) {
             quantities_.check_frame(frame.parent);
+            for (const Name& name : frame.quaternion) check_quaternion(name, frame, quaternions);
             for (const Rotation& rotation : frame.rotations) {
                 quantities_.check(rotation.angle, angle);
                 check(rotation.axis, axis);
             }
         }
         for (const Point& point : scene_.points) check(point.position);
+    }
+
+    void check_joints() {
+        const Legal constant{.subject = "the place of a joint in its body"}, pitch{.subject = "a pitch"};
+        std::unordered_map<std::string, Place> known;
+        for (const Joint& joint : scene_.joints) {
+            for (const Joint::Side* side : {&joint.parent, &joint.child}) {
+                check(side->point, constant);
+                for (const Rotation& rotation : side->rotate) {
+                    quantities_.check(rotation.angle, constant);
+                    check(rotation.axis, {.subject = "an axis"});
+                }
+            }
+            check(joint.axis.axis, {.subject = "an axis"});
+            quantities_.check(joint.pitch, pitch);
+            if (joint.name.place.line == 0 || !check_name(joint.name)) continue;
+            const auto [first, is_new] = known.emplace(joint.name.text, joint.name.place);
+            if (!is_new)
+                complain(joint.name.place, fmt::format("the name {} is taken: a joint has it on line {}", in_quotes(joint.name.text),
+                                                       first->second.line));
+        }
+    }
+
+    void check_quaternion(const Name& name, const Frame& frame, std::unordered_map<std::string, const Frame*>& taken) {
+        check_coordinate(name);
+        const auto [first, is_new] = taken.emplace(name.text, &frame);
+        if (!is_new)
+            complain(name.place, fmt::format("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
+                                             in_quotes(name.text), in_quotes(first->second->name.text)));
     }
 
     void check(const Position& position) {
@@ -174,7 +206,7 @@ private:
 
     void check_coordinate(const Name& name) {
         const Declared* const declared = NameSpaces::find(names_.values, name.text);
-        if (declared && (declared->kind == Declared::Kind::coordinate || declared->kind == Declared::Kind::other))
+        if (declared && declared->kind == Declared::Kind::coordinate)
             return;
         std::vector<std::string> coordinates;
         for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
@@ -218,11 +250,33 @@ private:
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
             check_constraint_name(rule.name, known);
         }
+        for (const Frame& frame : scene_.frames)
+            if (!frame.quaternion.empty()) check_constraint_name(frame.name, known);
+        for (const RollingRule& rule : scene_.rolling) {
+            check_body(rule.body, false);
+            check_body(rule.on, true);
+            if (rule.body.text == rule.on.text && rule.body.place.line > 0)
+                complain(rule.on.place, fmt::format("{} cannot roll on itself; 'on' is another body, or left out for the ground",
+                                                    in_quotes(rule.on.text)));
+            quantities_.check_frame(rule.axes);
+            check(rule.contact, {.subject = "a contact", .order = 0, .input_order = 0, .time = true});
+            for (const char* axis : {"_x", "_y", "_z"}) check_constraint_name({rule.name.text + axis, rule.name.place}, known);
+        }
         for (const UnilateralRule& rule : scene_.unilateral) {
             quantities_.check(rule.gap, {.subject = "a gap", .order = 0, .input_order = 0, .time = true});
             quantities_.check(rule.restitution, {.subject = "a restitution"});
             check_constraint_name(rule.name, known);
         }
+    }
+
+    void check_body(const Name& name, bool or_ground) {
+        if (name.place.line == 0 || (or_ground && name.text == "N")) return;
+        const Declared* const declared = NameSpaces::find(names_.frames, name.text);
+        if (declared && declared->kind == Declared::Kind::body) return;
+        std::vector<std::string> bodies;
+        for (const Body& b : scene_.bodies) bodies.push_back(b.name.text);
+        complain(name.place, declared ? fmt::format("{} is {}; expected a body", in_quotes(name.text), described(declared->kind))
+                                      : fmt::format("unknown body {}{}", in_quotes(name.text), quantities_.suggestion(name.text, bodies)));
     }
 
     void check_constraint_name(const Name& name, std::unordered_map<std::string, Place>& known) {
@@ -286,15 +340,15 @@ private:
 
 }  // namespace
 
-std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others) {
+std::vector<Diagnostic> check_scene(const Scene& scene) {
     std::vector<Diagnostic> diagnostics;
-    Checker(scene, others, diagnostics).check();
+    Checker(scene, diagnostics).check();
     return diagnostics;
 }
 
 std::vector<Diagnostic> check_claims(const Scene& scene) {
     std::vector<Diagnostic> diagnostics;
-    Checker(scene, {}, diagnostics).check_claims();
+    Checker(scene, diagnostics).check_claims();
     return diagnostics;
 }
 

@@ -10,8 +10,7 @@
 
 namespace alembert {
 
-/// `others` are names that tables of later issues declare: known, but nothing more is said of them.
-std::vector<Diagnostic> check_scene(const Scene& scene, const std::vector<std::string>& others);
+std::vector<Diagnostic> check_scene(const Scene& scene);
 
 /// The same of the claims alone, of a scene that has been read.
 std::vector<Diagnostic> check_claims(const Scene& scene);

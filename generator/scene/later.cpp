@@ -13,21 +13,7 @@ namespace alembert {
 namespace {
 
 void allow(const Table& table, const std::string& name) {
-    if (name == "rolling") table.allow({"name", "body", "contact", "axes", "on"});
     if (name == "polynomial") table.allow({"coefficients"});
-    if (name == "joint")
-        table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate",
-                     "child_rotate", "axis", "pitch", "coordinates", "angles", "motion"});
-}
-
-void add_names(const Table& table, const std::string& section, std::vector<std::string>& names) {
-    if (section != "joint") return;
-    if (const Entry* const own = table.find("name"); own && own->node->is_string())
-        names.push_back(own->node->as_string()->get());
-    if (const Entry* const child = table.find("child"); child && child->node->is_string())
-        names.push_back(child->node->as_string()->get());
-    if (const Entry* const own = table.find("coordinates"); own && own->node->is_table())
-        for (const auto& [key, node] : *own->node->as_table()) names.emplace_back(key.str());
 }
 
 bool is_list(std::string_view name) {
@@ -37,10 +23,10 @@ bool is_list(std::string_view name) {
 }  // namespace
 
 std::vector<std::string> later_sections() {
-    return {"rolling", "joint", "polynomial"};
+    return {"polynomial"};
 }
 
-bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names) {
+bool refuse_later(const Reading& reading, const Entry& entry) {
     const std::vector<std::string> sections = later_sections();
     if (std::find(sections.begin(), sections.end(), entry.key) == sections.end()) return false;
     const std::string title = is_list(entry.key) ? "[[" + entry.key + "]]" : "[" + entry.key + "]";
@@ -54,7 +40,6 @@ bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::s
     for (const toml::table* const node : tables) {
         const Table table(reading, *node, title, place_of(*node));
         allow(table, entry.key);
-        add_names(table, entry.key, names);
     }
     return true;
 }

@@ -13,7 +13,7 @@ namespace alembert {
 
 std::vector<std::string> later_sections();
 
-/// False where `entry` is none of them. NameSpaces that the table declares for expressions are added to `names`.
-bool refuse_later(const Reading& reading, const Entry& entry, std::vector<std::string>& names);
+/// False where `entry` is none of them.
+bool refuse_later(const Reading& reading, const Entry& entry);
 
 }  // namespace alembert

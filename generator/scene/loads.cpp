@@ -106,6 +106,18 @@ void read_constraint(Table table, Scene& scene) {
     scene.constraints.push_back(std::move(rule));
 }
 
+void read_rolling(Table table, Scene& scene) {
+    table.allow({"name", "body", "contact", "axes", "on"});
+    RollingRule rule;
+    rule.name = table.needed_name("name");
+    table.entitle(rule.name);
+    rule.body = table.needed_name("body");
+    rule.contact = table.needed_vector("contact");
+    if (auto axes = table.name("axes")) rule.axes = std::move(*axes);
+    if (auto on = table.name("on")) rule.on = std::move(*on);
+    scene.rolling.push_back(std::move(rule));
+}
+
 void read_unilateral(Table table, Scene& scene) {
     table.allow({"name", "gap", "restitution"});
     UnilateralRule rule;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scene/functions.hpp"
+#include "scene/placing.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -79,6 +80,13 @@ NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& 
 
 }  // namespace
 
+std::array<Name, 3> multipliers_of(const RollingRule& rule) {
+    const std::string stem = "lambda_" + rule.name.text;
+    return {Name{stem + "_x", rule.name.place}, Name{stem + "_y", rule.name.place}, Name{stem + "_z", rule.name.place}};
+}
+
+Name multiplier_of(const Frame& frame) { return {"lambda_" + frame.name.text, frame.name.place}; }
+
 std::string described(Kind kind) {
     switch (kind) {
         case Kind::coordinate:
@@ -99,15 +107,12 @@ std::string described(Kind kind) {
             return "a particle";
         case Kind::body:
             return "a body";
-        case Kind::multiplier:
-            return "a multiplier";
         default:
-            return "a table that is not supported yet";
+            return "a multiplier";
     }
 }
 
-NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
-                   std::vector<Diagnostic>& diagnostics) {
+NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     std::vector<Declaration> values, frames, points;
     add(values, scene.coordinates, Kind::coordinate);
     add(values, scene.speeds, Kind::speed);
@@ -117,8 +122,16 @@ NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
+    for (const Frame& frame : scene.frames)
+        if (!frame.quaternion.empty()) multipliers.push_back(multiplier_of(frame));
+    for (const RollingRule& rule : scene.rolling)
+        for (Name& multiplier : multipliers_of(rule)) multipliers.push_back(std::move(multiplier));
     for (const UnilateralRule& rule : scene.unilateral)
         multipliers.push_back({"lambda_" + rule.name.text, rule.name.place});
+    for (const Joint& joint : scene.joints)
+        if (joint.closes_loop)
+            for (int k = 1; k <= locked_directions(joint.type); ++k)
+                multipliers.push_back({fmt::format("lambda_{}_{}", joint.name.text, k), joint.name.place});
     for (std::size_t i = 0; i < multipliers.size(); ++i)
         if (multipliers[i].place.line > 0) values.push_back({&multipliers[i], Kind::multiplier, i});
     add(frames, scene.frames, Kind::frame);
@@ -135,11 +148,7 @@ NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
     refuse(bodies);
     frames.insert(frames.end(), bodies.begin(), bodies.end());
     points.insert(points.end(), bodies.begin(), bodies.end());
-    NameSpaces names{enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics)};
-    for (const std::string& other : others)
-        for (NameSpaces::Space* space : {&names.values, &names.frames, &names.points})
-            space->emplace(other, Declared{Kind::other, 0, {}});
-    return names;
+    return {enter(values, diagnostics), enter(frames, diagnostics), enter(points, diagnostics)};
 }
 
 std::vector<std::string> spellings(const NameSpaces::Space& space) {

@@ -13,7 +13,7 @@
 namespace alembert {
 
 struct Declared {
-    enum class Kind { coordinate, speed, parameter, input, definition, frame, point, particle, body, multiplier, other };
+    enum class Kind { coordinate, speed, parameter, input, definition, frame, point, particle, body, multiplier };
     Kind kind;
     std::size_t index;  ///< in the scene's list of its kind
     Place place;
@@ -32,10 +32,8 @@ struct NameSpaces {
     }
 };
 
-/// Gathers what the scene declares; illegal, reserved and doubled names are told. `others` belong to tables of
-/// later issues: they are known in all spaces.
-NameSpaces declare(const Scene& scene, const std::vector<std::string>& others,
-                   std::vector<Diagnostic>& diagnostics);
+/// Gathers what the scene declares; illegal, reserved and doubled names are told.
+NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics);
 
 /// All names of a space, for "did you mean".
 std::vector<std::string> spellings(const NameSpaces::Space& space);

@@ -43,7 +43,8 @@ std::string Quantities::suggestion(const std::string& word, const std::vector<st
 void Quantities::describe(const Definition& definition) {
     if (!definition.value.tree) return;
     const Legal anything{.subject = "a definition", .order = 2, .input_order = 2, .time = true};
-    Context context{definition.value, anything};
+    const Legal motion{.subject = "a prescribed motion", .input_order = 0, .time = true};
+    Context context{definition.value, definition.is_motion ? motion : anything};
     need_scalar(context, *definition.value.tree, 0);
     definitions_[definition.name.text] = context.contents;
 }

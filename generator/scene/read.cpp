@@ -8,6 +8,7 @@
 #include "scene/check.hpp"
 #include "scene/later.hpp"
 #include "scene/layout.hpp"
+#include "scene/placing.hpp"
 #include "scene/scene.hpp"
 #include "scene/syntax.hpp"
 #include "scene/tables.hpp"
@@ -45,11 +46,13 @@ constexpr Section sections[] = {
     {"point", true, each<read_point>},
     {"particle", true, each<read_particle>},
     {"body", true, each<read_body>},
+    {"joint", true, each<read_joint>},
     {"force", true, each<read_force>},
     {"torque", true, each<read_torque>},
     {"spring", true, each<read_spring>},
     {"damper", true, each<read_damper>},
     {"constraint", true, each<read_constraint>},
+    {"rolling", true, each<read_rolling>},
     {"unilateral", true, each<read_unilateral>},
     {"impulse", true, each<read_impulse>},
     {"impulses", false, one<read_impulses>},
@@ -108,7 +111,7 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
                                  meant.empty() ? "" : fmt::format("; did you mean '{}'?", meant)));
 }
 
-void read_tables(const Reading& reading, const toml::table& root, Scene& scene, std::vector<std::string>& others) {
+void read_tables(const Reading& reading, const toml::table& root, Scene& scene) {
     const Table top(reading, root, "the scene", {1, 1});
     bool has_later = false;
     for (const Entry& entry : top.entries()) {
@@ -118,7 +121,7 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene, 
             read_section(reading, *section, entry, scene);
         else if (entry.key == "gravity")
             scene.gravity = top.vector("gravity");
-        else if (refuse_later(reading, entry, others))
+        else if (refuse_later(reading, entry))
             has_later = true;
         else if (entry.key != "title" && entry.key != "source" && entry.key != "notes")
             refuse_unknown(reading, entry);
@@ -127,7 +130,11 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene, 
     const bool is_other = coordinates && !coordinates->node->is_table();  // which has been told
     if (scene.coordinates.empty() && !has_later && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
-                         "the scene has no [coordinates]; at least one is needed");
+                         scene.joints.empty() ? "the scene has no [coordinates]; at least one is needed"
+                                              : "the scene has no coordinates, neither in [coordinates] nor in a joint; at "
+                                                "least one is needed");
+    std::stable_sort(scene.coordinates.begin(), scene.coordinates.end(),
+                     [](const Coordinate& a, const Coordinate& b) { return a.name.place < b.name.place; });
     scene.title = top.text("title");
     scene.source = top.text("source");
     scene.notes = top.text("notes");
@@ -166,9 +173,9 @@ Scene parse_scene(std::string text, std::string file) {
     if (layout.is_too_deep) fail(scene, std::move(mistakes));
     const std::optional<toml::table> root = parse_toml(std::move(layout), source, mistakes);
     if (!root) fail(scene, std::move(mistakes));
-    std::vector<std::string> others;
-    read_tables(Reading{source, mistakes, root->contains("joint")}, *root, scene, others);
-    std::vector<Diagnostic> more = check_scene(scene, others);
+    read_tables(Reading{source, mistakes, root->contains("joint")}, *root, scene);
+    place_by_joints(scene, mistakes);
+    std::vector<Diagnostic> more = check_scene(scene);
     mistakes.insert(mistakes.end(), more.begin(), more.end());
     if (!mistakes.empty()) fail(scene, std::move(mistakes));
     return scene;

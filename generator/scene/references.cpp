@@ -86,10 +86,39 @@ private:
                 for (const Expression& component : rotation.axis.component) look(node, component);
             }
         }
-        for (const Body& body : scene_.bodies) target(nodes_[n++], frames_, body.frame.text);
+        for (const Body& body : scene_.bodies) {
+            Node& node = nodes_[n++];
+            if (body.joint)
+                look(node, scene_.joints[*body.joint], frames_);
+            else
+                target(node, frames_, body.frame.text);
+        }
         for (const Point& point : scene_.points) look(nodes_[n++], point.position);
         for (const Particle& particle : scene_.particles) look(nodes_[n++], particle.position);
-        for (const Body& body : scene_.bodies) look(nodes_[n++], body.position);
+        for (const Body& body : scene_.bodies) {
+            Node& node = nodes_[n++];
+            if (body.joint)
+                look(node, scene_.joints[*body.joint], points_);
+            else
+                look(node, body.position);
+        }
+    }
+
+    /// Where the joint places a body, the other one comes first.
+    void look(Node& node, const Joint& joint, const Index& index) {
+        const Joint::Side& other = *joint.places_child ? joint.parent : joint.child;
+        target(node, frames_, other.body.text);
+        target(node, index, other.body.text);
+        for (const Joint::Side* side : {&joint.parent, &joint.child}) {
+            for (const Expression& component : side->point.component) look(node, component);
+            for (const Rotation& rotation : side->rotate) {
+                look(node, rotation.angle);
+                for (const Expression& component : rotation.axis.component) look(node, component);
+            }
+        }
+        for (const Expression& component : joint.axis.axis.component) look(node, component);
+        look(node, joint.pitch);
+        for (const Name& coordinate : joint.coordinates) target(node, values_, coordinate.text);
     }
 
     static void target(Node& node, const Index& index, const std::string& name) {

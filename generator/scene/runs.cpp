@@ -17,12 +17,19 @@ struct Method {
 };
 
 constexpr Method methods[] = {
-    {"auto", true, false},   {"euler", true, true},     {"rk2", false, true},       {"rk4", true, true},
-    {"dopri5", true, false}, {"dop853", true, false},   {"verner76", false, false}, {"verner98", false, false},
-    {"abm", false, false},   {"bdf", false, false},     {"taylor", false, false},   {"radau", false, false},
-    {"verlet", false, true}, {"kahanli8", false, true}, {"gauss", false, true},     {"rattle", false, true},
+    {"auto", true, false},   {"euler", true, true},     {"rk2", true, true},       {"rk4", true, true},
+    {"dopri5", true, false}, {"dop853", true, false},   {"verner76", true, false}, {"verner98", true, false},
+    {"abm", true, false},   {"bdf", true, false},     {"taylor", false, false},   {"radau", true, false},
+    {"verlet", true, true}, {"kahanli8", true, true}, {"gauss", true, true},     {"rattle", false, true},
     {"cvode", false, false}, {"ida", false, false},
 };
+
+std::string with_fixed_steps() {
+    std::vector<std::string_view> names;
+    for (const Method& method : methods)
+        if (method.is_supported && method.takes_step) names.push_back(method.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
 
 /// True for a literal number that is zero or negative, however it is written.
 bool is_not_positive(const Tree& tree) {
@@ -50,9 +57,8 @@ std::optional<Name> read_method(const Table& table) {
         table.reading().complain(name->place, fmt::format("the method '{}' is not supported yet", known->name));
     else if (table.has("step") && !known->takes_step)
         table.complain("step",
-                       fmt::format("only methods with fixed steps (euler, rk4) take 'step'; {} chooses its own: "
-                                   "give 'tolerance'",
-                                   known->name));
+                       fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
+                                   with_fixed_steps(), known->name));
     return name;
 }
 

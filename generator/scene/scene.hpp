@@ -53,6 +53,7 @@ struct Coordinate {
 struct Definition {
     Name name;
     Expression value;
+    bool is_motion = false;  ///< in place of a joint's coordinate: in t, inputs and parameters alone
 };
 
 /// A generalized speed: a form in the rates, linear in them.
@@ -74,6 +75,7 @@ struct Frame {
     Name name;
     Name parent{"N", {}};
     std::vector<Rotation> rotations;
+    std::vector<Name> quaternion = {};  ///< four coordinates, scalar first; then there are no rotations
 };
 
 /// Where something is: `from` the point, by the `offset` along `axes`. (`at = "P"` is P with a zero offset.)
@@ -108,6 +110,29 @@ struct Body {
     Position position;  ///< of the mass centre
     std::optional<Inertia> inertia;
     std::optional<Name> about;
+    bool has_position = true;          ///< the scene gives 'at' or 'position'
+    std::optional<std::size_t> joint;  ///< which one places it; its frame then bears its own name
+};
+
+/// Holds two bodies together. The joint's axes stand in each body as `rotate` says, and come together where all its
+/// coordinates are 0.
+struct Joint {
+    enum class Type { fixed, revolute, prismatic, cylindrical, universal, spherical, planar, screw, free };
+    struct Side {
+        Name body{"N", {}};
+        Vector point;  ///< from the mass centre, along the body's frame
+        std::vector<Rotation> rotate;
+    };
+    Name name;
+    Type type = Type::fixed;
+    Side parent, child;
+    Rotation axis;     ///< its angle is null
+    Expression pitch;  ///< null but for a screw
+    std::string angles;
+    std::vector<Name> coordinates;  ///< those with a prescribed motion among them, in the order of the type
+    bool is_whole = true;              ///< nothing was wrong with its table
+    std::optional<bool> places_child;  ///< or the parent; nothing where it places none
+    bool closes_loop = false;
 };
 
 struct Force {
@@ -163,6 +188,21 @@ struct UnilateralRule {
     Expression restitution;  ///< the number 0 when missing
 };
 
+/// The point of `body` at the mass centre + `contact` has the velocity of the point of `on` there.
+struct RollingRule {
+    Name name;
+    Name body;
+    Vector contact;
+    Name axes{"N", {}};
+    Name on{"N", {}};  ///< the ground
+};
+
+/// "lambda_wheel_x" …: the multipliers of a rolling's rows along the axes of N.
+std::array<Name, 3> multipliers_of(const RollingRule& rule);
+
+/// The multiplier of e·e − 1 = 0, of a frame with a quaternion.
+Name multiplier_of(const Frame& frame);
+
 struct Output {
     Name name;
     Expression value;
@@ -201,6 +241,7 @@ struct Scene {
     std::vector<Point> points;
     std::vector<Particle> particles;
     std::vector<Body> bodies;
+    std::vector<Joint> joints;
     std::vector<Force> forces;
     std::vector<Torque> torques;
     std::vector<Link> springs, dampers;
@@ -210,6 +251,7 @@ struct Scene {
     std::vector<Impulse> impulses;
     std::vector<GeneralizedForce> generalized_impulses;
     std::vector<ConstraintRule> constraints;
+    std::vector<RollingRule> rolling;
     std::vector<UnilateralRule> unilateral;
     std::vector<Output> outputs;
     std::vector<EventRule> events;

@@ -42,30 +42,33 @@ void read_inputs(const Table& table, Scene& scene) {
         scene.inputs.push_back(read_item<Input>(table, entry, labelled("input", entry.key)));
 }
 
-void read_coordinates(const Table& table, Scene& scene) {
-    for (const Entry& entry : table.entries()) {
-        const std::string what = labelled("coordinate", entry.key);
-        Coordinate coordinate{.name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
-        if (const toml::table* const inner = entry.node->as_table()) {
-            const Table keys(table.reading(), *inner, what, entry.place);
-            keys.allow({"initial", "rate", "guess", "rate_guess", "unit", "about"});
-            for (const std::string_view key : {"rate", "rate_guess"})
-                if (const Entry* const rate = keys.find(key)) coordinate.rate_given = rate->place;
-            const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
-                is_guess = keys.has(guess);
-                if (is_guess && keys.has(key))
-                    keys.complain(guess, fmt::format("{} has both '{}' and '{}'; give one", what, key, guess));
-                value = is_guess || keys.has(key) ? keys.expression(is_guess ? guess : key) : zero(entry.place);
-            };
-            start("initial", "guess", coordinate.initial, coordinate.initial_is_guess);
-            start("rate", "rate_guess", coordinate.rate, coordinate.rate_is_guess);
-            coordinate.unit = keys.text("unit");
-            coordinate.about = keys.text("about");
-        } else {
-            coordinate.initial = read_expression(table.reading(), *entry.node, what);
-        }
-        scene.coordinates.push_back(std::move(coordinate));
+Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
+    const std::string what = labelled("coordinate", entry.key);
+    Coordinate coordinate{.name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
+    const toml::table* const inner = entry.node->as_table();
+    if (!inner) {
+        coordinate.initial = read_expression(reading, *entry.node, what);
+        return coordinate;
     }
+    const Table keys(reading, *inner, what, entry.place);
+    keys.allow({"initial", "rate", "guess", "rate_guess", "unit", "about"});
+    for (const std::string_view key : {"rate", "rate_guess"})
+        if (const Entry* const rate = keys.find(key)) coordinate.rate_given = rate->place;
+    const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
+        is_guess = keys.has(guess);
+        if (is_guess && keys.has(key))
+            keys.complain(guess, fmt::format("{} has both '{}' and '{}'; give one", what, key, guess));
+        value = is_guess || keys.has(key) ? keys.expression(is_guess ? guess : key) : zero(entry.place);
+    };
+    start("initial", "guess", coordinate.initial, coordinate.initial_is_guess);
+    start("rate", "rate_guess", coordinate.rate, coordinate.rate_is_guess);
+    coordinate.unit = keys.text("unit");
+    coordinate.about = keys.text("about");
+    return coordinate;
+}
+
+void read_coordinates(const Table& table, Scene& scene) {
+    for (const Entry& entry : table.entries()) scene.coordinates.push_back(read_coordinate(table.reading(), entry));
 }
 
 void read_speeds(const Table& table, Scene& scene) {

@@ -11,6 +11,7 @@ namespace alembert {
 void read_parameters(const Table& table, Scene& scene);
 void read_inputs(const Table& table, Scene& scene);
 void read_coordinates(const Table& table, Scene& scene);
+Coordinate read_coordinate(const Reading& reading, const Entry& entry);
 void read_speeds(const Table& table, Scene& scene);
 void read_definitions(const Table& table, Scene& scene);
 void read_energy(const Table& table, Scene& scene);
@@ -24,6 +25,12 @@ void read_frame(Table table, Scene& scene);
 void read_point(Table table, Scene& scene);
 void read_particle(Table table, Scene& scene);
 void read_body(Table table, Scene& scene);
+std::vector<Rotation> read_rotations(const Table& table, std::string_view key);
+/// A rotation's axis; the angle is left null.
+Rotation read_axis(const Reading& reading, const toml::node& node);
+
+// joints.cpp: what holds them together
+void read_joint(Table table, Scene& scene);
 
 // loads.cpp: what acts on them
 void read_force(Table table, Scene& scene);
@@ -32,6 +39,7 @@ void read_torque(Table table, Scene& scene);
 void read_spring(Table table, Scene& scene);
 void read_damper(Table table, Scene& scene);
 void read_constraint(Table table, Scene& scene);
+void read_rolling(Table table, Scene& scene);
 void read_unilateral(Table table, Scene& scene);
 
 // runs.cpp: what is to be done

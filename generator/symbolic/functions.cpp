@@ -12,6 +12,14 @@ REGISTER_FUNCTION(minimum, dummy())
 REGISTER_FUNCTION(maximum, dummy())
 
 namespace {
+ex absolute_eval(const ex& x) {
+    if (GiNaC::is_a<GiNaC::numeric>(x)) return GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(x));
+    return absolute(x).hold();
+}
+}  // namespace
+REGISTER_FUNCTION(absolute, eval_func(absolute_eval))
+
+namespace {
 
 struct Unary {
     const char* name;         // in the scene language
@@ -20,7 +28,7 @@ struct Unary {
     ex (*derivative)(const ex& x, const ex& call);
 };
 
-// GiNaC's own derivatives of abs and csgn are those of complex functions; everything here is real.
+// GiNaC's own derivatives of csgn are those of complex functions; everything here is real.
 const std::array<Unary, 13> unary{{
     {"sin", "sin", [](const ex& x) -> ex { return sin(x); }, [](const ex& x, const ex&) -> ex { return cos(x); }},
     {"cos", "cos", [](const ex& x) -> ex { return cos(x); }, [](const ex& x, const ex&) -> ex { return -sin(x); }},
@@ -36,7 +44,7 @@ const std::array<Unary, 13> unary{{
     {"tanh", "tanh", [](const ex& x) -> ex { return tanh(x); }, [](const ex&, const ex& y) -> ex { return 1 - y * y; }},
     {"exp", "exp", [](const ex& x) -> ex { return exp(x); }, [](const ex&, const ex& y) -> ex { return y; }},
     {"log", "log", [](const ex& x) -> ex { return log(x); }, [](const ex& x, const ex&) -> ex { return 1 / x; }},
-    {"abs", "abs", [](const ex& x) -> ex { return abs(x); }, [](const ex& x, const ex&) -> ex { return csgn(x); }},
+    {"abs", "absolute", [](const ex& x) -> ex { return absolute(x); }, [](const ex& x, const ex&) -> ex { return csgn(x); }},
     {"sign", "csgn", [](const ex& x) -> ex { return csgn(x); }, [](const ex&, const ex&) -> ex { return 0; }},
 }};
 

@@ -16,6 +16,9 @@ namespace alembert {
 DECLARE_FUNCTION_2P(minimum)
 DECLARE_FUNCTION_2P(maximum)
 
+/// |x| of a real x: GiNaC's abs makes x times its conjugate of a square.
+DECLARE_FUNCTION_1P(absolute)
+
 /// `name(args)` as a GiNaC expression; nothing where the language has no such function.
 std::optional<GiNaC::ex> apply_function(const std::string& name, const std::vector<GiNaC::ex>& args);
 

@@ -105,7 +105,8 @@ private:
     }
 
     Fourier function(const GiNaC::ex& e) {
-        const std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
+        std::string name = GiNaC::ex_to<GiNaC::function>(e).get_name();
+        if (name == "absolute") name = "abs";
         std::vector<Polynomial> args;
         for (std::size_t i = 0; i < e.nops(); ++i) args.push_back((*this)(e.op(i)).polynomial());
         if (budget_.spent) return {};

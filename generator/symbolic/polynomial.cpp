@@ -8,6 +8,8 @@
 
 #include <cln/integer.h>
 
+#include "symbolic/functions.hpp"
+
 namespace alembert {
 
 namespace {
@@ -297,6 +299,7 @@ GiNaC::ex expression(const AtomNode& atom) {
             break;
     }
     if (atom.name == "pow") return GiNaC::pow(args.at(0), args.at(1));
+    if (atom.name == "abs") return absolute(args.at(0));
     const auto count = static_cast<unsigned>(args.size());
     return GiNaC::function(GiNaC::function::find_function(atom.name, count), args);
 }

@@ -4,17 +4,23 @@
 #include <ctime>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "alembert/abm.hpp"
+#include "alembert/bdf.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/error.hpp"
+#include "alembert/gauss.hpp"
+#include "alembert/radau.hpp"
 #include "alembert/run.hpp"
+#include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
+#include "alembert/verner.hpp"
 
 namespace alembert {
 namespace {
@@ -56,9 +62,9 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
           fmt::format("sample = {}: more than {:g} rows", options.sample, most_rows));
 }
 
-template <const auto& tableau>
+template <class AnyStep>
 Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {
-    return Run<tableau>(rhs, initial, options, events).go();
+    return Run<AnyStep>(rhs, initial, options, events).go();
 }
 
 struct MethodEntry {
@@ -68,10 +74,20 @@ struct MethodEntry {
     Trajectory (*run)(const Rhs&, const std::vector<double>&, const Options&, const Events&);
 };
 
-constexpr std::array<MethodEntry, 4> methods = {{{Method::euler, "euler", true, run<euler_tableau>},
-                                                 {Method::rk4, "rk4", true, run<rk4_tableau>},
-                                                 {Method::dopri5, "dopri5", false, run<dopri5_tableau>},
-                                                 {Method::dop853, "dop853", false, run<dop853_tableau>}}};
+/// In the order of Method.
+constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler_tableau>>},
+                                   {Method::rk2, "rk2", true, run<Step<rk2_tableau>>},
+                                   {Method::rk4, "rk4", true, run<Step<rk4_tableau>>},
+                                   {Method::dopri5, "dopri5", false, run<Step<dopri5_tableau>>},
+                                   {Method::dop853, "dop853", false, run<Step<dop853_tableau>>},
+                                   {Method::verner76, "verner76", false, run<Step<verner76_tableau>>},
+                                   {Method::verner98, "verner98", false, run<Step<verner98_tableau>>},
+                                   {Method::verlet, "verlet", true, run<Stepper<Verlet>>},
+                                   {Method::kahanli8, "kahanli8", true, run<Stepper<KahanLi8>>},
+                                   {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
+                                   {Method::abm, "abm", false, run<Stepper<Abm>>},
+                                   {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
+                                   {Method::radau, "radau", false, run<Stepper<Radau>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
@@ -85,12 +101,23 @@ std::string_view name(Method method) {
 
 std::optional<Method> method_named(std::string_view name) {
     const auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const auto& one) { return one.name == name; });
-    return found != methods.end() ? std::optional(found->method) : std::nullopt;
+        std::find_if(std::begin(methods), std::end(methods), [&](const auto& one) { return one.name == name; });
+    return found != std::end(methods) ? std::optional(found->method) : std::nullopt;
 }
 
 bool has_fixed_step(Method method) {
     return entry(method).fixed_step;
+}
+
+std::string method_names() {
+    std::string names;
+    for (const MethodEntry& one : methods)
+        names += fmt::format("{}{}", &one == std::begin(methods) ? "" : &one + 1 == std::end(methods) ? " or " : ", ", one.name);
+    return names;
+}
+
+bool needs_separable(Method method) {
+    return method == Method::verlet || method == Method::kahanli8;
 }
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,

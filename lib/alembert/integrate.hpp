@@ -7,11 +7,21 @@
 ///     const Trajectory motion = integrate(rhs, {0.5, 0.0}, {.duration = 10, .tolerance = 1e-12});
 ///     const std::span<const double> end = motion.final_state();
 ///
-/// | method | order | steps | dense output |
-/// | --- | --- | --- | --- |
-/// | euler, rk4 | 1, 4 | fixed, `step` | cubic Hermite |
-/// | dopri5 | 5, estimate of order 4 | adaptive | order 4 |
-/// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 |
+/// | method | order | steps | dense output | stable for hλ (y' = λy) |
+/// | --- | --- | --- | --- | --- |
+/// | euler | 1 | fixed, `step` | cubic Hermite | in the disc around -1 of radius 1 |
+/// | rk2 | 2 | fixed | cubic Hermite | -2 < hλ < 0; nowhere on the imaginary axis |
+/// | rk4 | 4 | fixed | cubic Hermite | -2.79 < hλ < 0; on the imaginary axis to 2.83 |
+/// | dopri5 | 5, estimate of order 4 | adaptive | order 4 | -3.31 < hλ < 0 |
+/// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
+/// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
+/// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
+////// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
+/// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
+/// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0 (iteration: hλ below about 2) |
+/// | abm | 4 | adaptive | order 4 | -1.28 < hλ < 0 |
+/// | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of 90°, 90°, 86°, 73°, 51° to either side |
+/// | radau | 5, estimate of order 3 | adaptive, stiff | order 3 | everywhere left of 0; damps stiff parts |
 ///
 /// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
 /// as given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step
@@ -24,6 +34,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,12 +44,16 @@
 
 namespace alembert {
 
-enum class Method { euler, rk4, dopri5, dop853 };
+enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau };
 
 /// "dop853" and so on.
 std::string_view name(Method method);
 std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
+/// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
+bool needs_separable(Method method);
+/// "euler, rk2, ... or verner98", for messages.
+std::string method_names();
 
 /// Called with the start, then with the end of each accepted step (or the event that cuts it short).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
@@ -48,7 +63,7 @@ struct Options {
     double start = 0;
     double duration = 0;      ///< from the start; 0 gives one row
     double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;          ///< the step of euler and rk4; first step of the others, 0: found automatically
+    double step = 0;          ///< of methods with a fixed step; first step of the others, 0: found automatically
     double longest_step = 0;  ///< adaptive methods; 0: no bound
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample

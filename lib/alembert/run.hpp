@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One integration with the method of a tableau, from options that have been checked to a trajectory. This is
-/// the inside of `integrate`: call that.
+/// One integration by steps of one kind, from options that have been checked to a trajectory. This is the inside
+/// of `integrate`: call that.
 ///
-///     Trajectory motion = Run<dop853_tableau>(rhs, initial, options, events).go();
+///     Trajectory motion = Run<Step<dop853_tableau>>(rhs, initial, options, events).go();
+///     Trajectory motion = Run<Stepper<Gauss>>(rhs, initial, options, events).go();
+///
+/// A step is what has the members of Step (step.hpp). One that has `next_length(ratio)` chooses the length of the
+/// next step itself, because it chooses more with it (an order, or whether to keep a factorization).
 ///
 /// The order of things in an accepted step: events in it are found and told with the rows before them, an event
 /// that stops ends the run; then the other rows; then the end of the step becomes the start of the next. Throws
@@ -31,7 +35,7 @@ inline double sample_interval(const Options& options) {
 }
 
 /// A run with one method: its step, and what is collected on the way.
-template <const auto& tableau>
+template <class AnyStep>
 class Run {
 public:
     Run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
@@ -39,7 +43,7 @@ public:
           end_(options.start + options.duration),
           grid_(options.grid.value_or(options.start)),
           events_(events),
-          step_(rhs, options.start, initial),
+          step_(rhs, options.start, initial, options.tolerance),
           watch_(events, rhs),
           row_(initial.size()),
           event_rate_(initial.size()) {
@@ -77,7 +81,7 @@ private:
     bool ended() const { return result_.ending != Ending::completed; }
 
     void steps() {
-        if constexpr (tableau.error_rows == 0)
+        if constexpr (AnyStep::has_fixed_step)
             fixed_steps();
         else
             adaptive_steps();
@@ -95,11 +99,11 @@ private:
 
     void adaptive_steps() {
         const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
-        StepSize control(tableau.estimate_order);
+        StepSize control(AnyStep::estimate_order);
         double h = options_.step;
         if (h == 0) {
             h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), options_.tolerance,
-                              tableau.estimate_order, longest);
+                              AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }
         double misfit = 0;
@@ -112,14 +116,21 @@ private:
             step_.attempt(step_.time() + 1.01 * h < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
             if (misfit <= options_.tolerance && !finish()) misfit = HUGE_VAL;
-            if (misfit <= options_.tolerance) {
-                h = control.after_accepted(step_.length(), misfit / options_.tolerance);
+            const bool good = misfit <= options_.tolerance;
+            if (good)
                 accept();
-            } else {
-                h = control.after_rejected(step_.length(), misfit / options_.tolerance);
+            else
                 ++result_.statistics.rejected;
-            }
+            h = next_length(control, good, misfit / options_.tolerance);
         }
+    }
+
+    double next_length(StepSize& control, bool accepted, double ratio) {
+        if constexpr (requires { step_.next_length(accepted, ratio); })
+            return step_.next_length(accepted, ratio);
+        else
+            return accepted ? control.after_accepted(step_.length(), ratio)
+                            : control.after_rejected(step_.length(), ratio);
     }
 
     bool finish() {
@@ -195,7 +206,7 @@ private:
     }
 
     bool is_over_budget() {
-        if (evaluations() + tableau.all_stages <= options_.budget) return false;
+        if (evaluations() + step_.most_evaluations() <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
              fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget "
                          "(--budget), loosen the tolerance or shorten the duration",
@@ -205,6 +216,12 @@ private:
 
     void fail_fixed() {
         const int bad = step_.worst_component();
+        if constexpr (requires { step_.solved(); })
+            if (!step_.solved() && std::isfinite(step_.rate()[bad]))
+                return fail(FailureKind::not_a_number, -1,
+                            fmt::format("the equations of {} could not be solved for the step after t = {:.17g}; take a "
+                                        "shorter step, or radau for a stiff system",
+                                        name(options_.method), step_.time()));
         fail(FailureKind::not_a_number, bad,
              fmt::format(
                  "{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
@@ -244,7 +261,7 @@ private:
     const double end_;
     const double grid_;  ///< where rows are counted from
     const Events& events_;
-    Step<tableau> step_;
+    AnyStep step_;
     EventWatch watch_;
     Trajectory result_;
     std::vector<double> row_;

@@ -51,7 +51,12 @@ class Step {
     static constexpr int stages = tableau.stages;
 
 public:
-    Step(const Rhs& rhs, double t, std::span<const double> state)
+    static constexpr bool has_fixed_step = tableau.error_rows == 0;
+    static constexpr int estimate_order = tableau.estimate_order;
+    static constexpr int most_evaluations() { return tableau.all_stages; }
+
+    /// The tolerance is for steps that solve equations; here there are none.
+    Step(const Rhs& rhs, double t, std::span<const double> state, double /*tolerance*/ = 0)
         : rhs_(rhs),
           controlled_(rhs.dimension - rhs.extra),
           blocks_((rhs.dimension + width - 1) / width),

@@ -19,7 +19,7 @@
 ///
 /// Without rows d this is the cubic Hermite polynomial.
 ///
-/// Sources: Kutta 1901 for rk4; Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19-26 for dopri5, RK5(4)7M; its
+/// Sources: Runge 1895 for rk2 (the midpoint rule); Kutta 1901 for rk4; Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19-26 for dopri5, RK5(4)7M; its
 /// fourth-order continuous extension is Shampine's, as in Hairer, Nørsett, Wanner, §II.6 and table II.5.2.
 
 #include <array>
@@ -46,6 +46,15 @@ struct Tableau {
 
 inline constexpr Tableau<1, 0, 0, 0> euler_tableau{
     .order = 1, .dense_order = 1, .estimate_order = 0, .c = {0, 1}, .a = {{{}, {1}}}, .e = {}, .d = {}};
+
+/// The explicit midpoint rule.
+inline constexpr Tableau<2, 0, 0, 0> rk2_tableau{.order = 2,
+                                                 .dense_order = 3,
+                                                 .estimate_order = 0,
+                                                 .c = {0, 1. / 2, 1},
+                                                 .a = {{{}, {1. / 2}, {0, 1}}},
+                                                 .e = {},
+                                                 .d = {}};
 
 inline constexpr Tableau<4, 0, 0, 0> rk4_tableau{
     .order = 4,

@@ -1,0 +1,337 @@
+// Equations of motion of 'double_pendulum_joints': lagrange, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  q1 [rad], q2 [rad], then their rates
+//   par    m1 [kg], m2 [kg], l1 [m], l2 [m], g [m/s^2]
+//   cost   32 operations a right-hand side: 10 additions, 17 multiplications, 1 divisions, 4 functions
+//
+// M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+//
+//   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
+//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
+//
+// Angles beyond 1e8, infinities and NaN go to libm.
+
+using real2 = double __attribute__((vector_size(16)));
+using real4 = double __attribute__((vector_size(32)));
+using real8 = double __attribute__((vector_size(64)));
+using bits2 = long long __attribute__((vector_size(16)));
+using bits4 = long long __attribute__((vector_size(32)));
+using bits8 = long long __attribute__((vector_size(64)));
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
+
+#if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
+inline bool is_near(double) { return false; }  // the reduction does not survive sums in another order
+#else
+[[gnu::always_inline]] inline bool is_near(double x) { return __builtin_fabs(x) <= 1e8; }
+#endif
+
+template <typename Bits, typename Real>
+[[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
+    constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
+    const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
+    const Bits k = __builtin_bit_cast(Bits, shifted);
+    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
+    const Real hi = rest - third, taken = hi - rest;
+    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real z = hi * hi, zz = z * z;
+    const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
+                   zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
+    const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
+                   zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
+    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
+    const Bits differ = (s_bits ^ c_bits) & odd;
+    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
+    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+}
+
+[[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
+    sine = __builtin_sin(x);
+    cosine = __builtin_cos(x);
+}
+
+[[gnu::always_inline]] inline pair<double> sincos(double x) {
+    pair<double> result;
+    if (__builtin_expect(is_near(x), 1))
+        sines_near<long long>(x, result.s, result.c);
+    else
+        sines_far(x, result.s, result.c);
+    return result;
+}
+
+template <typename Wide, typename Bits, typename... Angle>
+[[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
+    sines<double, sizeof...(Angle)> result;
+    Wide s, c;
+    sines_near<Bits>(Wide{x...}, s, c);
+    for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
+    if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
+    int i = 0;
+    ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
+    return result;
+}
+
+inline double sin(double x) { return sincos(x).s; }
+inline double cos(double x) { return sincos(x).c; }
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// Of two to eight angles.
+template <typename Real, typename... Angle>
+[[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
+    constexpr unsigned count = 1 + sizeof...(Angle);
+    if constexpr (!__is_same(Real, double))
+        return { {sin(first), sin(x)...}, {cos(first), cos(x)...} };
+    else if constexpr (count == 2)
+        return sincos_in<real2, bits2>(first, x...);
+    else if constexpr (count <= 4)
+        return sincos_in<real4, bits4>(first, x...);
+    else
+        return sincos_in<real8, bits8>(first, x...);
+}
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l1 = par[2], &l2 = par[3], &g = par[4];
+
+    // Constants
+    const Real k0 = m1 * l1 * l1;
+    const Real M11 = m2 * l2 * l2;
+    const Real k1 = k0 + m2 * l1 * l1 + M11;
+    const Real k2 = m2 * l1 * l2;
+    const Real k3 = Real(2) * k2;
+    const Real k4 = l1 * g * (m1 + m2);
+    const Real k5 = m2 * l2 * g;
+    const Real k6 = Real(1) / M11;
+    const Real k7 = l1 * l1 + l2 * l2;
+    const Real k8 = Real(2) * l1 * l2;
+    const Real k9 = Real(0.5) * M11;
+    const Real k10 = m2 * l2;
+
+    // Result
+    par[5] = k0;
+    par[6] = M11;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+    par[15] = k9;
+    par[16] = k10;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &q1 = state[0], &q2 = state[1], &q1_dot = state[2], &q2_dot = state[3];
+    const Real &M11 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
+    const Real &k6 = par[12];
+
+    // Trigonometry
+    const Real phi0 = q1 + q2;
+    const auto trig0 = sincos(q2, q1, phi0);
+    const Real sin_q2 = trig0.sine[0], cos_q2 = trig0.cosine[0], sin_q1 = trig0.sine[1], sin_phi0 = trig0.sine[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M00 = k1 + k3 * cos_q2;
+    const Real M10 = M11 + k2 * cos_q2;
+
+    // Forcing f
+    const Real z0 = k5 * sin_phi0;
+    const Real z1 = q2_dot * (k2 * q2_dot + k3 * q1_dot) * sin_q2;
+    const Real z2 = (k4 * sin_q1 + z0) - z1;
+    const Real f0 = -z2;
+    const Real z3 = k2 * q1_dot * q1_dot * sin_q2 + z0;
+    const Real f1 = -z3;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z4 = k6 * M10;
+    const Real z5 = Real(1) / (M00 - M10 * z4);
+    const Real z6 = z5 * (z2 - z4 * z3);
+    const Real q1_ddot = -z6;
+    const Real q2_ddot = z6 * z4 - k6 * z3;
+
+    // Result
+    rate[0] = q1_dot;
+    rate[1] = q2_dot;
+    rate[2] = q1_ddot;
+    rate[3] = q2_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &q1 = state[0], &q2 = state[1], &q1_dot = state[2], &q2_dot = state[3];
+    const Real &M11 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
+
+    // Trigonometry
+    const Real phi0 = q1 + q2;
+    const auto trig0 = sincos(q2, q1, phi0);
+    const Real sin_q2 = trig0.sine[0], cos_q2 = trig0.cosine[0], sin_q1 = trig0.sine[1], sin_phi0 = trig0.sine[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M00 = k1 + k3 * cos_q2;
+    const Real M10 = M11 + k2 * cos_q2;
+
+    // Forcing f
+    const Real z0 = k5 * sin_phi0;
+    const Real z1 = q2_dot * (k2 * q2_dot + k3 * q1_dot) * sin_q2;
+    const Real f0 = z1 - (k4 * sin_q1 + z0);
+    const Real f1 = -k2 * q1_dot * q1_dot * sin_q2 - z0;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = M10;
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &q1 = state[0], &q2 = state[1], &q1_dot = state[2], &q2_dot = state[3];
+    const Real &m2 = par[1], &l1 = par[2], &l2 = par[3], &k0 = par[5], &k4 = par[10], &k5 = par[11];
+    const Real &k7 = par[13], &k8 = par[14], &k9 = par[15], &k10 = par[16];
+
+    // Trigonometry
+    const Real phi0 = q1 + q2;
+    const auto trig0 = sincos(q2, q1, phi0);
+    const Real cos_q2 = trig0.cosine[0], cos_q1 = trig0.cosine[1], cos_phi0 = trig0.cosine[2];
+
+    // Energy
+    const Real z0 = q1_dot * q1_dot * (k0 + m2 * (k7 + k8 * cos_q2));
+    const Real z1 = k10 * q1_dot * (l2 + l1 * cos_q2);
+    const Real T = Real(0.5) * z0 + q2_dot * (k9 * q2_dot + z1);
+    const Real z2 = k4 * cos_q1 + k5 * cos_phi0;
+    const Real V = -z2;
+    const Real E = T - z2;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+
+
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+
+
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "q1", "q2", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "m1", "m2", "l1", "l2", "g", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 1, 1, 0.8, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    3, 2, 2, 5, 12, 0, 0, 0, "double_pendulum_joints", "lagrange, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,549 @@
+// Equations of motion of 'rolling_disc_in_space': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  x [m], y [m], psi [rad], theta [rad], phi [rad], then their rates
+//   par    m [kg], r [m], g [m/s^2]
+//   cost   164 operations a right-hand side: 53 additions, 102 multiplications, 5 divisions, 4 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {
+
+inline double tan(double x) { return __builtin_tan(x); }
+inline double asin(double x) { return __builtin_asin(x); }
+inline double acos(double x) { return __builtin_acos(x); }
+inline double atan(double x) { return __builtin_atan(x); }
+inline double sinh(double x) { return __builtin_sinh(x); }
+inline double cosh(double x) { return __builtin_cosh(x); }
+inline double tanh(double x) { return __builtin_tanh(x); }
+inline double exp(double x) { return __builtin_exp(x); }
+inline double log(double x) { return __builtin_log(x); }
+inline double sqrt(double x) { return __builtin_sqrt(x); }
+inline double abs(double x) { return __builtin_fabs(x); }
+inline double pow(double x, double y) { return __builtin_pow(x, y); }
+inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
+template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+
+// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+//
+//   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
+//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
+//
+// Angles beyond 1e8, infinities and NaN go to libm.
+
+using real2 = double __attribute__((vector_size(16)));
+using real4 = double __attribute__((vector_size(32)));
+using real8 = double __attribute__((vector_size(64)));
+using bits2 = long long __attribute__((vector_size(16)));
+using bits4 = long long __attribute__((vector_size(32)));
+using bits8 = long long __attribute__((vector_size(64)));
+
+template <typename Real> struct pair { Real s, c; };
+template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
+
+#if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
+inline bool is_near(double) { return false; }  // the reduction does not survive sums in another order
+#else
+[[gnu::always_inline]] inline bool is_near(double x) { return __builtin_fabs(x) <= 1e8; }
+#endif
+
+template <typename Bits, typename Real>
+[[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
+    constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
+    const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
+    const Bits k = __builtin_bit_cast(Bits, shifted);
+    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
+    const Real hi = rest - third, taken = hi - rest;
+    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real z = hi * hi, zz = z * z;
+    const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
+                   zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
+    const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
+                   zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
+    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
+    const Bits differ = (s_bits ^ c_bits) & odd;
+    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
+    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+}
+
+[[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
+    sine = __builtin_sin(x);
+    cosine = __builtin_cos(x);
+}
+
+[[gnu::always_inline]] inline pair<double> sincos(double x) {
+    pair<double> result;
+    if (__builtin_expect(is_near(x), 1))
+        sines_near<long long>(x, result.s, result.c);
+    else
+        sines_far(x, result.s, result.c);
+    return result;
+}
+
+template <typename Wide, typename Bits, typename... Angle>
+[[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
+    sines<double, sizeof...(Angle)> result;
+    Wide s, c;
+    sines_near<Bits>(Wide{x...}, s, c);
+    for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
+    if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
+    int i = 0;
+    ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
+    return result;
+}
+
+inline double sin(double x) { return sincos(x).s; }
+inline double cos(double x) { return sincos(x).c; }
+template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
+
+/// Of two to eight angles.
+template <typename Real, typename... Angle>
+[[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
+    constexpr unsigned count = 1 + sizeof...(Angle);
+    if constexpr (!__is_same(Real, double))
+        return { {sin(first), sin(x)...}, {cos(first), cos(x)...} };
+    else if constexpr (count == 2)
+        return sincos_in<real2, bits2>(first, x...);
+    else if constexpr (count <= 4)
+        return sincos_in<real4, bits4>(first, x...);
+    else
+        return sincos_in<real8, bits8>(first, x...);
+}
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &g = par[2];
+
+    // Constants
+    const Real k0 = m * r;
+    const Real z0 = m * r * r;
+    const Real k1 = Real(0.25) * z0;
+    const Real M33 = Real(1.25) * z0;
+    const Real M44 = Real(0.5) * z0;
+    const Real k2 = Real(2) * k0;
+    const Real k3 = Real(2.5) * z0;
+    const Real k4 = m * r * g;
+    const Real z1 = Real(1) / z0;
+    const Real k5 = Real(0.8) * z1;
+    const Real k6 = Real(2) * z1;
+    const Real k7 = Real(0.625) * z0;
+    const Real k8 = Real(0.5) * m;
+    const Real k9 = Real(0.125) * z0;
+
+    // Result
+    par[3] = k0;
+    par[4] = k1;
+    par[5] = M33;
+    par[6] = M44;
+    par[7] = k2;
+    par[8] = k3;
+    par[9] = k4;
+    par[10] = k5;
+    par[11] = k6;
+    par[12] = k7;
+    par[13] = k8;
+    par[14] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
+    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Shared terms
+    const Real z0 = k0 * sin_theta;
+
+    // Mass matrix M(q), lower triangle
+    const Real M20 = z0 * cos_psi;
+    const Real M21 = z0 * sin_psi;
+    const Real M22 = k1 + M33 * sin_theta * sin_theta;
+    const Real z1 = k0 * cos_theta;
+    const Real M30 = z1 * sin_psi;
+    const Real z2 = z1 * cos_psi;
+    const Real M31 = -z2;
+    const Real M42 = M44 * sin_theta;
+
+    // Forcing f
+    const Real z3 = psi_dot * cos_theta;
+    const Real z4 = theta_dot * z3;
+    const Real z5 = k2 * z4;
+    const Real z6 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real z7 = z5 * cos_psi - M21 * z6;
+    const Real f0 = -z7;
+    const Real z8 = z5 * sin_psi + M20 * z6;
+    const Real f1 = -z8;
+    const Real z9 = M44 * phi_dot;
+    const Real z10 = theta_dot * (z9 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real f2 = -z10;
+    const Real z11 = (k4 + M33 * psi_dot * z3) * sin_theta;
+    const Real f3 = z9 * z3 + z11;
+    const Real z12 = M44 * z4;
+    const Real f4 = -z12;
+
+    // Constraints A q'' = gamma
+    const Real z13 = r * cos_psi;
+    const Real A0_4 = -z13;
+    const Real z14 = r * sin_psi;
+    const Real z15 = psi_dot * phi_dot;
+    const Real z16 = z14 * z15;
+    const Real gamma0 = -z16;
+    const Real A1_4 = -z14;
+    const Real gamma1 = z13 * z15;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z17 = k5 * M30;
+    const Real z18 = k5 * z2;
+    const Real z19 = M30 * z18;
+    const Real z20 = Real(1) / (m - z2 * z18);
+    const Real z21 = z19 * z20;
+    const Real z22 = (m - M30 * z17) - z19 * z21;
+    const Real z23 = M21 * z20;
+    const Real z24 = M20 - z19 * z23;
+    const Real z25 = k6 * M42;
+    const Real z26 = Real(1) / ((M22 - M42 * z25) - M21 * z23);
+    const Real z27 = z24 * z26;
+    const Real z28 = Real(1) / (z22 - z24 * z27);
+    const Real z29 = z8 - z18 * f3;
+    const Real z30 = (z7 + z17 * f3) - z21 * z29;
+    const Real z31 = (z10 - z12 * z25) - z23 * z29;
+    const Real z32 = z30 - z27 * z31;
+    const Real z33 = k6 * z13;
+    const Real z34 = M42 * z33;
+    const Real z35 = z34 * z26;
+    const Real z36 = z24 * z35 - Real(1);
+    const Real z37 = z36 * z28;
+    const Real z38 = (z33 * z13 + z34 * z35) + z36 * z37;
+    const Real z39 = k6 * z14;
+    const Real z40 = M42 * z39 - z23;
+    const Real z41 = z40 * z26;
+    const Real z42 = z21 + z24 * z41;
+    const Real z43 = z42 * z28;
+    const Real z44 = (z39 * z13 + z34 * z41) + z36 * z43;
+    const Real z45 = (z39 * z14 + z20) + z40 * z41;
+    const Real z46 = Real(1) / (z45 + z42 * z43);
+    const Real z47 = z44 * z46;
+    const Real z48 = (z33 * z12 + z16) - z35 * z31;
+    const Real z49 = z20 * z29;
+    const Real z50 = ((z39 * z12 - gamma1) - z49) - z41 * z31;
+    const Real z51 = z50 + z32 * z43;
+    const Real z52 = (z48 + z37 * z32) - z51 * z47;
+    const Real z53 = z52 / (z38 - z44 * z47);
+    const Real z54 = z46 * z51 - z47 * z53;
+    const Real z55 = z28 * z32 - z37 * z53 - z43 * z54;
+    const Real x_ddot = -z55;
+    const Real z56 = z26 * z31;
+    const Real z57 = z56 + z35 * z53 + z41 * z54 - z27 * z55;
+    const Real z58 = z49 + z20 * z54 - z21 * z55 - z23 * z57;
+    const Real y_ddot = -z58;
+    const Real psi_ddot = -z57;
+    const Real theta_ddot = k5 * f3 + z17 * z55 - z18 * z58;
+    const Real z59 = k6 * z12;
+    const Real z60 = z59 - z33 * z53 - z39 * z54 - z25 * z57;
+    const Real phi_ddot = -z60;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = psi_dot;
+    rate[3] = theta_dot;
+    rate[4] = phi_dot;
+    rate[5] = x_ddot;
+    rate[6] = y_ddot;
+    rate[7] = psi_ddot;
+    rate[8] = theta_ddot;
+    rate[9] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7], &k3 = par[8];
+    const Real &k4 = par[9];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = k0 * sin_theta;
+    const Real M20 = z0 * cos_psi;
+    const Real M21 = z0 * sin_psi;
+    const Real M22 = k1 + M33 * sin_theta * sin_theta;
+    const Real z1 = k0 * cos_theta;
+    const Real M30 = z1 * sin_psi;
+    const Real M31 = -z1 * cos_psi;
+    const Real M42 = M44 * sin_theta;
+
+    // Forcing f
+    const Real z2 = psi_dot * cos_theta;
+    const Real z3 = theta_dot * z2;
+    const Real z4 = k2 * z3;
+    const Real z5 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real f0 = M21 * z5 - z4 * cos_psi;
+    const Real f1 = -z4 * sin_psi - M20 * z5;
+    const Real z6 = M44 * phi_dot;
+    const Real z7 = theta_dot * (z6 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real f2 = -z7;
+    const Real z8 = (k4 + M33 * psi_dot * z2) * sin_theta;
+    const Real f3 = z6 * z2 + z8;
+    const Real f4 = -M44 * z3;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[5] = Real(0);
+    mass[6] = m;
+    mass[2] = mass[10] = M20;
+    mass[7] = mass[11] = M21;
+    mass[12] = M22;
+    mass[3] = mass[15] = M30;
+    mass[8] = mass[16] = M31;
+    mass[13] = mass[17] = Real(0);
+    mass[18] = M33;
+    mass[4] = mass[20] = Real(0);
+    mass[9] = mass[21] = Real(0);
+    mass[14] = mass[22] = M42;
+    mass[19] = mass[23] = Real(0);
+    mass[24] = M44;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = f2;
+    forcing[3] = f3;
+    forcing[4] = f4;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &k0 = par[3], &k1 = par[4], &M44 = par[6], &k4 = par[9], &k7 = par[12], &k8 = par[13];
+    const Real &k9 = par[14];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Energy
+    const Real z0 = theta_dot * cos_theta;
+    const Real z1 = (x_dot * cos_psi + y_dot * sin_psi) * psi_dot * sin_theta;
+    const Real z2 = y_dot * cos_psi * z0 - (x_dot * sin_psi * z0 + z1);
+    const Real z3 = k8 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z4 = k1 * phi_dot * phi_dot + k7 * theta_dot * theta_dot + z3;
+    const Real z5 = k9 * psi_dot * (Real(5) * sin_theta * sin_theta + Real(1));
+    const Real z6 = z4 + psi_dot * (M44 * phi_dot * sin_theta + z5);
+    const Real z7 = k0 * z2 - z6;
+    const Real T = -z7;
+    const Real V = k4 * cos_theta;
+    const Real E = V - z7;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+
+
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+    const Real &psi = state[2], &x_dot = state[5], &y_dot = state[6], &phi_dot = state[9];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Constraints
+    const Real z0 = r * cos_psi;
+    const Real z1 = r * sin_psi;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = x_dot - phi_dot * z0;
+    velocity[1] = y_dot - phi_dot * z1;
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = Real(0);
+    rows[4] = -z0;
+    rows[5] = Real(0);
+    rows[6] = Real(1);
+    rows[7] = Real(0);
+    rows[8] = Real(0);
+    rows[9] = -z1;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
+    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Multipliers
+    const Real z0 = k0 * sin_theta;
+    const Real z1 = z0 * cos_psi;
+    const Real z2 = z0 * sin_psi;
+    const Real z3 = k0 * cos_theta;
+    const Real z4 = z3 * sin_psi;
+    const Real z5 = z3 * cos_psi;
+    const Real z6 = M44 * sin_theta;
+    const Real z7 = psi_dot * cos_theta;
+    const Real z8 = theta_dot * z7;
+    const Real z9 = k2 * z8;
+    const Real z10 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real z11 = M44 * phi_dot;
+    const Real z12 = theta_dot * (z11 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real z13 = (k4 + M33 * psi_dot * z7) * sin_theta;
+    const Real z14 = z11 * z7 + z13;
+    const Real z15 = M44 * z8;
+    const Real z16 = r * cos_psi;
+    const Real z17 = r * sin_psi;
+    const Real z18 = psi_dot * phi_dot;
+    const Real z19 = k5 * z4;
+    const Real z20 = k5 * z5;
+    const Real z21 = z4 * z20;
+    const Real z22 = Real(1) / (m - z5 * z20);
+    const Real z23 = z21 * z22;
+    const Real z24 = (m - z4 * z19) - z21 * z23;
+    const Real z25 = z2 * z22;
+    const Real z26 = z1 - z21 * z25;
+    const Real z27 = k6 * z6;
+    const Real z28 = (k1 + M33 * sin_theta * sin_theta) - z6 * z27;
+    const Real z29 = Real(1) / (z28 - z2 * z25);
+    const Real z30 = z26 * z29;
+    const Real z31 = Real(1) / (z24 - z26 * z30);
+    const Real z32 = (z9 * cos_psi - z2 * z10) + z19 * z14;
+    const Real z33 = (z9 * sin_psi + z1 * z10) - z20 * z14;
+    const Real z34 = (z12 - z15 * z27) - z25 * z33;
+    const Real z35 = (z32 - z23 * z33) - z30 * z34;
+    const Real z36 = k6 * z16;
+    const Real z37 = z6 * z36;
+    const Real z38 = z37 * z29;
+    const Real z39 = z26 * z38 - Real(1);
+    const Real z40 = z39 * z31;
+    const Real z41 = (z36 * z16 + z37 * z38) + z39 * z40;
+    const Real z42 = k6 * z17;
+    const Real z43 = z6 * z42 - z25;
+    const Real z44 = z43 * z29;
+    const Real z45 = z23 + z26 * z44;
+    const Real z46 = z45 * z31;
+    const Real z47 = (z42 * z16 + z37 * z44) + z39 * z46;
+    const Real z48 = (z42 * z17 + z22) + z43 * z44;
+    const Real z49 = Real(1) / (z48 + z45 * z46);
+    const Real z50 = z47 * z49;
+    const Real z51 = (z36 * z15 + z17 * z18) - z38 * z34;
+    const Real z52 = (z42 * z15 - z16 * z18) - z22 * z33;
+    const Real z53 = (z52 - z44 * z34) + z35 * z46;
+    const Real z54 = (z51 + z40 * z35) - z53 * z50;
+    const Real z55 = z54 / (z41 - z47 * z50);
+    const Real lambda_rim_x = -z55;
+    const Real lambda_rim_y = z50 * z55 - z49 * z53;
+
+    // Result
+    lambda[0] = lambda_rim_x;
+    lambda[1] = lambda_rim_y;
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "x", "y", "psi", "theta", "phi", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "m", "r", "g", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 1, 0.5, 9.81, 0};
+
+constexpr alembert_solver_table table{
+    3, 5, 5, 3, 12, 0, 0, 2, "rolling_disc_in_space", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        outputs_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* out) {
+        events_at(t, state, rate, par, out);
+    },
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Nielsen's form of Lagrange's equations: ∂L̇/∂q̇ − 2 ∂L/∂q = Q.
+///
+///     const Equations equations = nielsen(build(read_scene("pendulum.toml")));
+///
+/// L̇ is the time derivative of the Lagrangian along any motion, q̈ in it. A witness that needs nothing but L, so that scenes
+/// whose energies are given without bodies have a second derivation too. Constraints enter with their multipliers.
+/// (J. Nielsen, Vorlesungen über elementare Mechanik (1935); it follows from d/dt ∂L/∂q̇ = ∂L̇/∂q̇ − ∂L/∂q.)
+
+#include "formalism/equations.hpp"
+
+namespace alembert {
+
+/// Throws ModelError for a scene without coordinates.
+Equations nielsen(const Mechanism& mechanism);
+
+}  // namespace alembert

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/placing.hpp"
+#include "scene/tables.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+using Type = Joint::Type;
+
+void read_type(const Table& table, Joint& joint) {
+    const Name type = table.needed_name("type");
+    if (type.place.line == 0) return;
+    for (std::size_t i = 0; i < joint_types().size(); ++i)
+        if (joint_types()[i] == type.text) {
+            joint.type = static_cast<Type>(i);
+            return;
+        }
+    const std::string meant = nearest(type.text, joint_types());
+    table.reading().complain(
+        type.place, fmt::format("unknown type {} of joint; {}", in_quotes(type.text),
+                                meant.empty() ? fmt::format("it may be {}", fmt::join(joint_types(), ", "))
+                                              : fmt::format("did you mean '{}'?", meant)));
+}
+
+Joint::Side read_side(const Table& table, const std::string& which) {
+    Joint::Side side{.body = table.needed_name(which), .point = {}, .rotate = read_rotations(table, which + "_rotate")};
+    if (auto point = table.vector(which + "_point")) {
+        side.point = std::move(*point);
+    } else {
+        side.point.place = table.place();
+        for (Expression& component : side.point.component) component = zero(table.place());
+    }
+    return side;
+}
+
+void read_axis(const Table& table, Joint& joint) {
+    joint.axis.letter = 'z';
+    const Entry* const entry = table.find("axis");
+    if (!entry) return;
+    const bool has_axis = joint.type == Type::revolute || joint.type == Type::prismatic ||
+                          joint.type == Type::cylindrical || joint.type == Type::screw;
+    if (!has_axis)
+        return table.complain("axis", fmt::format("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
+                                                  "'parent_rotate' and 'child_rotate'",
+                                                  joint_types()[static_cast<std::size_t>(joint.type)]));
+    joint.axis = alembert::read_axis(table.reading(), *entry->node);
+}
+
+void read_pitch(const Table& table, Joint& joint) {
+    if (joint.type == Type::screw)
+        joint.pitch = table.needed_expression("pitch");
+    else if (table.has("pitch"))
+        table.complain("pitch", fmt::format("'pitch' belongs to a screw; {} is {}", table.title(),
+                                            joint_types()[static_cast<std::size_t>(joint.type)]));
+}
+
+void read_angles(const Table& table, Joint& joint) {
+    const Entry* const entry = table.find("angles");
+    if (!entry) return;
+    if (joint.type != Type::spherical && joint.type != Type::free)
+        return table.complain("angles", "'angles' belongs to a spherical or a free joint; the others have angles of their own");
+    joint.angles = table.text("angles");
+    if (joint.angles.empty()) return;
+    const std::string& a = joint.angles;
+    if (a.size() != 3 || a.find_first_not_of("xyz") != std::string::npos || a[0] == a[1] || a[1] == a[2])
+        return table.complain("angles", fmt::format("{} is no sequence of axes; expected three of x, y, z, no two neighbours "
+                                                    "the same, as in \"zxz\" or \"xyz\"",
+                                                    in_quotes(a)));
+}
+
+/// Coordinates and prescribed motions; a motion takes the place of the coordinate of its name, or its own by the
+/// order of the file.
+void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
+    const auto inner = [&](std::string_view key) -> std::optional<Table> {
+        const Entry* const entry = table.find(key);
+        if (!entry) return {};
+        if (const toml::table* const node = entry->node->as_table())
+            return Table(table.reading(), *node, table.what(key), entry->place);
+        table.complain(key, fmt::format("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
+                                        key == "motion" ? "\"expression in t\"" : "{ initial = 0.1 }"));
+        return {};
+    };
+    const std::optional<Table> coordinates = inner("coordinates"), motion = inner("motion");
+    if (motion)
+        for (const Entry& entry : motion->entries()) {
+            joint.coordinates.push_back({entry.key, entry.place});
+            scene.definitions.push_back({{entry.key, entry.place},
+                                         read_expression(table.reading(), *entry.node, labelled("the motion of", entry.key)),
+                                         true});
+        }
+    if (coordinates)
+        for (const Entry& entry : coordinates->entries()) {
+            Coordinate made = read_coordinate(table.reading(), entry);
+            const auto prescribed = std::find_if(joint.coordinates.begin(), joint.coordinates.end(),
+                                                 [&](const Name& name) { return name.text == entry.key; });
+            if (prescribed != joint.coordinates.end()) {
+                prescribed->place = entry.place;
+                continue;
+            }
+            joint.coordinates.push_back(made.name);
+            scene.coordinates.push_back(std::move(made));
+        }
+    std::sort(joint.coordinates.begin(), joint.coordinates.end(),
+              [](const Name& a, const Name& b) { return a.place < b.place; });
+}
+
+}  // namespace
+
+void read_joint(Table table, Scene& scene) {
+    table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate",
+                 "axis", "pitch", "coordinates", "angles", "motion"});
+    const std::size_t mistakes = table.reading().diagnostics.size();
+    Joint joint;
+    joint.name = table.needed_name("name");
+    table.entitle(joint.name);
+    read_type(table, joint);
+    joint.parent = read_side(table, "parent");
+    joint.child = read_side(table, "child");
+    if (table.reading().diagnostics.size() == mistakes) {
+        read_axis(table, joint);
+        read_pitch(table, joint);
+        read_angles(table, joint);
+    }
+    read_coordinates_of(table, joint, scene);
+    joint.is_whole = table.reading().diagnostics.size() == mistakes;
+    scene.joints.push_back(std::move(joint));
+}
+
+}  // namespace alembert

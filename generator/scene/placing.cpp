@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "scene/placing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "scene/text.hpp"
+
+namespace alembert {
+namespace {
+
+using Type = Joint::Type;
+
+class Placing {
+public:
+    Placing(Scene& scene, std::vector<Diagnostic>& diagnostics) : scene_(scene), diagnostics_(diagnostics) {
+        for (Body& body : scene.bodies) bodies_.emplace(body.name.text, &body);
+    }
+
+    void place() {
+        check_bodies();
+        place_all();
+        for (Joint* joint : usable_) {
+            joint->closes_loop = !joint->places_child && is_placed(joint->parent.body);
+            check_coordinates(*joint);
+        }
+        check_own_places();
+        // Of a joint whose table is wrong nothing more is known.
+        if (usable_.size() == scene_.joints.size()) tell_unplaced();
+    }
+
+private:
+    Scene& scene_;
+    std::vector<Diagnostic>& diagnostics_;
+    std::unordered_map<std::string, Body*> bodies_;
+    std::vector<Joint*> usable_;
+
+    void complain(Place place, std::string message) { diagnostics_.push_back({place, std::move(message)}); }
+
+    void check_bodies() {
+        std::vector<std::string> known{"N"};
+        for (const Body& body : scene_.bodies) known.push_back(body.name.text);
+        for (Joint& joint : scene_.joints) {
+            bool is_usable = joint.is_whole;
+            for (const Joint::Side* side : {&joint.parent, &joint.child}) {
+                const Name& name = side->body;
+                if (name.place.line == 0 || name.text == "N" || bodies_.contains(name.text)) continue;
+                const std::string meant = nearest(name.text, known);
+                complain(name.place, fmt::format("unknown body {}{}", in_quotes(name.text),
+                                                 meant.empty() ? "; a joint holds bodies, or a body and the ground, N"
+                                                               : fmt::format("; did you mean '{}'?", meant)));
+                is_usable = false;
+            }
+            if (is_usable && joint.parent.body.text == joint.child.body.text) {
+                complain(joint.child.body.place,
+                         fmt::format("joint {} goes from {} to itself; its parent and its child must be two bodies",
+                                     in_quotes(joint.name.text), in_quotes(joint.child.body.text)));
+                is_usable = false;
+            }
+            if (is_usable) usable_.push_back(&joint);
+        }
+    }
+
+    bool is_placed(const Name& name) const {
+        if (name.text == "N") return true;
+        const Body& body = *bodies_.at(name.text);
+        return body.has_position || body.joint;
+    }
+
+    void place_all() {
+        const auto next = [&](bool with_coordinates) -> Joint* {
+            for (Joint* joint : usable_)
+                if (is_placed(joint->parent.body) != is_placed(joint->child.body) &&
+                    (!with_coordinates || coordinates_of(*joint) == 0 || !joint->coordinates.empty()))
+                    return joint;
+            return nullptr;
+        };
+        for (;;) {
+            Joint* joint = next(true);
+            if (!joint) joint = next(false);
+            if (!joint) return;
+            joint->places_child = is_placed(joint->parent.body);
+            Body& body = *bodies_.at((*joint->places_child ? joint->child : joint->parent).body.text);
+            body.joint = static_cast<std::size_t>(joint - scene_.joints.data());
+        }
+    }
+
+    void check_coordinates(const Joint& joint) {
+        const std::string name = in_quotes(joint.name.text);
+        const std::string& type = joint_types()[static_cast<std::size_t>(joint.type)];
+        const std::size_t needed = coordinates_of(joint), given = joint.coordinates.size();
+        if (!joint.places_child) {
+            if (!joint.closes_loop) return;
+            if (given > 0)
+                complain(joint.coordinates.front().place,
+                         fmt::format("body {} is placed already, by {}: joint {} closes a loop and has no coordinates",
+                                     in_quotes(joint.child.body.text == "N" ? joint.parent.body.text : joint.child.body.text),
+                                     placed_by(joint), name));
+            else if (locked_directions(joint.type) == 0)
+                complain(joint.name.place, fmt::format("joint {} is between bodies that are placed already, and a free "
+                                                       "joint locks nothing; leave it out",
+                                                       name));
+            return;
+        }
+        const Place place = given > 0 ? joint.coordinates.front().place : joint.name.place;
+        const bool turns_in_space = joint.type == Type::spherical || joint.type == Type::free;
+        const std::size_t shifts = joint.type == Type::free ? 3 : 0;
+        if (turns_in_space && joint.angles.empty() && given == shifts + 3)
+            complain(place, fmt::format("joint {} has three angles; say about which axes, in this order, with angles = "
+                                        "\"zxz\" (or another sequence)",
+                                        name));
+        else if (given != needed)
+            complain(place, fmt::format("joint {} is {} and places body {}: it has {} coordinate{}; expected {}{}", name, type,
+                                        in_quotes((*joint.places_child ? joint.child : joint.parent).body.text), given,
+                                        given == 1 ? "" : "s", needed, meaning(joint)));
+        else if (turns_in_space && joint.angles.empty())
+            complain(place, fmt::format("a quaternion as coordinates of joint {} is not supported yet; give three angles and "
+                                        "their axes, angles = \"zxz\"",
+                                        name));
+    }
+
+    std::string placed_by(const Joint& joint) const {
+        const Body& body = *bodies_.at(joint.child.body.text == "N" ? joint.parent.body.text : joint.child.body.text);
+        return body.joint ? "joint " + in_quotes(scene_.joints[*body.joint].name.text) : std::string("its own position");
+    }
+
+    static std::string meaning(const Joint& joint) {
+        switch (joint.type) {
+            case Type::cylindrical: return ": the turn, then the shift";
+            case Type::universal: return ": the turns about x, then y";
+            case Type::planar: return ": x, y, then the turn";
+            case Type::spherical: return joint.angles.empty() ? ": a quaternion, scalar first (or three, with 'angles')" : ": the three angles";
+            case Type::free: return joint.angles.empty() ? ": x, y, z and a quaternion (or three angles, with 'angles')" : ": x, y, z and the three angles";
+            default: return "";
+        }
+    }
+
+    /// A body that a joint places has no frame of its own, nor half a position.
+    void check_own_places() {
+        for (Body& body : scene_.bodies) {
+            if (!body.joint) continue;
+            const auto refuse = [&](const Name& name, const char* key) {
+                if (name.place.line > 0)
+                    complain(name.place, fmt::format("body {} is placed by joint {}, and its frame bears its name; leave out "
+                                                     "'{}', or give the body a position of its own",
+                                                     in_quotes(body.name.text),
+                                                     in_quotes(scene_.joints[*body.joint].name.text), key));
+            };
+            refuse(body.frame, "frame");
+            refuse(body.position.from, "from");
+            refuse(body.position.axes, "axes");
+            body.frame = {body.name.text, {}};
+        }
+    }
+
+    void tell_unplaced() {
+        std::unordered_map<std::string, std::string> parents;  // of bodies that nothing placed
+        for (const Joint* joint : usable_)
+            if (!is_placed(joint->child.body)) parents.emplace(joint->child.body.text, joint->parent.body.text);
+        std::unordered_set<std::string> told;
+        for (const Body& body : scene_.bodies) {
+            if (body.has_position || body.joint) continue;
+            std::vector<std::string> path;
+            std::string at = body.name.text;
+            while (std::find(path.begin(), path.end(), at) == path.end() && !told.contains(at)) {
+                path.push_back(at);
+                const auto up = parents.find(at);
+                if (up == parents.end()) break;
+                at = up->second;
+            }
+            const bool is_new = std::none_of(path.begin(), path.end(), [&](const auto& name) { return told.contains(name); }) &&
+                                !told.contains(at);
+            for (const std::string& name : path) told.insert(name);
+            if (!is_new) continue;
+            if (parents.contains(at)) {
+                path.erase(path.begin(), std::find(path.begin(), path.end(), at));
+                complain(bodies_.at(at)->name.place,
+                         fmt::format("joints in a circle: {} → {}; none of these bodies hangs on the ground, N, or on a body "
+                                     "with a position",
+                                     fmt::join(path, " → "), at));
+            } else {
+                complain(bodies_.at(at)->name.place,
+                         fmt::format("body {} is nowhere: it has neither 'at' nor 'position', and no joint reaches it from the "
+                                     "ground, N",
+                                     in_quotes(at)));
+            }
+        }
+    }
+};
+
+}  // namespace
+
+const std::vector<std::string>& joint_types() {
+    static const std::vector<std::string> names{"fixed",     "revolute", "prismatic", "cylindrical", "universal",
+                                                "spherical", "planar",   "screw",     "free"};
+    return names;
+}
+
+std::size_t coordinates_of(const Joint& joint) {
+    switch (joint.type) {
+        case Type::fixed: return 0;
+        case Type::cylindrical:
+        case Type::universal: return 2;
+        case Type::planar: return 3;
+        case Type::spherical: return joint.angles.empty() ? 4 : 3;
+        case Type::free: return joint.angles.empty() ? 7 : 6;
+        default: return 1;
+    }
+}
+
+int locked_directions(Type type) {
+    switch (type) {
+        case Type::fixed: return 6;
+        case Type::revolute:
+        case Type::prismatic:
+        case Type::screw: return 5;
+        case Type::cylindrical:
+        case Type::universal: return 4;
+        case Type::spherical:
+        case Type::planar: return 3;
+        default: return 0;
+    }
+}
+
+void place_by_joints(Scene& scene, std::vector<Diagnostic>& diagnostics) {
+    if (!scene.joints.empty()) Placing(scene, diagnostics).place();
+}
+
+}  // namespace alembert

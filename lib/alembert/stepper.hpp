@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// One step of a method that is no tableau: what run.hpp asks of a step, around a formula that gives the change.
+///
+///     Stepper<Gauss> step(rhs, t, state, tolerance);      // the members are those of Step (step.hpp)
+///
+/// A formula is a class with
+///
+///     static constexpr bool has_fixed_step;
+///     static constexpr Between between;                   // how states within a step are found
+///     Formula(const Ends& ends, double tolerance);
+///     int most_evaluations() const;                       // of an increment
+///     bool increment(Ends& ends, double h, double* change, double* end_rate);
+///
+/// `increment` writes y(t + h) − y(t) without what is lost in y + change, and false if its equations were not solved.
+/// A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in Ends::knows_end_rate.
+/// Adaptive formulas write the error of each component to Ends::error and have `estimate_order`; those with a memory
+/// have `finished(ends)` and `advance(ends)`, those with a polynomial `interpolate(ends, theta, out)`.
+///
+/// The state is the sum of two doubles as in step.hpp, and errors are measured as there.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "alembert/rhs.hpp"
+
+namespace alembert {
+
+/// The cubic Hermite polynomial; a step of the method to there (its full order, for its price); its own polynomial.
+enum class Between { hermite, shorter_step, own };
+
+/// The two ends of a step.
+struct Ends {
+    Ends(const Rhs& system, double time, std::span<const double> state)
+        : rhs(system),
+          size(system.dimension),
+          controlled(system.dimension - system.extra),
+          t(time),
+          y(state.begin(), state.end()),
+          rest(y.size()),
+          next(y.size()),
+          next_rest(y.size()),
+          rate(y.size()),
+          end_rate(y.size()),
+          error(y.size()) {
+        evaluate(t, y.data(), rate.data());
+    }
+
+    void evaluate(double time, const double* state, double* out) {
+        rhs(time, state, out);
+        ++evaluations;
+    }
+
+    /// What an error of component i is measured with.
+    double scale(int i) const {
+        const auto k = static_cast<std::size_t>(i);
+        return std::max({1.0, std::abs(y[k]), std::abs(next[k])});
+    }
+
+    /// The largest of |values_i| / max(1, |y_i|); infinite if one is not finite.
+    double norm(const double* values) const {
+        double largest = 0, zero = 0;
+        for (int i = 0; i < controlled; ++i) {
+            largest = std::max(largest, std::abs(values[i]) / std::max(1.0, std::abs(y[static_cast<std::size_t>(i)])));
+            zero += values[i] * 0;
+        }
+        return zero == 0 ? largest : HUGE_VAL;
+    }
+
+    const Rhs& rhs;
+    int size, controlled;
+    double t, end = 0, h = 0;
+    std::vector<double> y, rest, next, next_rest, rate, end_rate, error;
+    bool knows_end_rate = false;
+    long evaluations = 0;
+};
+
+template <class Formula>
+class Stepper {
+public:
+    static constexpr bool has_fixed_step = Formula::has_fixed_step;
+    static constexpr int estimate_order = [] {
+        if constexpr (has_fixed_step)
+            return 1;
+        else
+            return Formula::estimate_order;
+    }();
+
+    Stepper(const Rhs& rhs, double t, std::span<const double> state, double tolerance)
+        : ends_(rhs, t, state),
+          formula_(ends_, tolerance),
+          change_(state.size()),
+          unused_(Formula::between == Between::shorter_step ? state.size() : 0) {}
+
+    double time() const { return ends_.t; }
+    double end_time() const { return ends_.end; }
+    double length() const { return ends_.h; }
+    const double* state() const { return ends_.y.data(); }
+    const double* rate() const { return ends_.rate.data(); }
+    const double* end_state() const { return ends_.next.data(); }
+    const double* end_rate() const { return ends_.end_rate.data(); }
+    long evaluations() const { return ends_.evaluations; }
+    const Rhs& rhs() const { return ends_.rhs; }
+    int most_evaluations() const { return formula_.most_evaluations() + 1; }
+    bool solved() const { return solved_; }
+
+    void attempt(double end) {
+        ends_.end = end;
+        ends_.h = end - ends_.t;
+        ends_.knows_end_rate = false;
+        solved_ = formula_.increment(ends_, ends_.h, change_.data(), ends_.end_rate.data());
+        for (std::size_t i = 0; i < change_.size(); ++i) {
+            const double change = change_[i] + ends_.rest[i];
+            const double next = ends_.y[i] + change;
+            const double taken = next - ends_.y[i];
+            ends_.next[i] = next;
+            ends_.next_rest[i] = (ends_.y[i] - (next - taken)) + (change - taken);
+        }
+    }
+
+    double misfit() {
+        if (!solved_) return HUGE_VAL;
+        double largest = 0, zero = 0;
+        for (int i = 0; i < ends_.controlled; ++i) {
+            double& error = ends_.error[static_cast<std::size_t>(i)];
+            error = std::abs(error) / ends_.scale(i);
+            largest = std::max(largest, error);
+            zero += (error + end_state()[i]) * 0;
+        }
+        return zero == 0 ? largest : HUGE_VAL;
+    }
+
+    void correct(const std::function<void(double t, double* state)>& project) {
+        project(ends_.end, ends_.next.data());
+        std::fill(ends_.next_rest.begin(), ends_.next_rest.end(), 0);
+        ends_.knows_end_rate = false;
+    }
+
+    bool finish() {
+        if (!ends_.knows_end_rate) ends_.evaluate(ends_.end, ends_.next.data(), ends_.end_rate.data());
+        if constexpr (requires { formula_.finished(ends_); }) formula_.finished(ends_);
+        return solved_ && is_finite(ends_.end_rate) && is_finite(ends_.next);
+    }
+
+    bool starts_finite() const { return is_finite(ends_.rate); }
+
+    int worst_component() const {
+        int worst = 0;
+        for (int i = 0; i < ends_.controlled; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (!std::isfinite(ends_.rate[k] + ends_.next[k] + ends_.end_rate[k] + ends_.error[k])) return i;
+            if (ends_.error[k] > ends_.error[static_cast<std::size_t>(worst)]) worst = i;
+        }
+        return worst;
+    }
+
+    void advance() {
+        if constexpr (requires { formula_.advance(ends_); }) formula_.advance(ends_);
+        std::swap(ends_.y, ends_.next);
+        std::swap(ends_.rest, ends_.next_rest);
+        std::swap(ends_.rate, ends_.end_rate);
+        ends_.t = ends_.end;
+    }
+
+    double next_length(bool accepted, double ratio)
+        requires requires(Formula f, Ends e) { f.next_length(e, accepted, ratio); }
+    {
+        return formula_.next_length(ends_, accepted, ratio);
+    }
+
+    void interpolate(double theta, double* out) {
+        if constexpr (Formula::between == Between::own) {
+            formula_.interpolate(ends_, theta, out);
+        } else if constexpr (Formula::between == Between::shorter_step) {
+            formula_.increment(ends_, theta * ends_.h, out, unused_.data());
+            for (std::size_t i = 0; i < ends_.y.size(); ++i) out[i] = ends_.y[i] + (out[i] + ends_.rest[i]);
+        } else {
+            const double other = 1 - theta;
+            for (std::size_t i = 0; i < ends_.y.size(); ++i) {
+                const double r1 = (ends_.next[i] - ends_.y[i]) + (ends_.next_rest[i] - ends_.rest[i]);
+                const double r2 = ends_.h * ends_.rate[i] - r1;
+                const double r3 = r1 - ends_.h * ends_.end_rate[i] - r2;
+                out[i] = ends_.y[i] + theta * (r1 + other * (r2 + theta * r3));
+            }
+        }
+    }
+
+private:
+    bool is_finite(const std::vector<double>& values) const {
+        double zero = 0;
+        for (int i = 0; i < ends_.controlled; ++i) zero += values[static_cast<std::size_t>(i)] * 0;
+        return zero == 0;
+    }
+
+    Ends ends_;
+    Formula formula_;
+    std::vector<double> change_, unused_;
+    bool solved_ = true;
+};
+
+}  // namespace alembert

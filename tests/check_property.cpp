@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left undecided.
+// ALEMBERT_CLAIMS sets how many of each there are a scene (10; tests/bench/check_property.sh asks for 500), ALEMBERT_SCENE picks
+// one scene.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+
+#include "analysis/check.hpp"
+#include "formalism/routh.hpp"
+#include "oracle.hpp"
+#include "rewritings.hpp"
+#include "scene/claims_file.hpp"
+#include "scenes.hpp"
+#include "slips.hpp"
+
+using namespace alembert;
+using namespace alembert::test;
+
+namespace {
+
+struct Counts {
+    int proved = 0, refuted = 0, undecided = 0, false_proofs = 0, false_refutations = 0;
+    double slowest = 0;
+    std::string slowest_claim;
+};
+
+class Trial {
+public:
+    Trial(const std::string& file, unsigned seed)
+        : scene_(read_scene(file)), m_(build(scene_)), e_(routh(m_)), oracle_(scene_, m_, e_, seed), rewritings_(scene_, m_, e_),
+          random_(seed) {
+        REQUIRE(oracle_.states() == 3);
+    }
+
+    void right(int count) {
+        for (int k = 0; k < count; ++k) judge(rewritings_.claim(random_), true);
+    }
+
+    /// One term changed, in an equation as it is or in a rewritten one.
+    void wrong(int count) {
+        for (int k = 0; k < count;) {
+            std::vector<std::string> equations = rewritings_.right();
+            std::size_t chosen = random_() % equations.size();
+            if (random_() % 2 == 0) {
+                equations.push_back(rewritings_.claim(random_));
+                chosen = equations.size() - 1;
+            }
+            const std::vector<StudentSlip> slips = slips_of(scene_, equations, m_.q.size(), chosen, random_, 1);
+            if (slips.empty()) continue;
+            k += judge(slips[random_() % slips.size()].equation, false) ? 1 : 0;
+        }
+    }
+
+    Counts counts;
+
+private:
+    bool judge(const std::string& claim, bool meant_right) {
+        std::vector<Diagnostic> mistakes;
+        const Equality equation = parse_equality(claim, {}, mistakes);
+        CAPTURE(claim);
+        REQUIRE(mistakes.empty());
+        const auto holds = oracle_.holds(equation);
+        if (meant_right) CHECK(holds == true);
+        if (holds != meant_right) return false;
+        const auto start = std::chrono::steady_clock::now();
+        const Mechanism fresh = build(scene_);  // a check leaves its intermediate symbols behind
+        const CheckedClaim result = check(with_claims(scene_, claim + "\n", "random"), fresh).claims[0];
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (seconds > counts.slowest) counts.slowest = seconds, counts.slowest_claim = claim;
+        counts.proved += result.verdict == Verdict::proved;
+        counts.refuted += result.verdict == Verdict::refuted;
+        counts.undecided += result.verdict == Verdict::undecided || result.verdict == Verdict::vacuous;
+        counts.false_proofs += result.verdict == Verdict::proved && !*holds;
+        counts.false_refutations += result.verdict == Verdict::refuted && *holds;
+        INFO(result.reason);
+        CHECK(result.verdict != (*holds ? Verdict::refuted : Verdict::proved));
+        if (result.verdict == Verdict::undecided) MESSAGE("undecided: " << claim << ": " << result.reason);
+        return true;
+    }
+
+    const Scene scene_;
+    const Mechanism m_;
+    const Equations e_;
+    const Oracle oracle_;
+    const Rewritings rewritings_;
+    std::mt19937 random_;
+};
+
+}  // namespace
+
+TEST_CASE("check: random right claims are proved, random wrong ones refuted, at most one in a hundred is undecided") {
+    const char* const wanted = std::getenv("ALEMBERT_CLAIMS");
+    const int count = wanted != nullptr ? std::atoi(wanted) : 10;
+    constexpr unsigned seed = 1918;
+    for (const std::string& file : scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        CAPTURE(seed);
+        if (const char* const only = std::getenv("ALEMBERT_SCENE"); only != nullptr && file.find(only) == std::string::npos) continue;
+        const Mechanism m = build(read_scene(file));
+        if (!m.speeds.empty() || !m.unilateral.empty()) continue;  // the oracle reads neither speeds nor contacts
+        Trial trial(file, seed);
+        trial.right(count);
+        trial.wrong(count);
+        const Counts& c = trial.counts;
+        CHECK(c.proved + c.refuted + c.undecided == 2 * count);
+        CHECK(100 * c.undecided <= 2 * count);
+        if (wanted != nullptr)
+            fmt::print("{:<24} proved {:4}  refuted {:4}  undecided {:3}  false proofs {}  false refutations {}  slowest {:.3f} s\n",
+                       file.substr(file.rfind('/') + 1), c.proved, c.refuted, c.undecided, c.false_proofs, c.false_refutations, c.slowest);
+        if (wanted != nullptr && c.slowest > 1) fmt::print("  the slowest: {}\n", c.slowest_claim);
+    }
+}

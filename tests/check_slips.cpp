@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are named rightly.
+// One of a kind of an equation, for a fourth of these; ALEMBERT_SLIPS asks for that many of every one.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "analysis/check.hpp"
+#include "formalism/routh.hpp"
+#include "oracle.hpp"
+#include "rewritings.hpp"
+#include "scene/claims_file.hpp"
+#include "scenes.hpp"
+#include "slips.hpp"
+
+using namespace alembert;
+using namespace alembert::test;
+
+TEST_CASE("check: slips made on the equations of every textbook scene are refuted, and at least four of five named") {
+    constexpr unsigned seed = 20240607;
+    const char* const wanted = std::getenv("ALEMBERT_SLIPS");
+    const std::size_t each = wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 1;
+    std::mt19937 random(seed);
+    std::map<std::string, std::map<std::string, int>> named;  // made → named
+    std::string misnamed;
+    for (const std::string& file : scenes_in("scenes/textbook")) {
+        CAPTURE(file);
+        const Scene scene = read_scene(file);
+        const Mechanism m = build(scene);
+        const Equations e = routh(m);
+        const Oracle oracle(scene, m, e, seed);
+        REQUIRE(oracle.states() == 3);
+        const std::vector<std::string> right = Rewritings(scene, m, e).right();
+        std::string claims;
+        std::vector<StudentSlip> slips;
+        for (std::size_t k = 0; k < right.size(); ++k)
+            for (const StudentSlip& slip : slips_of(scene, right, static_cast<std::size_t>(e.size()), k, random, each)) {
+                std::vector<Diagnostic> mistakes;
+                const Equality equation = parse_equality(slip.equation, {}, mistakes);
+                CAPTURE(slip.equation);
+                REQUIRE(mistakes.empty());
+                if (wanted == nullptr && slip.kind != "wrong_row" && random() % 4 != 0) continue;
+                if (oracle.holds(equation) != false) continue;
+                slips.push_back(slip);
+                claims += slip.equation + "\n";
+            }
+        if (slips.empty()) continue;  // nothing readable to slip on
+        const Scene wrong = with_claims(scene, claims, "slips");
+        const Checked result = check(wrong, m);
+        for (std::size_t k = 0; k < slips.size(); ++k) {
+            const CheckedClaim& c = result.claims[k];
+            CAPTURE(slips[k].equation);
+            CHECK(c.verdict == Verdict::refuted);
+            const std::string kind = c.likely ? c.likely->kind : "unknown";
+            ++named[slips[k].kind][kind];
+            if (kind != slips[k].kind)
+                misnamed += fmt::format("{} named {}: {} | {} | {}\n", slips[k].kind, kind, wrong.file, slips[k].equation,
+                                        c.likely ? c.likely->repair : std::string());
+        }
+    }
+    std::string table;
+    int all = 0, right = 0;
+    for (const auto& [kind, as] : named) {
+        int sum = 0;
+        for (const auto& [name, count] : as) sum += count;
+        all += sum;
+        right += as.contains(kind) ? as.at(kind) : 0;
+        table += fmt::format("{:<15} {:4} made, {:3.0f} % named rightly;", kind, sum, 100.0 * (as.contains(kind) ? as.at(kind) : 0) / sum);
+        for (const auto& [name, count] : as)
+            if (name != kind) table += fmt::format(" {} {}", name, count);
+        table += "\n";
+    }
+    INFO("seed " << seed << "\n" << misnamed << table << right << " of " << all);
+    CHECK(named.size() == 9);
+    for (const auto& [kind, as] : named) {
+        int sum = 0;
+        for (const auto& [name, count] : as) sum += count;
+        CAPTURE(kind);
+        CHECK(10 * (as.contains(kind) ? as.at(kind) : 0) >= 6 * sum);
+    }
+    CHECK(10 * right >= 9 * all);
+    CHECK(all >= 350);
+}

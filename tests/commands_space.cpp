@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+// Rolling contacts and quaternion frames, as a user runs them: against constraints written by hand, closed forms in elliptic
+// functions, Euler angles, and what is conserved.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+Json json_of(const std::vector<std::string>& args) {
+    const auto result = run(args);
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+double number(const Json& object, const char* group, const std::string& name) { return object[group][name].get<double>(); }
+
+std::string textbook(const std::string& name) {
+    std::ifstream stream(source_path("scenes/textbook/" + name + ".toml"));
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    CAPTURE(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+/// Without the tables that begin with `header`.
+std::string without(std::string text, const std::string& header) {
+    for (std::size_t at; (at = text.find(header)) != std::string::npos;) {
+        const std::size_t end = text.find("\n[", at + 1);
+        text.erase(at, end == std::string::npos ? end : end + 1 - at);
+    }
+    return text;
+}
+
+/// A column of a CSV file.
+std::vector<double> column(const std::string& file, const std::string& name) {
+    std::ifstream stream(file);
+    std::string line, cell;
+    std::getline(stream, line);
+    std::istringstream names(line);
+    int k = 0;
+    while (std::getline(names, cell, ',') && cell != name) ++k;
+    CAPTURE(name);
+    REQUIRE(cell == name);
+    std::vector<double> result;
+    while (std::getline(stream, line)) {
+        std::istringstream cells(line);
+        for (int i = 0; i <= k; ++i) std::getline(cells, cell, ',');
+        result.push_back(std::stod(cell));
+    }
+    return result;
+}
+
+/// sn, cn, dn by descending Landen transformations (Abramowitz & Stegun, 16.4): φ_N = 2^N a_N u,
+/// sin(2φ_{n−1} − φ_n) = (c_n/a_n) sin φ_n.
+struct Jacobi {
+    double sn, cn, dn;
+};
+Jacobi jacobi(double u, double m) {
+    std::vector<double> a{1}, c{std::sqrt(m)};
+    for (double b = std::sqrt(1 - m); std::abs(c.back()) > 1e-17 && a.size() < 12;) {
+        const double next = (a.back() + b) / 2;
+        c.push_back((a.back() - b) / 2);
+        b = std::sqrt(a.back() * b);
+        a.push_back(next);
+    }
+    double phi = std::ldexp(a.back() * u, static_cast<int>(a.size()) - 1);
+    for (std::size_t n = a.size() - 1; n > 0; --n) phi = (phi + std::asin(c[n] / a[n] * std::sin(phi))) / 2;
+    return {std::sin(phi), std::cos(phi), std::sqrt(1 - m * std::sin(phi) * std::sin(phi))};
+}
+
+const std::string table = "[[frame]]\nname = \"T\"\nrotate = [[\"z\", \"Omega*t\"]]\n[[body]]\nname = \"table\"\nmass = 1\nframe = \"T\"\n"
+                          "position = [0, 0, 0]\n[[rolling]]\nname = \"roll\"\nbody = \"ball\"\non = \"table\"\n";
+
+}  // namespace
+
+TEST_CASE("space: a rolling contact on a turning table is the constraints written by hand, with their multipliers") {
+    const std::string by_rows = without(without(textbook("turntable_ball"), "[[constraint]]"), "[[claim]]");
+    const std::string contact = temporary("turntable.toml", by_rows + table + "contact = [0, 0, \"-a\"]\n");
+    const std::vector<std::string> state{"--json", "--at", "x=0.3", "--at", "y=-0.7", "--at", "theta=1.1", "--at", "psi=0.4"};
+    std::vector<std::string> a{"eval", contact}, b{"eval", source_path("scenes/textbook/turntable_ball.toml")};
+    a.insert(a.end(), state.begin(), state.end());
+    b.insert(b.end(), state.begin(), state.end());
+    const Json rolling = json_of(a), rows = json_of(b);
+    for (const char* q : {"x", "y", "psi", "theta", "phi"}) {
+        CHECK(std::abs(number(rolling, "accelerations", q) - number(rows, "accelerations", q)) < 1e-11);
+        CHECK(std::abs(number(rolling, "rates", q) - number(rows, "rates", q)) < 1e-11);
+    }
+    CHECK(rolling["multipliers"].size() == 2);  // the third row holds by itself
+    CHECK(std::abs(number(rolling, "multipliers", "lambda_roll_x") - number(rows, "multipliers", "lambda_x")) < 1e-11);
+    CHECK(std::abs(number(rolling, "multipliers", "lambda_roll_y") - number(rows, "multipliers", "lambda_y")) < 1e-11);
+    CHECK(std::abs(number(rows, "multipliers", "lambda_x")) > 0.1);
+}
+
+// 7 x'' = −2 Ω y', 7 y'' = 2 Ω x': a circle run with 2Ω/7 from the state at the start, whatever turns the ball.
+TEST_CASE("space: a ball turned by a quaternion runs on the turntable's circle") {
+    std::string text = without(without(textbook("ball_on_turntable"), "[[constraint]]"), "[[claim]]");
+    text = replaced(text, "rotate = [[\"z\", \"psi\"], [\"x\", \"theta\"], [\"z\", \"phi\"]]", "quaternion = [\"a\", \"b\", \"c\", \"d\"]");
+    for (const char* angle : {"psi   = ", "theta = ", "phi   = "}) {
+        const std::size_t at = text.find(angle);
+        REQUIRE(at != std::string::npos);
+        text.erase(at, text.find('\n', at) + 1 - at);
+    }
+    text = replaced(text, "[speeds]", "a = 0.5\nb = 0.5\nc = -0.5\nd = 0.5\n\n[speeds]");
+    const std::string scene = temporary("ball.toml", text + table + "contact = [0, 0, \"-r\"]\n");
+    const Json start = json_of({"eval", scene, "--json"});
+    const double x = 0.3, y = -0.1, vx = number(start, "rates", "x"), vy = number(start, "rates", "y"), k = 2 * 3.0 / 7, t = 2;
+    CHECK(std::abs(vx - (0.05 * 4.0 - 3.0 * y)) < 1e-13);
+    const double s = std::sin(k * t) / k, h = (1 - std::cos(k * t)) / k;
+    for (const char* by : {"kane", "routh"}) {
+        CAPTURE(by);
+        const Json end = json_of({"simulate", scene, "--json", "--by", by, "--tolerance", "1e-11"})["final"];
+        CHECK(std::abs(number(end, "coordinates", "x") - (x + vx * s - vy * h)) < 1e-9);
+        CHECK(std::abs(number(end, "coordinates", "y") - (y + vy * s + vx * h)) < 1e-9);
+    }
+}
+
+TEST_CASE("space: a coin that rolls upright by a contact moves as by its two velocity constraints") {
+    const std::string text = without(without(textbook("rolling_coin"), "[[constraint]]"), "[[claim]]") +
+                             "\n[[rolling]]\nname = \"rim\"\nbody = \"coin\"\ncontact = [0, 0, \"-r\"]\n";
+    const Json contact = json_of({"simulate", temporary("coin.toml", text), "--json"}),
+               rows = json_of({"simulate", source_path("scenes/textbook/rolling_coin.toml"), "--json"});
+    for (const char* q : {"x", "y", "phi", "theta"})
+        CHECK(std::abs(number(contact["final"], "coordinates", q) - number(rows["final"], "coordinates", q)) < 1e-8);
+}
+
+TEST_CASE("space: the disc keeps its energy while it leans and turns") {
+    const Json motion = json_of({"simulate", source_path("scenes/textbook/rolling_disc_in_space.toml"), "--json"});
+    CHECK(motion["energy_drift"].get<double>() < 1e-10);
+    CHECK(motion["constraint_drift"].get<double>() < 1e-13);
+    CHECK(std::abs(number(motion["final"], "coordinates", "theta") - 0.3) > 1e-3);
+}
+
+// Steady rolling, by moments about the contact P along the heading: r_PC × m a_C = r_PC × m g − H', with H' = Ω × H,
+// Ω = ψ'(0, s, c), H = m r²/4 (0, 2(φ' + ψ's), ψ'c), the centre going round with ψ' on the radius R − r s, R ψ' = −r φ'… in one line
+//   6 ψ'φ' c + 5 ψ'² s c + 4 (g/r) s = 0.
+TEST_CASE("space: a disc that starts in steady rolling keeps its lean and returns after a turn") {
+    const double r = 0.5, g = 9.81, theta = 0.3, psi_dot = -0.8, c = std::cos(theta), s = std::sin(theta);
+    const double phi_dot = -(5 * psi_dot * psi_dot * s * c + 4 * g / r * s) / (6 * psi_dot * c);
+    std::string text = textbook("rolling_disc_in_space");
+    std::ostringstream spin, heading;
+    spin.precision(17);
+    heading.precision(17);
+    spin << "rate = " << phi_dot << ",";
+    heading << "rate = " << psi_dot << ",";
+    text = replaced(replaced(replaced(text, "rate = 6.0,", spin.str()), "rate = 0.4,", heading.str()), "rate = 0.2,", "rate = 0.0,");
+    std::ostringstream turn;
+    turn.precision(17);
+    turn << 2 * M_PI / std::abs(psi_dot);
+    const Json end = json_of({"simulate", temporary("steady.toml", text), "--json", "--duration", turn.str()})["final"];
+    CHECK(std::abs(number(end, "coordinates", "theta") - theta) < 1e-10);
+    CHECK(std::abs(number(end, "coordinates", "psi") + 2 * M_PI) < 1e-10);
+    CHECK(std::abs(number(end, "coordinates", "x")) < 1e-9);
+    CHECK(std::abs(number(end, "coordinates", "y")) < 1e-9);
+}
+
+// Landau & Lifshitz, Mechanics, §37, for L² < 2 T B (A, B, C = 1, 2, 3): w1 = a dn, w2 = b sn, w3 = c cn of p t + K, where p² and
+// m are as here; w2 starts at its largest.
+TEST_CASE("space: the free body moves by Jacobi's elliptic functions, and its moment of momentum stays") {
+    const double A = 1, B = 2, C = 3, w1 = 0.01, w2 = 1, T2 = A * w1 * w1 + B * w2 * w2, L2 = A * A * w1 * w1 + B * B * w2 * w2;
+    const double a = std::sqrt((T2 * C - L2) / (A * (C - A))), b = std::sqrt((L2 - T2 * A) / (B * (B - A))),
+                 c = std::sqrt((L2 - T2 * A) / (C * (C - A))), p = std::sqrt((T2 * C - L2) * (B - A) / (A * B * C)),
+                 m = (C - B) * (L2 - T2 * A) / ((B - A) * (T2 * C - L2));
+    const std::string scene = source_path("scenes/textbook/free_body_quaternion.toml"), file = temporary("free.csv", "");
+    for (const std::string t : {"5", "10", "20"}) {
+        CAPTURE(t);
+        const Json end = json_of({"simulate", scene, "--json", "--duration", t, "-o", file})["final"];
+        const Jacobi e = jacobi(p * std::stod(t) + std::comp_ellint_1(std::sqrt(m)), m);
+        CHECK(std::abs(number(end, "speeds", "w1") - a * e.dn) < 1e-10);
+        CHECK(std::abs(number(end, "speeds", "w2") - b * e.sn) < 1e-10);
+        CHECK(std::abs(number(end, "speeds", "w3") - c * e.cn) < 1e-10);
+    }
+    const Json end = json_of({"simulate", scene, "--json", "-o", file})["final"];  // by 30 digits, at t = 50
+    CHECK(std::abs(number(end, "speeds", "w1") - 0.604575658803382887802411991357) < 1e-10);
+    CHECK(std::abs(number(end, "speeds", "w2") - 0.796610490002771404200565729169) < 1e-10);
+    CHECK(std::abs(number(end, "speeds", "w3") + 0.349004167700780922294980873671) < 1e-10);
+    for (const auto& [name, value] : {std::pair("Hx", 0.01), std::pair("Hy", 2.0), std::pair("Hz", 0.0)})
+        for (const double h : column(file, name)) CHECK(std::abs(h - value) < 1e-12);
+}
+
+TEST_CASE("space: a body turned by a quaternion and by Euler angles goes through the same attitudes") {
+    std::string by_e = textbook("free_body_quaternion");
+    by_e = replaced(replaced(by_e, "e0 = 1", "e0 = \"cos(0.5)\""), "e1 = 0", "e1 = \"sin(0.5)\"");
+    by_e = replaced(by_e, "initial = 0.01", "initial = 0.3");
+    by_e = without(by_e, "[[claim]]");
+    by_e = replaced(by_e, "[outputs]", "[outputs]\nup1 = \"dot(ex(F), ez(N))\"\nup2 = \"dot(ey(F), ez(N))\"\nside = \"dot(ex(F), ex(N))\"");
+    std::string by_angles = replaced(by_e, "quaternion = [\"e0\", \"e1\", \"e2\", \"e3\"]",
+                                     "rotate = [[\"z\", \"psi\"], [\"x\", \"theta\"], [\"z\", \"phi\"]]");
+    by_angles = replaced(by_angles, "e0 = \"cos(0.5)\"\ne1 = \"sin(0.5)\"\ne2 = 0\ne3 = 0", "psi = 0\ntheta = 1\nphi = 0");
+    const auto end = [](const std::string& name, const std::string& text, const std::string& by) {
+        const std::string file = temporary(name + ".csv", "");
+        json_of({"simulate", temporary(name + ".toml", text), "--json", "--duration", "5", "--by", by, "-o", file});
+        std::vector<double> last;
+        for (const char* item : {"Hx", "Hy", "Hz", "up1", "up2", "side"}) last.push_back(column(file, item).back());
+        return last;
+    };
+    const std::vector<double> angles = end("angles", by_angles, "kane");
+    for (const char* by : {"kane", "routh"}) {  // in three speeds; with the multiplier of e·e = 1
+        CAPTURE(by);
+        const std::vector<double> e = end(by, by_e, by);
+        for (std::size_t k = 0; k < e.size(); ++k) CHECK(std::abs(e[k] - angles[k]) < 1e-10);
+    }
+    const Json at = json_of({"eval", temporary("routh.toml", by_e), "--json", "--by", "routh"});
+    CHECK(std::abs(number(at, "multipliers", "lambda_F")) < 1e-13);
+}
+
+// θ, φ, ψ by elliptic functions and quadratures in 30 digits.
+TEST_CASE("space: the heavy top follows its elliptic solution, by Euler angles and by a quaternion") {
+    const struct {
+        const char* t;
+        double theta, phi, psi;
+    } points[] = {{"1", 1.32085057941545680726672145344, 0.24603306559641322029112297, 3.9107935553460414576393327},
+                  {"5", 1.51400137056292675729735384434, 2.4391451410679134801863664, 19.538898839500581892306919},
+                  {"10", 1.05359445026001034108299428212, 5.2230966662866849375478739, 39.068918627314689980628869}};
+    for (const auto& point : points) {
+        CAPTURE(point.t);
+        const Json angles = json_of({"simulate", source_path("scenes/textbook/heavy_top.toml"), "--json", "--duration", point.t})["final"];
+        CHECK(std::abs(number(angles, "coordinates", "theta") - point.theta) < 1e-10);
+        CHECK(std::abs(number(angles, "coordinates", "phi") - point.phi) < 1e-10);
+        CHECK(std::abs(number(angles, "coordinates", "psi") - point.psi) < 1e-10);
+        const std::string file = temporary("top.csv", "");
+        const Json e = json_of({"simulate", source_path("scenes/textbook/heavy_top_quaternion.toml"), "--json", "--duration", point.t, "-o", file});
+        CHECK(std::abs(column(file, "height").back() - std::cos(point.theta)) < 1e-10);
+        // z-x-z: e0 = cos θ/2 cos (φ+ψ)/2, e3 = cos θ/2 sin (φ+ψ)/2; both signs are the same attitude, continued from the start.
+        const double half = (point.phi + point.psi) / 2;
+        CHECK(std::abs(number(e["final"], "coordinates", "e0") - std::cos(point.theta / 2) * std::cos(half)) < 1e-10);
+        CHECK(std::abs(number(e["final"], "coordinates", "e3") - std::cos(point.theta / 2) * std::sin(half)) < 1e-10);
+        for (const double v : column(file, "vertical")) CHECK(std::abs(v - 0.5 * 4 * std::cos(1.0)) < 1e-12);
+    }
+}
+
+// The same disc with a height of its own, held on the plane by a constraint, and the contact from the normal: the rolling's third row follows.
+TEST_CASE("space: the disc by a quaternion and by angles rolls the same way") {
+    std::string text = without(without(without(textbook("rolling_disc_in_space"), "[[frame]]"), "[[point]]"), "[[claim]]");
+    text = without(without(without(text, "[[body]]"), "[[rolling]]"), "[coordinates]");
+    text += R"toml(
+[coordinates]
+x = 0
+y = 0
+z = { guess = 0.5 }
+e0 = "cos(0.15)"
+e1 = "sin(0.15)"
+e2 = 0
+e3 = 0
+[speeds]
+w1 = { form = "dot(omega(disc), ex(D))", initial = 0.2 }
+w2 = { form = "dot(omega(disc), ey(D))", initial = "6 + 0.4*sin(0.3)" }
+w3 = { form = "dot(omega(disc), ez(D))", initial = "0.4*cos(0.3)" }
+[definitions]
+tilt = "dot(ez(N), ey(D))"
+s = "sqrt(1 - tilt^2)"
+[[frame]]
+name = "D"
+quaternion = ["e0", "e1", "e2", "e3"]
+[[body]]
+name = "disc"
+mass = "m"
+frame = "D"
+inertia = ["m*r^2/4", "m*r^2/2", "m*r^2/4"]
+position = ["x", "y", "z"]
+[[constraint]]
+name = "touch"
+holonomic = "z = r*s"
+[[rolling]]
+name = "rim"
+body = "disc"
+contact = ["-r*dot(ez(N), ex(D))/s", 0, "-r*dot(ez(N), ez(D))/s"]
+axes = "D"
+[outputs]
+lean = "tilt"
+)toml";
+    const std::string scene = temporary("disc.toml", text), file = temporary("disc.csv", "");
+    const Json angles = json_of({"simulate", source_path("scenes/textbook/rolling_disc_in_space.toml"), "--json"})["final"];
+    const double theta = number(angles, "coordinates", "theta"), psi = number(angles, "coordinates", "psi");
+    for (const char* by : {"kane", "routh"}) {
+        CAPTURE(by);
+        const Json end = json_of({"simulate", scene, "--json", "--by", by, "-o", file})["final"];
+        CHECK(std::abs(column(file, "lean").back() - std::sin(theta)) < 1e-9);
+        // From the foot of the contact to the mass centre: r sin θ across the heading.
+        CHECK(std::abs(number(end, "coordinates", "x") - (number(angles, "coordinates", "x") + 0.5 * std::sin(theta) * std::sin(psi))) < 1e-9);
+        CHECK(std::abs(number(end, "coordinates", "y") - (number(angles, "coordinates", "y") - 0.5 * std::sin(theta) * std::cos(psi) + 0.5 * std::sin(0.3))) < 1e-9);
+    }
+    const auto proved = run({"agree", scene});
+    CHECK(proved.out.rfind("routh, kane, dalembert, nielsen: proved", 0) == 0);
+}
+
+TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {
+    const std::string by_angles = source_path("scenes/textbook/heavy_top.toml");
+    const std::string upright = temporary("upright.toml", replaced(textbook("heavy_top"), "theta = { initial = 1,", "theta = { initial = 0,"));
+    for (const auto& result : {run({"eval", by_angles, "--at", "theta=0"}), run({"simulate", upright})}) {
+        CHECK(result.exit == 4);
+        CHECK(result.err.find("the angles phi, theta, psi of frame 'F' are in gimbal lock") != std::string::npos);
+        CHECK(result.err.find("give the frame a quaternion") != std::string::npos);
+    }
+    const std::string passes = temporary("passes.toml", replaced(textbook("heavy_top_quaternion"), "theta0 = { value = 1.0", "theta0 = { value = 0.0"));
+    const Json end = json_of({"simulate", passes, "--json"})["final"];  // it sleeps
+    CHECK(std::abs(number(end, "coordinates", "e0") - std::cos(20.0)) < 1e-10);
+}
+
+TEST_CASE("space: a singular matrix that is no gimbal lock is not called one") {
+    const auto result = run({"eval", temporary("massless.toml", "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\n"
+                                                                "position = [\"x + y\", 0]\n")});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("gimbal") == std::string::npos);
+}
+
+TEST_CASE("space: the rattleback turns back in one sense and goes on in the other") {
+    const std::string text = textbook("rattleback"), file = temporary("rattle.csv", "");
+    const auto spins = [&](const std::string& start) {
+        const std::string scene = temporary("rattle.toml", replaced(text, "initial = -5.0", "initial = " + start));
+        const Json motion = json_of({"simulate", scene, "--json", "--duration", "12", "--sample", "0.1", "-o", file});
+        CHECK(motion["energy_drift"].get<double>() < 1e-9);
+        CHECK(motion["constraint_drift"].get<double>() < 1e-12);
+        return column(file, "spin");
+    };
+    const std::vector<double> back = spins("-5.0"), on = spins("5.0");
+    CHECK(back.front() < -4.9);
+    CHECK(back.back() > 4.5);
+    for (const double spin : on) CHECK(spin > 4.9);
+}
+
+TEST_CASE("space: what is wrong with a quaternion or a contact at the scene's values is told") {
+    const auto off = run({"derive", temporary("off.toml", replaced(textbook("free_body_quaternion"), "e1 = 0", "e1 = 0.01"))});
+    CHECK(off.exit == 3);
+    CHECK(off.err.find("the sum of squares of the quaternion of frame 'F' is 1.0001 at the start; expected 1") != std::string::npos);
+    const auto near = run({"eval", temporary("near.toml", replaced(textbook("free_body_quaternion"), "e0 = 1", "e0 = 1.0000000001"))});
+    CHECK(near.exit == 0);
+    const std::string still = "[coordinates]\nx = 0\n[[body]]\nname = \"B\"\nmass = 1\nposition = [0, 0, \"x\"]\n[[body]]\nname = \"D\"\nmass = 1\n"
+                              "position = [0, 1, \"x\"]\n[[rolling]]\nname = \"r\"\nbody = \"B\"\non = \"D\"\ncontact = [0, 0, -1]\n";
+    const auto idle = run({"derive", temporary("idle.toml", still)});
+    CHECK(idle.exit == 3);
+    CHECK(idle.err.find("rolling 'r' says nothing") != std::string::npos);
+    const auto torn = run({"derive", temporary("torn.toml", replaced(still, "[0, 1, \"x\"]", "[0, \"t\", \"x\"]"))});
+    CHECK(torn.exit == 3);
+    CHECK(torn.err.find("rolling 'r' cannot hold: along y the contact moves by itself") != std::string::npos);
+}

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: MIT
+// Joints against the same geometry written with frames and points, closed loops against trees that obey them, and trees
+// of bodies against accelerations computed elsewhere.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "analysis/agree.hpp"
+#include "analysis/assemble.hpp"
+#include "formalism/dalembert.hpp"
+#include "formalism/kane.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/routh.hpp"
+#include "lower/lower.hpp"
+#include "scenes.hpp"
+
+using namespace alembert;
+
+namespace {
+
+Mechanism from_text(const std::string& text) { return build(parse_scene(text, "scene.toml")); }
+
+std::vector<double> group(const Program& program, const State<double>& state, const char* name) {
+    const std::vector<double> value = interpret(program, state);
+    std::vector<double> result;
+    for (const int id : program.nodes_of(name)) result.push_back(value[id]);
+    return result;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+    REQUIRE(a.size() == b.size());
+    double worst = 0, size = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        worst = std::max(worst, std::abs(a[i] - b[i]));
+        size = std::max(size, std::abs(b[i]));
+    }
+    return worst / size;
+}
+
+Program lowered(const Mechanism& m, const Equations& equations) { return lower(m, equations, energy_of(m)); }
+
+/// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by Kane's and d'Alembert's.
+void same_motion(const std::string& joints, const std::string& frames) {
+    const Mechanism a = from_text(joints), b = from_text(frames);
+    REQUIRE(a.size() == b.size());
+    const Program p = lowered(a, lagrange(a)), r = lowered(b, lagrange(b)), k = lowered(a, kane(a)), d = lowered(a, dalembert(a));
+    const unsigned seed = 20040110;
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 8; ++i) {
+        const State<double> state = test::random_state(start_of(a), random);
+        const std::vector<double> expected = group(r, state, "acceleration");
+        // Rounding times the conditioning of M (below 10³ here).
+        for (const Program* program : {&p, &k, &d}) CHECK(distance(group(*program, state, "acceleration"), expected) < 1e-12);
+        CHECK(distance(group(p, state, "energy"), group(r, state, "energy")) < 1e-13);
+    }
+}
+
+const char* const base = R"(
+gravity = [1, -2, -9.81]
+[parameters]
+h = 0.7
+)";
+
+const char* const masses = R"(
+mass = 2
+inertia = { xx = 0.4, yy = 0.5, zz = 0.6, xy = 0.01, yz = -0.02, zx = 0.03 }
+)";
+
+/// A joint's type with what it is made of: turns and shifts as frames and points say them.
+struct Case {
+    const char* type;
+    const char* keys;
+    const char* coordinates;
+    const char* turns;     // after parent_rotate
+    const char* backwards;  // the same, undone
+    const char* shift;     // along the joint's axes in the parent
+};
+
+const Case cases[] = {
+    {"fixed", "", "", "", "", "[0, 0, 0]"},
+    {"revolute", "axis = 'y'", "q1 = 0.1", "['y', 'q1'],", "['y', '-q1'],", "[0, 0, 0]"},
+    {"revolute", "axis = [1, 2, 'h']", "q1 = 0.1", "[[1, 2, 'h'], 'q1'],", "[[1, 2, 'h'], '-q1'],", "[0, 0, 0]"},
+    {"prismatic", "axis = [0, 3, 4]", "q1 = 0.1", "", "", "[0, '3*q1/5', '4*q1/5']"},
+    {"cylindrical", "axis = 'x'", "q1 = 0.1, q2 = 0.2", "['x', 'q1'],", "['x', '-q1'],", "['q2', 0, 0]"},
+    {"screw", "pitch = 'h/10'", "q1 = 0.1", "['z', 'q1'],", "['z', '-q1'],", "[0, 0, 'h/10*q1']"},
+    {"universal", "", "q1 = 0.1, q2 = 0.2", "['x', 'q1'], ['y', 'q2'],", "['y', '-q2'], ['x', '-q1'],", "[0, 0, 0]"},
+    {"planar", "", "q1 = 0.1, q2 = 0.2, q3 = 0.3", "['z', 'q3'],", "['z', '-q3'],", "['q1', 'q2', 0]"},
+    {"spherical", "angles = 'zxz'", "q1 = 0.1, q2 = 0.2, q3 = 0.3", "['z', 'q1'], ['x', 'q2'], ['z', 'q3'],",
+     "['z', '-q3'], ['x', '-q2'], ['z', '-q1'],", "[0, 0, 0]"},
+    {"free", "angles = 'xyz'", "q1 = 0.1, q2 = 0.2, q3 = 0.3, q4 = 0.4, q5 = 0.5, q6 = 0.6",
+     "['x', 'q4'], ['y', 'q5'], ['z', 'q6'],", "['z', '-q6'], ['y', '-q5'], ['x', '-q4'],", "['q1', 'q2', 'q3']"},
+};
+
+std::string with_joints(const Case& c, bool from_parent) {
+    return fmt::format(R"({}
+[[body]]
+name = "A" {}
+[[body]]
+name = "B" {}
+[[joint]]
+name = "first"
+type = "revolute"
+parent = "N"
+child = "A"
+child_point = [0.1, 0.2, 0.3]
+coordinates = {{ q0 = 0.3 }}
+[[joint]]
+name = "second"
+type = "{}"
+parent = "{}"
+child = "{}"
+parent_point = [0.3, "h", -0.1]
+child_point = [0, 0.4, "-h"]
+parent_rotate = [["x", 0.2], ["z", "h"]]
+child_rotate = [["y", 0.5]]
+{}
+coordinates = {{ {} }}
+)",
+                       base, masses, masses, c.type, from_parent ? "A" : "B", from_parent ? "B" : "A", c.keys, c.coordinates);
+}
+
+std::string with_frames(const Case& c, bool from_parent) {
+    const std::string head = fmt::format(R"({}
+[coordinates]
+q0 = 0.3
+{}
+[[frame]]
+name = "FA"
+rotate = [["z", "q0"]]
+[[body]]
+name = "A" {}
+frame = "FA"
+position = [-0.1, -0.2, -0.3]
+axes = "FA"
+)",
+                                         base, [&] {
+                                             std::string lines = c.coordinates;
+                                             std::replace(lines.begin(), lines.end(), ',', '\n');
+                                             return lines;
+                                         }(),
+                                         masses);
+    const std::string there = R"(["x", 0.2], ["z", "h"])", back = R"(["z", "-h"], ["x", -0.2])";
+    if (from_parent)
+        return head + fmt::format(R"([[frame]]
+name = "J"
+parent = "FA"
+rotate = [{}]
+[[frame]]
+name = "FB"
+parent = "J"
+rotate = [{} ["y", -0.5]]
+[[point]]
+name = "P"
+from = "A"
+offset = [0.3, "h", -0.1]
+axes = "FA"
+[[point]]
+name = "Q"
+from = "P"
+offset = {}
+axes = "J"
+[[body]]
+name = "B" {}
+frame = "FB"
+from = "Q"
+position = [0, -0.4, "h"]
+axes = "FB"
+)",
+                                  there, c.turns, c.shift, masses);
+    return head + fmt::format(R"([[frame]]
+name = "J"
+parent = "FA"
+rotate = [["y", 0.5], {}]
+[[frame]]
+name = "FB"
+parent = "J"
+rotate = [{}]
+[[point]]
+name = "Q"
+from = "A"
+offset = [0, 0.4, "-h"]
+axes = "FA"
+[[point]]
+name = "S"
+offset = {}
+axes = "J"
+[[body]]
+name = "B" {}
+frame = "FB"
+from = "Q"
+position = ["-dot(pos(S), ex(FB))-0.3", "-dot(pos(S), ey(FB))-h", "-dot(pos(S), ez(FB))+0.1"]
+axes = "FB"
+)",
+                              c.backwards, back, c.shift, masses);
+}
+
+/// Two bodies, the second moved as `motion` says against the first, and a joint of this type that closes a loop between them.
+std::string loop(const std::string& type, const std::string& keys, const std::string& free) {
+    return fmt::format(R"({}
+[[body]]
+name = "A" {}
+[[body]]
+name = "B" {}
+[[joint]]
+name = "first"
+type = "revolute"
+parent = "N"
+child = "A"
+axis = "x"
+coordinates = {{ q0 = 0.3 }}
+[[joint]]
+name = "moved"
+type = "free"
+parent = "A"
+child = "B"
+parent_point = [0.3, 0.2, -0.1]
+child_point = [0, 0.4, -0.5]
+angles = "xyz"
+{}
+[[joint]]
+name = "loop"
+type = "{}"
+parent = "A"
+child = "B"
+parent_point = [0.3, 0.2, -0.1]
+child_point = [0, 0.4, -0.5]
+{}
+)",
+                       base, masses, masses, free, type, keys);
+}
+
+struct Locked {
+    const char *type, *keys;
+    const char* allowed[6];  // x, y, z, and angles about x, y, z as functions of time
+    std::vector<int> rows;   // the directions that are locked
+};
+
+const Locked locked[] = {
+    {"fixed", "", {"0", "0", "0", "0", "0", "0"}, {0, 1, 2, 3, 4, 5}},
+    {"revolute", "", {"0", "0", "0", "0", "0", "t"}, {0, 1, 2, 3, 4}},
+    {"revolute", "axis = 'y'", {"0", "0", "0", "0", "t", "0"}, {0, 1, 2, 3, 5}},
+    {"revolute", "axis = [-1, 0, 0]", {"0", "0", "0", "t", "0", "0"}, {0, 1, 2, 4, 5}},
+    {"prismatic", "axis = 'x'", {"t", "0", "0", "0", "0", "0"}, {1, 2, 3, 4, 5}},
+    {"cylindrical", "axis = 'y'", {"0", "t", "0", "0", "2*t", "0"}, {0, 2, 3, 5}},
+    {"universal", "", {"0", "0", "0", "t", "3*t", "0"}, {0, 1, 2, 5}},
+    {"spherical", "", {"0", "0", "0", "t", "3*t", "2*t"}, {0, 1, 2}},
+    {"planar", "", {"t", "t^2", "0", "0", "0", "2*t"}, {2, 3, 4}},
+    {"screw", "pitch = 0.2", {"0", "0", "0.2*t", "0", "0", "t"}, {0, 1, 2, 3, 4}},
+};
+
+}  // namespace
+
+TEST_CASE("joints: a body placed by a joint of any type moves as one placed by frames and points") {
+    for (const Case& c : cases)
+        for (const bool from_parent : {true, false}) {
+            CAPTURE(c.type);
+            CAPTURE(from_parent);
+            same_motion(with_joints(c, from_parent), with_frames(c, from_parent));
+        }
+}
+
+TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
+    for (const Locked& c : locked) {
+        CAPTURE(c.type);
+        std::string motion = "motion = { ";
+        for (int k = 0; k < 6; ++k) motion += fmt::format("{}q{} = \"{}\"", k > 0 ? ", " : "", k + 1, c.allowed[k]);
+        const Mechanism m = from_text(loop(c.type, c.keys, motion + " }"));
+        CHECK(m.constraints.empty());
+        CHECK(m.identities.size() == c.rows.size());
+    }
+}
+
+TEST_CASE("joints: a loop's rows lock exactly the other directions, and pull the child along the joint's axes") {
+    for (const Locked& c : locked) {
+        CAPTURE(c.type);
+        const Mechanism m = from_text(
+            loop(c.type, c.keys, "coordinates = { q1 = 0, q2 = 0, q3 = 0, q4 = 0, q5 = 0, q6 = 0 }"));
+        CHECK(m.constraints.size() == c.rows.size());
+        const Program program = lower_constraints(m);
+        const State<double> state = start_of(m).state();
+        const std::vector<double> A = group(program, state, "row");
+        for (std::size_t k = 0; k < c.rows.size(); ++k)
+            for (std::size_t i = 0; i < 7; ++i) {
+                // All joints' axes agree at the start: the k-th row is the rate of one coordinate of the free joint.
+                const double screw = std::string(c.type) == "screw" && c.rows[k] == 2 && i == 6 ? -0.2 : 0;
+                CHECK(A[k * 7 + i] == doctest::Approx(static_cast<int>(i) == c.rows[k] + 1 ? 1 : screw).epsilon(1e-14));
+            }
+    }
+}
+
+TEST_CASE("joints: a four-bar linkage closed by a joint accelerates as the one written with points") {
+    const auto accelerations = [](const std::string& file, std::vector<double>& lambda) {
+        const Mechanism m = build(read_scene(test::source_path(file)));
+        REQUIRE(m.constraints.size() == 2);
+        Start start = start_of(m);
+        assemble(start, m, lower_constraints(m), {});
+        const Program p = lowered(m, routh(m));
+        lambda = group(p, start.state(), "multiplier");
+        return group(p, start.state(), "acceleration");
+    };
+    std::vector<double> force, other;
+    const std::vector<double> joints = accelerations("scenes/gallery/four_bar_joints.toml", force),
+                              points = accelerations("scenes/textbook/four_bar.toml", other);
+    // The angles of the first are counted from the link before. The start is assembled to 1e-12.
+    const double size = std::abs(points[0]) + std::abs(points[1]) + std::abs(points[2]);
+    CHECK(std::abs(joints[0] - points[0]) < 1e-11 * size);
+    CHECK(std::abs(joints[0] + joints[1] - points[1]) < 1e-11 * size);
+    CHECK(std::abs(joints[2] - points[2]) < 1e-11 * size);
+    // Both pull the rocker's end from the coupler's: along N there, along the coupler here.
+    CHECK(std::hypot(force[0], force[1]) == doctest::Approx(std::hypot(other[0], other[1])).epsilon(1e-10));
+}
+
+TEST_CASE("joints: the double pendulum by joints is the one by coordinates") {
+    const std::string head = R"(
+gravity = [0, "g"]
+[parameters]
+m1 = 1.2
+m2 = 0.9
+l1 = 1.1
+l2 = 0.8
+g = 9.81
+)";
+    same_motion(head + R"(
+[[body]]
+name = "A"
+mass = "m1"
+inertia = 0.02
+[[body]]
+name = "B"
+mass = "m2"
+inertia = 0.03
+[[joint]]
+name = "a"
+type = "revolute"
+parent = "N"
+child = "A"
+child_point = [0, "-l1"]
+coordinates = { q1 = 0.3 }
+[[joint]]
+name = "b"
+type = "revolute"
+parent = "A"
+child = "B"
+child_point = [0, "-l2"]
+coordinates = { q2 = 0.3 }
+)",
+                head + R"(
+[coordinates]
+q1 = 0.3
+q2 = 0.3
+[[particle]]
+name = "A"
+mass = "m1"
+position = ['-l1*sin(q1)', 'l1*cos(q1)']
+[[particle]]
+name = "B"
+mass = "m2"
+from = "A"
+position = ['-l2*sin(q1+q2)', 'l2*cos(q1+q2)']
+[energy]
+kinetic = "0.01*q1'^2 + 0.015*(q1'+q2')^2"
+)");
+}
+
+TEST_CASE("joints: a prescribed motion takes a coordinate's place") {
+    const std::string head = "gravity = [0, -9.81]\n[inputs]\nF = \"0.2*sin(3*t)\"\n";
+    same_motion(head + R"(
+[[body]]
+name = "cart"
+inertia = [0.5, 0.6, 0.7]
+mass = 2
+[[body]]
+name = "bob"
+mass = 1
+inertia = [0.1, 0.2, 0.3]
+[[joint]]
+name = "rail"
+type = "cylindrical"
+parent = "N"
+child = "cart"
+axis = "x"
+coordinates = { turn = 0.1, s = 0 }
+motion = { s = "F + t^2/10" }
+[[joint]]
+name = "pin"
+type = "revolute"
+parent = "cart"
+child = "bob"
+child_point = [0, 0.5]
+axis = "x"
+coordinates = { phi = 0.4 }
+[outputs]
+push = "s'"
+)",
+                head + R"(
+[coordinates]
+turn = 0.1
+phi = 0.4
+[definitions]
+s = "F + t^2/10"
+[[frame]]
+name = "K"
+rotate = [["x", "turn"]]
+[[frame]]
+name = "L"
+parent = "K"
+rotate = [["x", "phi"]]
+[[body]]
+name = "cart"
+inertia = [0.5, 0.6, 0.7]
+mass = 2
+frame = "K"
+position = ["s", 0]
+[[body]]
+name = "bob"
+mass = 1
+inertia = [0.1, 0.2, 0.3]
+frame = "L"
+from = "cart"
+position = [0, -0.5]
+axes = "L"
+)");
+}
+
+TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
+    std::ifstream file(test::source_path("tests/reference/trees.txt"));
+    std::string line;
+    std::getline(file, line);
+    int compared = 0;
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        std::string name;
+        words >> name;
+        CAPTURE(name);
+        std::vector<double> expected;
+        for (double a = 0; words >> a;) expected.push_back(a);
+        const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
+        for (const Equations& equations : {lagrange(m), kane(m), dalembert(m)}) {
+            CAPTURE(equations.formalism);
+            CHECK(distance(group(lowered(m, equations), start_of(m).state(), "acceleration"), expected) < 1e-12);
+            ++compared;
+        }
+    }
+    CHECK(compared == 21);
+}
+
+TEST_CASE("joints: every formalism that applies gives the same equations of the gallery's mechanisms") {
+    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum"}) {
+        CAPTURE(name);
+        const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
+        const Derivations derivations = derive_all(m);
+        CHECK(derivations.equations.size() >= 3);
+        CHECK(agree(derivations.equations, m).verdict == Agreement::Verdict::proved);
+    }
+}
