@@ -13,7 +13,7 @@ namespace alembert {
 int emit_files(const Request& request) {
     const Derived d = derived(request);
     const Choice choice = lowered(d, request);
-    const Source source = emit(choice.program);
+    const Source source = emit(choice.program, {.batch = request.batch});
     std::error_code failed;
     std::filesystem::create_directories(request.output, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));

@@ -20,11 +20,15 @@ namespace alembert {
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }
+    /// Null where the file was emitted without `--batch`.
+    const alembert_pack_table* pack() const { return pack_; }
 
 private:
     friend Module load(const std::filesystem::path& object);
-    explicit Module(std::shared_ptr<const alembert_solver_table> table) : table_(std::move(table)) {}
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_pack_table* pack)
+        : table_(std::move(table)), pack_(pack) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
+    const alembert_pack_table* pack_;
 };
 
 Module load(const std::filesystem::path& object);
