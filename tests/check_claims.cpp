@@ -272,8 +272,49 @@ holonomic = "{}"
         CHECK(verdicts(mesh, "cos(a) = 2*cos(b)^2 - 1\ncos(a) = cos(b)\n(4*I1+I2)*b'' = 2*k*sin(2*b) - k*cos(b)\n(4*I1+I2)*b'' = 2*k*sin(b) - k*cos(b)\n") == "prpr");
     CHECK(verdicts("2*a = 3*b", "cos(2*a) = cos(3*b)\ncos(a) = cos(b)\n(9*I1/4+I2)*b'' = 3*k/2*sin(a) - k*cos(b)\n") == "prp");
     CHECK(verdicts("a - 2*b = pi/2", "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
-    // No turn by π/3 in the field: what cannot be decided is not called wrong.
-    CHECK(verdicts("a - 2*b = pi/3", "cos(a) = cos(2*b + pi/3)\ncos(a) = cos(2*b)\n") == "ur");
+    CHECK(verdicts("a - 2*b = pi/3", "2*cos(a) = cos(2*b) - sqrt(3)*sin(2*b)\ncos(a) = cos(2*b)\n") == "pr");
+    // No turn by π/5 in the field: what cannot be decided is not called wrong.
+    CHECK(verdicts("a - 2*b = pi/5", "cos(a) = cos(2*b + pi/5)\ncos(a) = cos(2*b)\n") == "ur");
+}
+
+TEST_CASE("check: roots of numbers that the field does not have, and the turns that go with them") {
+    // Two masses at the corners of an equilateral triangle that hangs from the third: 2 m a² th'' = −2 m g a sin(th) cos(π/6).
+    const std::string triangle = R"--(
+gravity = [0, "-g"]
+[parameters]
+m = 1
+a = 1
+g = 9.81
+[coordinates]
+th = 0.3
+[[frame]]
+name = "R"
+rotate = [["z", "th"]]
+[[body]]
+name = "A"
+mass = "m"
+position = ["a/2", "-a*sqrt(3)/2"]
+axes = "R"
+[[body]]
+name = "B"
+mass = "m"
+position = ["-a/2", "-a*sqrt(3)/2"]
+axes = "R"
+)--";
+    const auto verdict = [&](const std::string& claim) {
+        return checked(with_claims(parse_scene(triangle, "triangle.toml"), claim + "\n", "claims.txt")).claims[0].verdict;
+    };
+    for (const char* right : {"2*a*th'' + sqrt(3)*g*sin(th) = 0", "2*a*th'' = -3*g*sin(th)/sqrt(3)", "a*th'' = -cos(pi/6)*g*sin(th)",
+                              "2*a*th'' = g*(cos(th + pi/3) - cos(th - pi/3))", "sqrt(5)*a*th'' = -sqrt(15)/2*g*sin(th)",
+                              "sqrt(12*g/a)*a*th'' = -3*g*sqrt(g/a)*sin(th)"}) {
+        CAPTURE(right);
+        CHECK(verdict(right) == Verdict::proved);
+    }
+    for (const char* wrong : {"2*a*th'' = -3*g*sin(th)", "2*a*th'' = sqrt(3)*g*sin(th)", "a*th'' = -cos(pi/3)*g*sin(th)",
+                              "2*a*th'' = g*(cos(th + pi/6) - cos(th - pi/6))"}) {
+        CAPTURE(wrong);
+        CHECK(verdict(wrong) == Verdict::refuted);
+    }
 }
 
 TEST_CASE("check: a chain of eight rods proves its own equations and refutes one with a sign changed, which it names") {

@@ -76,7 +76,7 @@ struct ModularValues {
 namespace modular {
 
 /// A polynomial in values: monomial's value → coefficient. 0 stands for π, 1 for a plain number.
-using Angle = std::map<std::uint64_t, Rational>;
+using Angle = std::map<Prime, Rational>;
 
 class Evaluation {
 public:
@@ -133,8 +133,12 @@ private:
                 return turn->sin * turn->cos.inverse();
             }
             case Op::sqrt: return square_root(node.args[0]);
-            case Op::abs: return arg(0).is_square() ? arg(0) : -arg(0);
-            case Op::sign: return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
+            case Op::abs:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_plain() ? (arg(0).is_square() ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
+            case Op::sign:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
             case Op::exp: return exponential(node.args[0], degree);
             case Op::sinh:
             case Op::cosh:
@@ -201,23 +205,33 @@ private:
 
     std::optional<Prime> square_root(int arg) {
         const Node& node = program_[arg];
-        if (node.is_scaled()) {  // √(9a) = 3 √a, though 3 may be no square
-            Rational root;
-            const Rational c = node.coefficients[0];
-            if (cln::plusp(c) && cln::sqrtp(c, &root)) {
-                const std::optional<Prime> inner = square_root(node.args[0]), outer = Prime::from(root);
-                if (!inner || !outer) return std::nullopt;
-                return *inner * *outer;
-            }
+        if (node.is_number()) {
+            if (cln::zerop(node.number)) return Prime(0);
+            if (!cln::plusp(node.number)) return std::nullopt;
+            if (const auto root = Prime::root_of(node.number)) return root;
+            result_.exact = false;
+            return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
         }
-        const Prime a = value(arg);
-        if (a.is_square()) {
-            if (!node.is_number()) result_.conditions += 1;
-            return a.root();
+        // √(3a + 3b) = √3 √(a + b), though 3 may be no square
+        const Rational content = node.op == Op::sum ? content_of(node) : Rational(1);
+        const auto outer = Prime::root_of(content);
+        const auto factor = Prime::from(outer ? content : Rational(1));
+        if (!factor || factor->is_zero()) return std::nullopt;
+        const Prime a = value(arg) * factor->inverse();
+        if (!a.is_square()) return std::nullopt;
+        result_.conditions += 1;
+        result_.exact = result_.exact && a.is_plain();
+        return outer ? *outer * a.root() : a.root();
+    }
+
+    /// The positive number by which the coefficients of a sum are whole without a common factor.
+    static Rational content_of(const Node& node) {
+        cln::cl_I above = cln::numerator(node.number), below = cln::denominator(node.number);
+        for (const Rational& c : node.coefficients) {
+            above = cln::gcd(above, cln::numerator(c));
+            below = cln::lcm(below, cln::denominator(c));
         }
-        if (!node.is_number()) return std::nullopt;
-        result_.exact = false;
-        return point_.random(static_cast<std::uint64_t>(Op::sqrt), a.bits());
+        return cln::abs(above) / below;
     }
 
     // Angles
@@ -228,7 +242,7 @@ private:
         if (node.is_number()) return Angle{{1, node.number}};
         if (node.op == Op::pi) return Angle{{0, 1}};
         Angle result;
-        const auto add = [&](std::uint64_t monomial, const Rational& c) {
+        const auto add = [&](Prime monomial, const Rational& c) {
             Rational& to = result.emplace(monomial, 0).first->second;
             to = to + c;
         };
@@ -248,22 +262,22 @@ private:
                     const Angle before = std::exchange(result, {});
                     if (before.size() * part->size() > most_terms) return std::nullopt;
                     for (const auto& [m1, c1] : before)
-                        for (const auto& [m2, c2] : *part) add((leaf(m1) * leaf(m2)).bits(), c1 * c2);
+                        for (const auto& [m2, c2] : *part) add(leaf(m1) * leaf(m2), c1 * c2);
                 }
             }
             return result;
         } else {
-            return Angle{{value(id).bits(), 1}};
+            return Angle{{value(id), 1}};
         }
         return result.size() > most_terms ? std::nullopt : std::optional(result);
     }
 
-    Prime leaf(std::uint64_t monomial) const { return monomial == 0 ? pi_ : Prime::from_bits(monomial); }
+    Prime leaf(Prime monomial) const { return monomial.is_zero() ? pi_ : monomial; }
 
     Angle angle_or_leaf(int id) {
         if (auto result = angle(id)) return *result;
         result_.exact = false;
-        return Angle{{value(id).bits(), 1}};
+        return Angle{{value(id), 1}};
     }
 
     std::optional<Turn> turned(int id, double& degree) {
@@ -272,7 +286,7 @@ private:
         const Angle sum = angle_or_leaf(id);
         for (const auto& [monomial, c] : sum) {
             if (cln::zerop(c)) continue;
-            if (monomial == 0) {
+            if (monomial.is_zero()) {
                 const std::optional<Turn> part = turned_by_pi(c);
                 if (!part) return std::nullopt;
                 result = result * *part;
@@ -285,7 +299,9 @@ private:
             note_denominator(odd);
             numerator = numerator << halves;
             degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, point_.halves);
-            result = result * point_.angle(leaf(monomial)).power(*Turn::exponent(numerator / odd));
+            const Turn turn = point_.angle(leaf(monomial));
+            if (odd != 1 && !turn.is_plain()) return std::nullopt;
+            result = result * turn.power(*Turn::exponent(numerator / odd));
         }
         return result;
     }
