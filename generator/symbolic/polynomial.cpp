@@ -41,6 +41,19 @@ int compare_symbols(const SymbolInfo& a, const SymbolInfo& b) {
     return key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
 }
 
+/// Of atoms that compare as equal: are their symbols of the same scene?
+int compare_owners(const AtomNode& a, const AtomNode& b) {
+    if (&a == &b) return 0;
+    if (a.kind == AtomNode::Kind::symbol) return a.symbol.compare(b.symbol);
+    for (std::size_t i = 0; i < a.args.size(); ++i)
+        for (std::size_t k = 0; k < a.args[i].size(); ++k) {
+            const Monomial &m = a.args[i].terms()[k].monomial, &n = b.args[i].terms()[k].monomial;
+            for (std::size_t j = 0; j < m.size(); ++j)
+                if (const int order = compare_owners(*m[j].atom, *n[j].atom); order != 0) return order;
+        }
+    return 0;
+}
+
 }  // namespace
 
 Polynomial::Polynomial(const Rational& constant) {
@@ -97,7 +110,10 @@ Atom compound_atom(AtomNode::Kind kind, std::vector<Polynomial> args, std::strin
     if (kind == AtomNode::Kind::base) node->primitive = is_primitive(node->args.at(0));
     // Equal atoms are mostly one object, which makes their comparison short.
     constexpr std::size_t most = 4096;
-    static auto& known = *new std::set<Atom, decltype([](const Atom& a, const Atom& b) { return compare(a, b) < 0; })>;
+    static auto& known = *new std::set<Atom, decltype([](const Atom& a, const Atom& b) {
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : compare_owners(*a, *b) < 0;
+    })>;
     if (known.size() >= most) known.clear();
     return *known.insert(std::move(node)).first;
 }
