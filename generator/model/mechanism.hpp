@@ -147,6 +147,9 @@ struct Mechanism {
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
 
+    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from others.
+    std::vector<const Constraint*> undetermined() const;
+
     /// What changes with time, but for the rates: coordinates, t, inputs.
     std::vector<GiNaC::symbol> moving() const;
 
