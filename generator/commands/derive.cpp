@@ -297,6 +297,11 @@ int derive(const Request& request) {
         blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
         for (const auto& [name, value] : shown.definitions)
             blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+        for (const Section& section : shown.sections) {
+            if (!request.steps) break;
+            blocks.push_back({section.words, {}});
+            for (const Statement& s : section.statements) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+        }
     } else if (request.steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
