@@ -436,7 +436,7 @@ private:
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
         int index = static_cast<int>(scene_.constraints.size());
-        for (const Quaternion& quaternion : quaternions_of(scene_)) attempt([&] { add_norm(quaternion, index++); });
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_)) attempt([&] { add_norm(quaternion, index++); });
         for (const RollingRule& rule : scene_.rolling) {
             attempt([&] { add_rolling(rule, index); });
             index += 3;
@@ -447,7 +447,7 @@ private:
     }
 
     // e·e − 1 = 0
-    void add_norm(const Quaternion& quaternion, int index) {
+    void add_norm(const FrameQuaternion& quaternion, int index) {
         SourceScope source(*m_.z, "frame " + quaternion.of.text);
         ex value = -1, start = 0;
         bool moves = false;

@@ -92,7 +92,7 @@ private:
         const Legal angle{.subject = "an angle", .order = 0, .input_order = 0, .time = true};
         const Legal axis{.subject = "an axis"};
         std::unordered_map<std::string, std::string> taken;  // coordinate → frame
-        for (const Quaternion& quaternion : quaternions_of(scene_))
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_))
             for (const Name& name : quaternion.e) check_quaternion(name, quaternion.of.text, taken);
         for (const Frame& frame : scene_.frames) {
             quantities_.check_frame(frame.parent);
@@ -252,7 +252,7 @@ private:
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
             check_constraint_name(rule.name, known);
         }
-        for (const Quaternion& quaternion : quaternions_of(scene_)) check_constraint_name(quaternion.of, known);
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_)) check_constraint_name(quaternion.of, known);
         for (const RollingRule& rule : scene_.rolling) {
             check_body(rule.body, false);
             check_body(rule.on, true);

@@ -121,7 +121,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
-    for (const Quaternion& quaternion : quaternions_of(scene)) multipliers.push_back(multiplier_of(quaternion));
+    for (const FrameQuaternion& quaternion : quaternions_of(scene)) multipliers.push_back(multiplier_of(quaternion));
     for (const RollingRule& rule : scene.rolling)
         for (Name& multiplier : multipliers_of(rule)) multipliers.push_back(std::move(multiplier));
     for (const UnilateralRule& rule : scene.unilateral)

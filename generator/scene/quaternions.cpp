@@ -12,8 +12,8 @@ std::vector<Name> quaternion_of(const Joint& joint) {
     return {joint.coordinates.begin() + static_cast<std::ptrdiff_t>(first), joint.coordinates.end()};
 }
 
-std::vector<Quaternion> quaternions_of(const Scene& scene) {
-    std::vector<Quaternion> result;
+std::vector<FrameQuaternion> quaternions_of(const Scene& scene) {
+    std::vector<FrameQuaternion> result;
     for (const Frame& frame : scene.frames)
         if (!frame.quaternion.empty()) result.push_back({frame.name, frame.quaternion});
     for (const Joint& joint : scene.joints) {
@@ -28,6 +28,6 @@ std::vector<Quaternion> quaternions_of(const Scene& scene) {
     return result;
 }
 
-Name multiplier_of(const Quaternion& quaternion) { return {"lambda_" + quaternion.of.text, quaternion.of.place}; }
+Name multiplier_of(const FrameQuaternion& quaternion) { return {"lambda_" + quaternion.of.text, quaternion.of.place}; }
 
 }  // namespace alembert

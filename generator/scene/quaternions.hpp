@@ -14,16 +14,16 @@
 
 namespace alembert {
 
-struct Quaternion {
+struct FrameQuaternion {
     Name of;              ///< the frame
     std::vector<Name> e;  ///< four, scalar first
 };
 
 /// Once bodies are placed.
-std::vector<Quaternion> quaternions_of(const Scene& scene);
+std::vector<FrameQuaternion> quaternions_of(const Scene& scene);
 
 /// "lambda_F": of e·e − 1 = 0.
-Name multiplier_of(const Quaternion& quaternion);
+Name multiplier_of(const FrameQuaternion& quaternion);
 
 /// The four coordinates of a joint that turns by a quaternion, prescribed ones among them; else none.
 std::vector<Name> quaternion_of(const Joint& joint);
