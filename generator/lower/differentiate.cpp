@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
+#include <random>
 
+#include "lower/interpret.hpp"
 #include "lower/partials.hpp"
 #include "lower/solve.hpp"
 
@@ -40,7 +42,7 @@ System system_of(Program& p) {
     return s;
 }
 
-/// The nodes with `values` in the place of the unknowns that stand for them.
+/// Nodes with other nodes in the place of some.
 class Substitution {
 public:
     Substitution(Program& program, std::map<int, int> values) : p_(program), known_(std::move(values)) {}
@@ -51,8 +53,6 @@ public:
     }
 
 private:
-    static constexpr unsigned unknown = 1U << static_cast<unsigned>(Variable::Kind::unknown);
-
     int at(int id) const {
         const auto found = known_.find(id);
         return found == known_.end() ? id : found->second;
@@ -60,8 +60,8 @@ private:
 
     void rebuild(int id) {
         const Node node = p_[id];
-        if ((node.depends & unknown) == 0 || known_.contains(id)) return;
-        if (node.op == Op::variable) return;
+        if (known_.contains(id)) return;
+        if (std::none_of(node.args.begin(), node.args.end(), [&](int arg) { return known_.contains(arg); })) return;
         if (node.op == Op::sum) {
             std::vector<Program::Term> terms;
             for (std::size_t k = 0; k < node.args.size(); ++k) terms.emplace_back(node.coefficients[k], at(node.args[k]));
@@ -88,6 +88,9 @@ public:
           s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())), budget_(budget) {
         for (int i = 0; i < n_; ++i) state_.push_back(p_.variable({Variable::Kind::coordinate, i}));
         for (int i = 0; i < s_; ++i) state_.push_back(p_.variable({Variable::Kind::rate, i}));
+        for (int id = 0; id < p_.size(); ++id)
+            if (p_[id].op == Op::variable && p_[id].variable.kind == Variable::Kind::unknown)
+                first_unknown_ = std::max(first_unknown_, p_[id].variable.index + 1);
     }
 
     const std::vector<int>& state() const { return state_; }
@@ -98,21 +101,31 @@ public:
         return list;
     }
 
-    /// ∂(q', u')/∂inputs through R.
-    std::optional<Matrix> implicit(const std::vector<int>& inputs, Elimination order) {
+    /// ∂(q', u')/∂inputs through R, with M u' from M or from T.
+    std::optional<Matrix> implicit(const std::vector<int>& inputs, Elimination order, bool by_energy) {
         System system = system_of(p_);
         const std::optional<Matrix> x = solve_for_sides(p_, system.K, {system.b}, system.speeds);
         if (!x) return std::nullopt;
         std::map<int, int> solved;
         std::vector<int> unknown, residuals;
         for (int i = 0; i < system.size(); ++i) {
-            unknown.push_back(p_.variable({Variable::Kind::unknown, first_unknown + i}));
+            unknown.push_back(p_.variable({Variable::Kind::unknown, first_unknown_ + i}));
             solved[unknown.back()] = (*x)[0][static_cast<std::size_t>(i)];
+        }
+        std::optional<std::vector<int>> inertia;
+        if (by_energy) {
+            inertia = inertia_by_energy(system, {unknown.begin(), unknown.begin() + s_});
+            if (!inertia) return std::nullopt;
         }
         for (int i = 0; i < system.size(); ++i) {
             std::vector<Program::Term> terms{{1, system.b[static_cast<std::size_t>(i)]}};
-            for (int j = 0; j < system.size(); ++j)
-                terms.emplace_back(-1, p_.product(1, {{system.entry(i, j), 1}, {unknown[static_cast<std::size_t>(j)], 1}}));
+            if (inertia && i < s_) {
+                terms.emplace_back(-1, (*inertia)[static_cast<std::size_t>(i)]);
+                for (int j = s_; j < system.size(); ++j)
+                    terms.emplace_back(-1, p_.product(1, {{system.entry(i, j), 1}, {unknown[static_cast<std::size_t>(j)], 1}}));
+            } else {
+                terms.emplace_back(-1, row_times(system, i, unknown));
+            }
             residuals.push_back(p_.sum(0, terms));
         }
         const auto parts = partials(p_, residuals, inputs, order, budget_);
@@ -185,7 +198,57 @@ public:
     Program finished() && { return p_.canonical(); }
 
 private:
-    static constexpr int first_unknown = 1 << 20;  ///< beyond those that a scene may have
+    std::vector<int> speeds() const { return {state_.begin() + n_, state_.end()}; }
+
+    /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing where numbers show that T has another M.
+    std::optional<std::vector<int>> inertia_by_energy(const System& system, const std::vector<int>& z) {
+        const int epsilon = p_.variable({Variable::Kind::unknown, first_unknown_ + system.size()});
+        const auto momenta = of(p_.nodes_of("kinetic"), speeds(), Elimination::reverse);
+        if (!momenta) return std::nullopt;
+        std::map<int, int> moved;
+        for (std::size_t i = 0; i < z.size(); ++i)
+            moved[speeds()[i]] = p_.sum(0, {{1, speeds()[i]}, {1, p_.product(1, {{epsilon, 1}, {z[i], 1}})}});
+        Substitution at_moved(p_, std::move(moved));
+        std::vector<int> there;
+        for (const int node : (*momenta)[0]) there.push_back(at_moved(node));
+        const auto slope = of(there, {epsilon}, Elimination::forward);
+        if (!slope) return std::nullopt;
+        Substitution at_zero(p_, {{epsilon, p_.number(0)}});
+        std::vector<int> result;
+        for (const std::vector<int>& row : *slope) result.push_back(at_zero(row[0]));
+
+        std::vector<int> by_matrix;
+        for (int i = 0; i < s_; ++i) by_matrix.push_back(row_times(system, i, z));
+        std::mt19937_64 random(1);
+        std::uniform_real_distribution<double> unit(0.1, 0.9);
+        for (int trial = 0; trial < 3; ++trial) {
+            State<double> s{.parameters = {}, .t = unit(random), .q = {}, .qdot = {}, .qddot = {}};
+            const auto fill = [&](std::vector<double>& list, int size) {
+                for (int i = 0; i < size; ++i) list.push_back(unit(random));
+            };
+            fill(s.parameters, static_cast<int>(p_.parameters.size()));
+            fill(s.q, n_);
+            fill(s.qdot, s_);
+            fill(s.unknown, first_unknown_ + system.size() + 1);
+            const std::vector<double> value = interpret(p_, s);
+            double largest = 0, difference = 0;
+            for (std::size_t i = 0; i < result.size(); ++i) {
+                const double a = value[static_cast<std::size_t>(result[i])], b = value[static_cast<std::size_t>(by_matrix[i])];
+                largest = std::max(largest, std::abs(b));
+                difference = std::max(difference, std::isfinite(a - b) ? std::abs(a - b) : HUGE_VAL);
+            }
+            if (!(difference <= 1e-9 * largest)) return std::nullopt;
+        }
+        return result;
+    }
+
+    /// Σ_j K_ij z_j over the z that there are.
+    int row_times(const System& system, int i, const std::vector<int>& z) {
+        std::vector<Program::Term> terms;
+        for (std::size_t j = 0; j < z.size(); ++j)
+            terms.emplace_back(1, p_.product(1, {{system.entry(i, static_cast<int>(j)), 1}, {z[j], 1}}));
+        return p_.sum(0, terms);
+    }
 
     std::optional<Matrix> of(const std::vector<int>& outputs, const std::vector<int>& inputs, Elimination order) {
         const auto parts = partials(p_, outputs, inputs, order, budget_);
@@ -208,21 +271,30 @@ private:
 
     Program p_;
     int n_, s_;
+    int first_unknown_ = 0;  ///< beyond those that the scene has
     long budget_;
     std::vector<int> state_;
 };
 
 struct Route {
     const char* name;
-    bool implicit;
+    enum { by_energy, by_matrix, direct } through;
     Elimination order;
 };
 
-constexpr Route routes[] = {{"implicit, least fill", true, Elimination::least_fill},
-                            {"implicit, reverse", true, Elimination::reverse},
-                            {"implicit, forward", true, Elimination::forward},
-                            {"direct, least fill", false, Elimination::least_fill},
-                            {"direct, forward", false, Elimination::forward}};
+constexpr Route routes[] = {{"implicit with M u' from T, reverse", Route::by_energy, Elimination::reverse},
+                            {"implicit with M u' from T, least fill", Route::by_energy, Elimination::least_fill},
+                            {"implicit, reverse", Route::by_matrix, Elimination::reverse},
+                            {"implicit, least fill", Route::by_matrix, Elimination::least_fill},
+                            {"implicit, forward", Route::by_matrix, Elimination::forward},
+                            {"direct, least fill", Route::direct, Elimination::least_fill},
+                            {"direct, forward", Route::direct, Elimination::forward}};
+constexpr int few_operations = 2000;  ///< where all routes are tried; beyond, the two that are shortest for large systems
+
+std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const std::vector<int>& inputs) {
+    return route.through == Route::direct ? d.direct(inputs, route.order)
+                                          : d.implicit(inputs, route.order, route.through == Route::by_energy);
+}
 
 }  // namespace
 
@@ -230,24 +302,22 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
     if (program.singular) return std::nullopt;
     const Route* best = nullptr;
     Operations fewest;
+    const bool is_large = program.count(program.right_hand_side()).total() > few_operations;
     for (const Route& route : routes) {
+        if (is_large && (route.through == Route::direct || route.order != Elimination::reverse)) continue;
         Differentiation trial(program, wishes.budget);
-        const auto jacobian = route.implicit ? trial.implicit(trial.state(), route.order) : trial.direct(trial.state(), route.order);
+        const auto jacobian = jacobian_by(route, trial, trial.state());
         if (!jacobian) continue;
         const Operations cost = trial.cost(*jacobian);
-        if (getenv("DERIV_TRACE")) fmt::print(stderr, "{}: {} (rhs {})\n", route.name, cost.total(), program.count(program.right_hand_side()).total());
         if (best == nullptr || cost.total() < fewest.total()) best = &route, fewest = cost;
     }
     if (best == nullptr) return std::nullopt;
 
     Differentiation chosen(program, wishes.budget);
-    const auto by = [&](const std::vector<int>& inputs) {
-        return best->implicit ? chosen.implicit(inputs, best->order) : chosen.direct(inputs, best->order);
-    };
-    const Matrix jacobian = *by(chosen.state());
+    const Matrix jacobian = *jacobian_by(*best, chosen, chosen.state());
     chosen.keep("jacobian", "J", jacobian);
-    if (wishes.parameters) {
-        const auto by_parameters = by(chosen.parameters());
+    if (wishes.parameters && !program.parameters.empty()) {
+        const auto by_parameters = jacobian_by(*best, chosen, chosen.parameters());
         if (!by_parameters) return std::nullopt;
         chosen.keep("parameter_jacobian", "P", *by_parameters);
     }

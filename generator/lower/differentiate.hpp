@@ -11,8 +11,10 @@
 ///
 ///     K ∂x/∂y = ∂R/∂y |_x,
 ///
-/// solved with the factors of K that the right-hand side has anyway. ∂R/∂y comes from partials.hpp. Of this, in three orders of
-/// elimination, and of the derivative straight through the solved accelerations the one with the fewest operations is taken.
+/// solved with the factors of K that the right-hand side has anyway. ∂R/∂y comes from partials.hpp. In M u' each entry of M is
+/// differentiated; the same vector is ∂(∂T/∂u)/∂u · u', of as many operations as T, where numbers at random states say that it
+/// is the same. Of these two, in several orders of elimination, and of the derivative straight through the solved accelerations the
+/// one with the fewest operations is taken.
 ///
 /// Groups of roots: "jacobian", (n + s) × (n + s); with `parameters` "parameter_jacobian", (n + s) × p, by the parameters that a
 /// caller sets, as they stand before `prepare`; with `power` "power_gradient", n + s: of dE/dt as a function of the state.
