@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
     CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
     emit->add_option("-o,--output", request.output, "folder")->required();
     emit->add_flag("--fold", request.fold, "parameters as constants");
+    emit->add_flag("--jacobian", request.jacobian, "with the derivatives of the right-hand side by state and parameters");
 
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
     simulate->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);

@@ -7,7 +7,8 @@
 ///     source.file;   // "double_pendulum.cpp"
 ///
 /// Functions of the file: rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for what depends on
-/// parameters alone; the table at its end is lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache.
+/// parameters alone; the table at its end is lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program that has
+/// been differentiated (lower/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
 
 #include "lower/program.hpp"
 

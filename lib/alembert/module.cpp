@@ -32,7 +32,9 @@ Module load(const std::filesystem::path& object) {
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
                         path, table->abi, abi_version));
-    return Module(std::shared_ptr<const alembert_solver_table>(file, table));
+    using Further = const alembert_derivative_table* (*)();
+    const auto further = reinterpret_cast<Further>(dlsym(handle, "alembert_derivatives"));
+    return Module(std::shared_ptr<const alembert_solver_table>(file, table), further != nullptr ? further() : nullptr);
 }
 
 std::vector<double> prepared(const Module& module, const std::vector<double>& values) {

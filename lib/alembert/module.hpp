@@ -20,11 +20,15 @@ namespace alembert {
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }
+    /// Null where the file was emitted without.
+    const alembert_derivative_table* derivatives() const { return derivatives_; }
 
 private:
     friend Module load(const std::filesystem::path& object);
-    explicit Module(std::shared_ptr<const alembert_solver_table> table) : table_(std::move(table)) {}
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives)
+        : table_(std::move(table)), derivatives_(derivatives) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
+    const alembert_derivative_table* derivatives_;        ///< in it
 };
 
 Module load(const std::filesystem::path& object);
