@@ -19,7 +19,7 @@ int emit_files(const Request& request) {
         derivatives = differentiated(choice.program, {.parameters = true, .power = true});
         if (!derivatives) throw ModelError("the derivatives of the right-hand side are too long to be written out; leave out --jacobian");
     }
-    const Source source = emit(derivatives ? derivatives->program : choice.program);
+    const Source source = emit(derivatives ? derivatives->program : choice.program, {.batch = request.batch});
     std::error_code failed;
     std::filesystem::create_directories(request.output, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));

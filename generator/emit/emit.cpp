@@ -39,8 +39,9 @@ std::string wrapped(const std::string& line) {
 
 class Emitter {
 public:
-    explicit Emitter(const Program& program)
+    Emitter(const Program& program, const EmitOptions& options)
         : p_(program),
+          options_(options),
           n_(static_cast<int>(program.coordinates.size())),
           s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
         for (const Quantity& q : p_.coordinates) {
@@ -82,6 +83,7 @@ public:
                                            cost.functions));
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
+        file.set("batch", options_.batch);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
@@ -464,6 +466,7 @@ private:
     }
 
     const Program& p_;
+    EmitOptions options_;
     int n_, s_;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
@@ -473,10 +476,10 @@ private:
 
 }  // namespace
 
-Source emit(const Program& program) {
+Source emit(const Program& program, const EmitOptions& options) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
-    return Emitter(program).emit();
+    return Emitter(program, options).emit();
 }
 
 }  // namespace alembert
