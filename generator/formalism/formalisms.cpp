@@ -9,6 +9,7 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
 #include "formalism/nielsen.hpp"
+#include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 
@@ -23,6 +24,7 @@ const std::vector<Formalism>& formalisms() {
         {"dalembert", "the general equation of dynamics", dalembert},
         {"nielsen", "Nielsen's equations", nielsen},
         {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
+        {"recursive", "the recursive equations from body to body", recursive},
         {"routhian", "Routh's procedure, the momenta eliminated", routhian},
     };
     return all;

@@ -97,6 +97,20 @@ Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions
         if (program.singular || ours <= other) std::swap(program, choice.program);
         choice.runner_up = std::max(ours, other);
     }
+    // All forms of the recursions.
+    for (const bool articulated : {false, true})
+        for (const Axes axes : {Axes::own, Axes::still}) {
+            if (!equations.tree) break;
+            const RecursionForm form{axes, articulated};
+            Equations recursive = equations;
+            recursive.formalism += ", " + form.text();
+            LowerOptions by = options;
+            by.recursion = form;
+            Program program = shared(lower(m, recursive, energy, by));
+            if (getenv("ALEMBERT_FORM")) fprintf(stderr, "%s: %d\n", program.formulation.c_str(), operations(program));
+            const char* f = getenv("ALEMBERT_FORM");
+            if (f && atoi(f) == (articulated ? 2 : 0) + (axes == Axes::still ? 1 : 0)) choice.program = program;
+        }
     return choice;
 }
 

@@ -16,11 +16,9 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "symbolic/intermediates.hpp"
+#include "model/skeleton.hpp"
 
 namespace alembert {
-
-using Vector3 = std::array<GiNaC::ex, 3>;
 
 /// One body's share of T, one spring's of V …
 struct Part {
@@ -52,6 +50,7 @@ struct MassElement {
         std::optional<Vector3> about = {};   ///< mass centre minus the point of the body that `inertia` is about, along N
     };
     std::optional<Rotation> rotation = {};
+    int frame = 0, point = 0, about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
 };
 
 /// A spring as forces: between two points, or along an expression.
@@ -129,6 +128,7 @@ struct Mechanism {
     std::vector<Load> impulses;           ///< ∫load dt of what acts at the start in no time; not among `loads`
     std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
     std::vector<SpringElement> springs;
+    Skeleton skeleton;                    ///< how frames and points hang together
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
