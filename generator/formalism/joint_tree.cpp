@@ -334,6 +334,11 @@ std::vector<Dress> dress(const JointTree& tree, Axes axes) {
     return result;
 }
 
+bool has_parallel_axes(const JointTree& tree) {
+    const std::vector<Dress> how = dress(tree, Axes::still);
+    return std::any_of(how.begin(), how.end(), [](const Dress& d) { return d.continues; });
+}
+
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, Axes axes) {
     const std::vector<Dress> how = dress(tree, axes);
     std::vector<std::vector<GiNaC::numeric>> rows;

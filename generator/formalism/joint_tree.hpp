@@ -46,6 +46,8 @@ struct Dress {
     int base = -1;  ///< the link whose turns add up to this one's, where axes continue; −1: none
 };
 std::vector<Dress> dress(const JointTree& tree, Axes axes);
+/// Is there a chain of parallel axes?
+bool has_parallel_axes(const JointTree& tree);
 
 /// Over another scalar: `value` takes an expression there.
 template <typename S>
