@@ -294,6 +294,10 @@ private:
         const std::string solve = is_free ? fmt::format("Solve M {} = f with M = L D L^T", unknown)
                                           : fmt::format("Solve M {0} = f + A^T lambda, A {0} = gamma", unknown);
         all = joined(all, goals("acceleration", solve));
+        // Recursions make accelerations without M and f.
+        const std::vector<int> rhs = p_.right_hand_side(), list = p_.needed(rhs);
+        const std::set<int> needed(list.begin(), list.end());
+        std::erase_if(all, [&](const Goal& goal) { return !needed.contains(goal.node); });
         std::vector<std::string> first;
         for (int i = 0; i < n_ && !own_speeds; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
         int i = 0;
