@@ -302,7 +302,7 @@ constexpr const char* const* speed_names = nullptr;
 constexpr const char* parameter_names[] = { "m", "l", "g", "A", "C", nullptr};
 constexpr const char* output_names[] = { nullptr};
 constexpr const char* event_names[] = { nullptr};
-constexpr double parameter_values[] = { 1, 1, 1, 1, 0.5, 0};
+constexpr double parameter_values[] = { 2, 0.5, 1, 1, 0.5, 0};
 
 constexpr alembert_solver_table table{
     3, 3, 3, 5, 7, 0, 0, 0, "heavy_top", "lagrange, textbook form",

@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, schiehlen, roberson-wittenburg, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
     CLI::App* emit = verb("emit", "write the specialized C++", alembert::emit_files);
     emit->add_option("-o,--output", request.output, "folder")->required();
     emit->add_flag("--fold", request.fold, "parameters as constants");
+    emit->add_flag("--jacobian", request.jacobian, "with the derivatives of the right-hand side by state and parameters");
     emit->add_flag("--batch", request.batch, "the same functions for eight systems at once too");
 
     const auto with_run = [&](CLI::App* sub) {

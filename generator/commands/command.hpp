@@ -18,6 +18,7 @@ struct Request {
     bool steps = false;           ///< derive
     bool reactions = false;       ///< derive, eval, simulate: A^T lambda of each constraint
     bool fold = false;            ///< emit: parameters as constants
+    bool jacobian = false;        ///< emit: with derivatives by state and parameters
     bool batch = false;           ///< emit: functions for eight systems at once too
     bool fast_math = false;
     std::vector<std::string> at;  ///< eval: NAME=VALUE
