@@ -88,8 +88,9 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
     // A contact's multiplier is whatever its bodies press with: a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (std::size_t k = 0; k < m.unilateral.size(); ++k)
-        given.emplace_back(m.unilateral[k].gap.multiplier, program_.variable({Variable::Kind::unknown, m_ + static_cast<int>(k)}));
+    int next_unknown = m_;
+    for (const Mechanism::Constraint* c : m.undetermined())
+        given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
     const std::vector<int> nodes = lower_expressions(program_, m, list, given);
     auto next = nodes.begin();
     const auto take = [&](int count) {

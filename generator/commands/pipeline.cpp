@@ -119,7 +119,15 @@ void need_rates(const Derived& d) {
 }
 
 Choice lowered(const Derived& d, const Request& request) {
-    return choose(d.mechanism, d.equations, {.fold = request.fold});
+    std::vector<Equations> all{d.equations};
+    // Where the user leaves the choice, the recursions compete.
+    if (request.by.empty() && d.equations.h.empty() && !d.equations.tree) {
+        try {
+            all.push_back(formalism("recursive").derive(d.mechanism));
+        } catch (const ModelError&) {  // it does not apply
+        }
+    }
+    return choose(d.mechanism, all, {.fold = request.fold});
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {

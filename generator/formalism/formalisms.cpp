@@ -9,6 +9,7 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
 #include "formalism/nielsen.hpp"
+#include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
 #include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routhian.hpp"
@@ -27,6 +28,7 @@ const std::vector<Formalism>& formalisms() {
         {"schiehlen", "Schiehlen's equations: Newton-Euler, projected", schiehlen},
         {"roberson-wittenburg", "Roberson and Wittenburg's equations", roberson_wittenburg},
         {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
+        {"recursive", "the recursive equations from body to body", recursive},
         {"routhian", "Routh's procedure, the momenta eliminated", routhian},
     };
     return all;

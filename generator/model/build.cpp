@@ -59,6 +59,7 @@ public:
         add_outputs();
         add_run();
         if (!mistakes_.empty()) fail(scene_, mistakes_);
+        m_.skeleton = places_.skeleton();
         return std::move(m_);
     }
 
@@ -233,7 +234,7 @@ private:
     void add_translation(const std::string& label, const std::string& point, const ex& mass) {
         const Vector3 v = places_.velocity(point);
         m_.kinetic.push_back({label, m_.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
-        m_.masses.push_back({.label = label, .mass = mass, .position = places_.position(point), .velocity = v});
+        m_.masses.push_back({.label = label, .mass = mass, .position = places_.position(point), .velocity = v, .point = places_.point(point)});
         if (!scene_.gravity) return;
         const Vector3 g = places_.vector(*scene_.gravity), r = places_.position(point);
         m_.gravity = g;
@@ -280,6 +281,8 @@ private:
             rotation.about = r;
         }
         m_.masses.back().rotation = rotation;
+        m_.masses.back().frame = orientation.frame;
+        if (b.about) m_.masses.back().about = places_.point(b.about->text);
         m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});
     }
 

@@ -169,6 +169,16 @@ JointArc arc_of(const Joint& joint, Places& places) {
     return arc;
 }
 
+int point_by(const Joint& joint, Places& places) {
+    const bool forwards = *joint.places_child;
+    const Joint::Side &from = forwards ? joint.parent : joint.child, &to = forwards ? joint.child : joint.parent;
+    const auto body_point = [&](const std::string& body) { return body == "N" ? 0 : places.point(body); };
+    int point = places.step(body_point(from.body.text), places.orientation(from.body.text).frame, places.vector(from.point));
+    const Vector3 shift = scale(forwards ? 1 : -1, motion_of(joint, places).shift, places.z());
+    point = places.step(point, axes_of(joint.parent, places).frame, shift);
+    return places.step(point, places.orientation(to.body.text).frame, scale(-1, places.vector(to.point), places.z()));
+}
+
 std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
     Intermediates& z = places.z();
     const Orientation J = axes_of(joint.parent, places), K = axes_of(joint.child, places);

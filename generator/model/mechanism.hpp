@@ -16,11 +16,9 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "symbolic/intermediates.hpp"
+#include "model/skeleton.hpp"
 
 namespace alembert {
-
-using Vector3 = std::array<GiNaC::ex, 3>;
 
 /// One body's share of T, one spring's of V …
 struct Part {
@@ -52,6 +50,7 @@ struct MassElement {
         std::optional<Vector3> about = {};   ///< mass centre minus the point of the body that `inertia` is about, along N
     };
     std::optional<Rotation> rotation = {};
+    int frame = 0, point = 0, about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
 };
 
 /// A joint of the system graph. Where it places a body (an arc of the tree) it says how the outer of its two bodies moves
@@ -147,6 +146,7 @@ struct Mechanism {
     std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
     std::vector<SpringElement> springs;
     std::vector<JointArc> joints;         ///< in the order of the scene
+    Skeleton skeleton;                    ///< how frames and points hang together
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
@@ -164,6 +164,9 @@ struct Mechanism {
 
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
+
+    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from others.
+    std::vector<const Constraint*> undetermined() const;
 
     /// What changes with time, but for the rates: coordinates, t, inputs.
     std::vector<GiNaC::symbol> moving() const;

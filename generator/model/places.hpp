@@ -44,8 +44,14 @@ public:
     double number(const GiNaC::ex& e) const;
     Intermediates& z() { return *m_.z; }
 
+    /// What has been asked for so far, as steps; `point` of a name.
+    const Skeleton& skeleton() const { return skeleton_; }
+    int point(const std::string& name) { return position(name), name == "O" ? 0 : points_.at(name); }
+    int step(int from, int frame, const Vector3& offset);
+
 private:
     Orientation turn(const Frame& frame);
+    int turn_step(Skeleton::Turn turn);
     const Joint* joint_of(const std::string& body) const;
     const Position* find(const std::string& point) const;
 
@@ -54,6 +60,8 @@ private:
     Translator& translator_;
     std::map<std::string, Orientation> orientations_;
     std::map<std::string, Vector3> positions_, velocities_;
+    std::map<std::string, int> points_;
+    Skeleton skeleton_;
 };
 
 }  // namespace alembert
