@@ -33,15 +33,9 @@ Orientation Places::turn(const Frame& frame) {
     SourceScope source(*m_.z, "frame " + frame.name.text);
     Orientation o = orientation(frame.parent.text);
     if (!frame.quaternion.empty()) {
-        std::array<ex, 4> e, rate;
-        for (int k = 0; k < 4; ++k) {
-            const std::size_t i = coordinate_index(frame.quaternion[k].text, m_);
-            e[k] = m_.q[i];
-            rate[k] = m_.qdot[i];
-        }
-        Orientation result = o.turned(e, rate, *m_.z);
-        result.frame = turn_step({.parent = o.frame, .by_quaternion = true});
-        return result;
+        std::array<ex, 4> e;
+        for (std::size_t k = 0; k < 4; ++k) e[k] = value(frame.quaternion[k]);
+        return turned(o, e);
     }
     for (const Rotation& r : frame.rotations) o = turned(o, unit_axis(r), value(r.angle));
     return o;
@@ -62,6 +56,12 @@ int Places::step(int from, int frame, const Vector3& offset) {
     if (offset[0].is_zero() && offset[1].is_zero() && offset[2].is_zero()) return from;
     skeleton_.points.push_back({from, frame, offset});
     return static_cast<int>(skeleton_.points.size()) - 1;
+}
+
+Orientation Places::turned(const Orientation& o, const std::array<ex, 4>& e) {
+    Orientation result = o.turned(e, {rate(e[0]), rate(e[1]), rate(e[2]), rate(e[3])}, *m_.z);
+    result.frame = turn_step({.parent = o.frame, .by_quaternion = true});
+    return result;
 }
 
 ex Places::value(const Name& name) {
