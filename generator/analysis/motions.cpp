@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <tuple>
 
 #include "analysis/common_zeros.hpp"
 #include "lower/lower.hpp"
@@ -17,24 +18,27 @@ namespace {
 /// How a variable occurs in an expression.
 struct Occurrence {
     bool plain = false, turned = false;  // outside sines and cosines; in them
+    bool rooted = false;                 // under a root: no polynomial in it goes to zero where the condition does
 };
 using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
 
 Occurrences occurrences(const Program& p, int root) {
     Occurrences result;
-    std::set<std::pair<int, bool>> seen;
-    std::vector<std::pair<int, bool>> stack{{root, false}};
+    std::set<std::tuple<int, bool, bool>> seen;
+    std::vector<std::tuple<int, bool, bool>> stack{{root, false, false}};
     while (!stack.empty()) {
-        const auto [id, turned] = stack.back();
+        const auto [id, turned, rooted] = stack.back();
         stack.pop_back();
-        if (!seen.emplace(id, turned).second) continue;
+        if (!seen.emplace(id, turned, rooted).second) continue;
         const Node& node = p[id];
         if (node.op == Op::variable) {
             Occurrence& o = result[{node.variable.kind, node.variable.index}];
             (turned ? o.turned : o.plain) = true;
+            o.rooted = o.rooted || rooted;
         }
         const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
-        for (const int arg : node.args) stack.emplace_back(arg, inside);
+        const bool under = rooted || node.op == Op::sqrt;
+        for (const int arg : node.args) stack.emplace_back(arg, inside, under);
     }
     return result;
 }
@@ -137,7 +141,8 @@ void Motions::order(std::vector<int> conditions) {
         // Multipliers, then coordinates, then parameters.
         constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
         std::optional<std::pair<std::size_t, Step>> chosen;
-        for (const Variable::Kind kind : kinds) {
+        for (int choice = 0; choice < 6; ++choice) {  // under a root only where nothing else is left
+            const Variable::Kind kind = kinds[choice % 3];
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
                 for (const auto& [variable, how] : held[c]) {
                     if (variable.first != kind || taken.contains(variable)) continue;
@@ -147,7 +152,7 @@ void Motions::order(std::vector<int> conditions) {
                     const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
-                    if (elsewhere || only_parameters || (how.plain && how.turned)) continue;
+                    if (elsewhere || only_parameters || (choice < 3 && how.rooted) || (how.plain && how.turned)) continue;
                     chosen = {c, {{conditions[c], {variable.first, variable.second}, how.turned}}};
                     break;
                 }
