@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "analysis/common_zeros.hpp"
+#include "analysis/angle_sum.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -138,11 +139,14 @@ void Motions::order(std::vector<int> conditions) {
     for (const int node : conditions) held.push_back(occurrences(program_, node));
     std::set<std::pair<Variable::Kind, int>> taken;
     while (!conditions.empty()) {
-        // Multipliers, then coordinates, then parameters.
+        // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns of the others.
         constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
         std::optional<std::pair<std::size_t, Step>> chosen;
-        for (int choice = 0; choice < 6; ++choice) {  // under a root only where nothing else is left
-            const Variable::Kind kind = kinds[choice % 3];
+        constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
+        for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {  // under a root only where nothing else is left
+            const bool roots = choice >= orders.size();
+            const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
+            const bool any_multiple = orders[choice % orders.size()].second;
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
                 for (const auto& [variable, how] : held[c]) {
                     if (variable.first != kind || taken.contains(variable)) continue;
@@ -152,8 +156,10 @@ void Motions::order(std::vector<int> conditions) {
                     const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
-                    if (elsewhere || only_parameters || (choice < 3 && how.rooted) || (how.plain && how.turned)) continue;
-                    chosen = {c, {{conditions[c], {variable.first, variable.second}, how.turned}}};
+                    if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned)) continue;
+                    const Variable unknown{variable.first, variable.second};
+                    if (!any_multiple && is_sum_of_variables(program_, conditions[c]) && !angle_sum(program_, conditions[c], unknown)) continue;
+                    chosen.emplace(c, Step{{conditions[c], unknown, how.turned}, std::nullopt});
                     break;
                 }
             if (chosen) break;
@@ -254,6 +260,8 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
             put(*all[pick]);
         else
             state.point.given_angles[plain] = Turn{-1, 0};
+        if (!step.turned)
+            if (const auto sum = angle_sum(program_, step.node, step.variable)) set_angle(state.point, *sum, *all[pick]);
         state.degree *= static_cast<double>(f.size() - 1);
         return {value_of(program_, step.node, state) == Prime(0), count};
     }
@@ -311,7 +319,6 @@ bool Motions::move(ExactState& state) const {
         rows.back().push_back(-geometry->value[system_.drift[k]]);
     }
     reduce_rows(rows, n);
-    std::vector<bool> solved(n, false);
     for (std::size_t i = 0; i < n; ++i) state.point.given[{Variable::Kind::rate, static_cast<int>(i)}] = state.point.random(800, i);
     for (std::size_t k = rows.size(); k-- > 0;) {
         const auto pivot = std::find_if(rows[k].begin(), rows[k].end(), [](Prime p) { return !p.is_zero(); });
