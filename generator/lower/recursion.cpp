@@ -52,7 +52,7 @@ private:
 /// From joints' rates to the coordinates': the absolute ones by differences, the relative ones by S.
 class Change {
 public:
-    Change(Program& program, const JointTree& tree, Axes axes) : p_(program), how_(dress(tree, axes)), n_(tree.coordinates) {
+    Change(Program& program, const JointTree& tree, LinkAxes axes) : p_(program), how_(dress(tree, axes)), n_(tree.coordinates) {
         // S is a permutation, with signs: coordinate and sign of each joint.
         std::vector<char> taken(static_cast<std::size_t>(n_), 0);
         is_direct_ = static_cast<int>(tree.joints.size()) == n_;
@@ -150,7 +150,7 @@ private:
 }  // namespace
 
 std::string RecursionForm::text() const {
-    return std::string(articulated ? "articulated bodies" : "composite bodies") + (axes == Axes::still ? ", parallel axes" : "");
+    return std::string(articulated ? "articulated bodies" : "composite bodies") + (axes == LinkAxes::still ? ", parallel axes" : "");
 }
 
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,

@@ -9,7 +9,7 @@ namespace alembert {
 
 /// Which of the recursions a program is made by.
 struct RecursionForm {
-    Axes axes = Axes::own;
+    LinkAxes axes = LinkAxes::own;
     bool articulated = false;  ///< else composite bodies and LDLᵀ
     std::string text() const;  ///< "articulated bodies, parallel axes"
 };
