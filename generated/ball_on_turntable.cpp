@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -158,8 +163,7 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &wx = state[5], &wy = state[6];
     const Real &wz = state[7];
-    const Real &r = par[1], &Omega = par[2], &M00 = par[4], &M22 = par[5], &k1 = par[6], &k2 = par[7];
-    const Real &k3 = par[8];
+    const Real &r = par[1], &Omega = par[2], &k1 = par[6], &k2 = par[7], &k3 = par[8];
 
     // Trigonometry
     const auto trig0 = sincos(psi, theta);
@@ -174,12 +178,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real y_dot = Omega * x - r * wx;
 
     // Forcing f
-    const Real z0 = k1 * y - k2 * wy;
-    const Real f0 = -z0;
     const Real f1 = k1 * x - k2 * wx;
 
     // Solve M u' = f with M = L D L^T
-    const Real wx_dot = -k3 * z0;
+    const Real wx_dot = -k3 * (k1 * y - k2 * wy);
     const Real wy_dot = k3 * f1;
 
     // Result
@@ -574,3 +576,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

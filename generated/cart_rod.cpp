@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -148,7 +153,7 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8];
+    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
@@ -158,10 +163,9 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
-    const Real z0 = k1 * sin_phi;
-    const Real f1 = -z0;
 
     // Solve M q'' = f with M = L D L^T
+    const Real z0 = k1 * sin_phi;
     const Real z1 = k2 * M10;
     const Real z2 = Real(1) / (M00 - M10 * z1);
     const Real x_ddot = z2 * (f0 + z0 * z1);
@@ -328,3 +332,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -148,12 +153,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real z0 = r * phi_dot;
     const Real z1 = Real(1) / r;
     const Real f0 = m * phi_dot * z0 - k * z1 * z1;
-    const Real z2 = k0 * r_dot * z0;
-    const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
     const Real r_ddot = k1 * f0;
-    const Real phi_ddot = -z2 / M11;
+    const Real phi_ddot = -k0 * r_dot * z0 / M11;
 
     // Result
     rate[0] = r_dot;
@@ -314,3 +317,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

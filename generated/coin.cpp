@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -153,34 +158,29 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &theta = state[2], &x_dot = state[4], &y_dot = state[5], &theta_dot = state[6];
     const Real &phi_dot = state[7];
-    const Real &m = par[0], &r = par[1], &J1 = par[2], &J3 = par[3], &f0 = par[6], &k0 = par[7], &k1 = par[8];
-    const Real &k2 = par[9];
+    const Real &m = par[0], &r = par[1], &J1 = par[2], &f0 = par[6], &k0 = par[7], &k1 = par[8], &k2 = par[9];
 
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
 
     // Constraints A q'' = gamma
     const Real z0 = r * cos_theta;
-    const Real A0_3 = -z0;
-    const Real z1 = r * sin_theta;
-    const Real z2 = theta_dot * phi_dot;
-    const Real z3 = z1 * z2;
-    const Real gamma0 = -z3;
-    const Real A1_3 = -z1;
-    const Real gamma1 = z0 * z2;
+    const Real z1 = theta_dot * phi_dot;
+    const Real gamma1 = z0 * z1;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z4 = k2 * z1;
-    const Real z5 = Real(1) / (k0 + z1 * z4);
-    const Real z6 = z0 * z4;
-    const Real z7 = z5 * z6;
-    const Real z8 = k2 * z0;
-    const Real z9 = Real(1) / ((k0 + z0 * z8) - z7 * z6);
-    const Real z10 = ((k1 + z3) + z7 * gamma1) * z9;
-    const Real x_ddot = k1 - k0 * z10;
-    const Real z11 = z5 * gamma1 + z7 * z10;
-    const Real y_ddot = k0 * z11;
-    const Real phi_ddot = z10 * z8 - z11 * z4;
+    const Real z2 = r * sin_theta;
+    const Real z3 = k2 * z2;
+    const Real z4 = Real(1) / (k0 + z2 * z3);
+    const Real z5 = z0 * z3;
+    const Real z6 = z4 * z5;
+    const Real z7 = k2 * z0;
+    const Real z8 = Real(1) / ((k0 + z0 * z7) - z6 * z5);
+    const Real z9 = ((k1 + z2 * z1) + z6 * gamma1) * z8;
+    const Real x_ddot = k1 - k0 * z9;
+    const Real z10 = z4 * gamma1 + z6 * z9;
+    const Real y_ddot = k0 * z10;
+    const Real phi_ddot = z9 * z7 - z10 * z3;
 
     // Result
     rate[0] = x_dot;
@@ -370,3 +370,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -163,24 +168,22 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real M22 = l * z0;
 
     // Forcing f
-    const Real z1 = k0 * l_dot;
-    const Real z2 = theta_dot * (z1 * cos_theta - theta_dot * z0 * sin_theta);
-    const Real z3 = z2 - F0 * sin_phi0;
-    const Real f0 = -z3;
-    const Real z4 = k1 + S0 * cos_phi0;
-    const Real f1 = k1 * cos_theta + z0 * theta_dot * theta_dot - z4;
-    const Real z5 = l * (k1 * sin_theta + theta_dot * z1);
-    const Real f2 = -z5;
+    const Real z1 = k1 + S0 * cos_phi0;
+    const Real f1 = k1 * cos_theta + z0 * theta_dot * theta_dot - z1;
 
     // Solve M q'' = f with M = L D L^T
-    const Real z6 = Real(1) / M22;
-    const Real z7 = M20 * z6;
-    const Real z8 = k2 * M10;
-    const Real z9 = Real(1) / ((M00 - M20 * z7) - M10 * z8);
-    const Real z10 = z9 * (z8 * f1 + (z3 - z7 * z5));
+    const Real z2 = k0 * l_dot;
+    const Real z3 = theta_dot * (z2 * cos_theta - theta_dot * z0 * sin_theta);
+    const Real z4 = l * (k1 * sin_theta + theta_dot * z2);
+    const Real z5 = Real(1) / M22;
+    const Real z6 = M20 * z5;
+    const Real z7 = k2 * M10;
+    const Real z8 = Real(1) / ((M00 - M20 * z6) - M10 * z7);
+    const Real z9 = (z3 - F0 * sin_phi0) - z6 * z4;
+    const Real z10 = z8 * (z7 * f1 + z9);
     const Real x_ddot = -z10;
-    const Real l_ddot = z10 * z8 + k2 * f1;
-    const Real theta_ddot = z10 * z7 - z6 * z5;
+    const Real l_ddot = z10 * z7 + k2 * f1;
+    const Real theta_ddot = z10 * z6 - z5 * z4;
 
     // Result
     rate[0] = x_dot;
@@ -362,3 +365,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -168,16 +173,12 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Mass matrix M(q), lower triangle
     const Real M10 = k0 * cos_phi0;
 
-    // Forcing f
+    // Solve M q'' = f with M = L D L^T
     const Real z0 = k0 * sin_phi0;
     const Real z1 = k2 * sin_phi1 * cos_theta1;
     const Real z2 = k1 * sin_theta1 + z0 * theta2_dot * theta2_dot - z1;
-    const Real f0 = -z2;
     const Real z3 = k4 * sin_phi1 * cos_theta2;
     const Real z4 = k3 * sin_theta2 - z0 * theta1_dot * theta1_dot - z3;
-    const Real f1 = -z4;
-
-    // Solve M q'' = f with M = L D L^T
     const Real z5 = k5 * M10;
     const Real z6 = Real(1) / (M00 - M10 * z5);
     const Real z7 = z6 * (z2 - z5 * z4);
@@ -347,3 +348,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

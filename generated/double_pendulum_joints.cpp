@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -169,20 +174,15 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real M00 = k1 + k3 * cos_q2;
     const Real M10 = M11 + k2 * cos_q2;
 
-    // Forcing f
+    // Solve M q'' = f with M = L D L^T
     const Real z0 = k5 * sin_phi0;
     const Real z1 = q2_dot * (k2 * q2_dot + k3 * q1_dot) * sin_q2;
-    const Real z2 = (k4 * sin_q1 + z0) - z1;
-    const Real f0 = -z2;
-    const Real z3 = k2 * q1_dot * q1_dot * sin_q2 + z0;
-    const Real f1 = -z3;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z4 = k6 * M10;
-    const Real z5 = Real(1) / (M00 - M10 * z4);
-    const Real z6 = z5 * (z2 - z4 * z3);
-    const Real q1_ddot = -z6;
-    const Real q2_ddot = z6 * z4 - k6 * z3;
+    const Real z2 = k2 * q1_dot * q1_dot * sin_q2 + z0;
+    const Real z3 = k6 * M10;
+    const Real z4 = ((k4 * sin_q1 + z0) - z1) - z3 * z2;
+    const Real z5 = z4 / (M00 - M10 * z3);
+    const Real q1_ddot = -z5;
+    const Real q2_ddot = z5 * z3 - k6 * z2;
 
     // Result
     rate[0] = q1_dot;
@@ -340,3 +340,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -157,10 +162,9 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Forcing f
     const Real z1 = k * (l0 - r);
     const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
-    const Real z2 = r * (k1 * r_dot * theta_dot + k0 * sin_theta);
-    const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
+    const Real z2 = r * (k1 * r_dot * theta_dot + k0 * sin_theta);
     const Real r_ddot = k2 * f0;
     const Real theta_ddot = -z2 / M11;
 
@@ -323,3 +327,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

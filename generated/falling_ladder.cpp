@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -148,33 +153,29 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &l = par[1], &M22 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+    const Real &m = par[0], &l = par[1], &k1 = par[5], &k2 = par[6], &k3 = par[7];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Constraints A q'' = gamma
-    const Real z0 = l * cos_phi;
-    const Real A0_2 = -z0;
     const Real A1_2 = l * sin_phi;
-    const Real z1 = phi_dot * phi_dot;
-    const Real z2 = A1_2 * z1;
-    const Real gamma0 = -z2;
-    const Real z3 = z0 * z1;
-    const Real gamma1 = -z3;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z4 = k2 * A1_2;
-    const Real z5 = Real(1) / (k1 + z4 * A1_2);
-    const Real z6 = z4 * z0;
-    const Real z7 = z6 * z5;
-    const Real z8 = k2 * z0;
-    const Real z9 = Real(1) / ((k1 + z8 * z0) - z6 * z7);
-    const Real z10 = ((k3 - z2) - z7 * z3) * z9;
-    const Real z11 = z5 * z3 - z7 * z10;
-    const Real x_ddot = -k1 * z11;
-    const Real y_ddot = k1 * z10 - k3;
-    const Real phi_ddot = -z8 * z10 - z4 * z11;
+    const Real z0 = l * cos_phi;
+    const Real z1 = phi_dot * phi_dot;
+    const Real z2 = z0 * z1;
+    const Real z3 = k2 * A1_2;
+    const Real z4 = Real(1) / (k1 + z3 * A1_2);
+    const Real z5 = z3 * z0;
+    const Real z6 = z5 * z4;
+    const Real z7 = k2 * z0;
+    const Real z8 = Real(1) / ((k1 + z7 * z0) - z5 * z6);
+    const Real z9 = ((k3 - A1_2 * z1) - z6 * z2) * z8;
+    const Real z10 = z4 * z2 - z6 * z9;
+    const Real x_ddot = -k1 * z10;
+    const Real y_ddot = k1 * z9 - k3;
+    const Real phi_ddot = -z7 * z9 - z3 * z10;
 
     // Result
     rate[0] = x_dot;
@@ -355,3 +356,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -164,13 +169,11 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real f0 = k0 * w2 * w3;
-    const Real z2 = k1 * w1 * w3;
-    const Real f1 = -z2;
     const Real f2 = k2 * w1 * w2;
 
     // Solve M u' = f with M = L D L^T
     const Real w1_dot = k3 * f0;
-    const Real w2_dot = -k4 * z2;
+    const Real w2_dot = -k4 * k1 * w1 * w3;
     const Real w3_dot = k5 * f2;
 
     // Result
@@ -333,3 +336,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

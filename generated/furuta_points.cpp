@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -163,10 +168,9 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real z0 = phi_dot * cos_theta;
     const Real z1 = theta_dot * (k1 * theta_dot - k2 * z0) * sin_theta;
     const Real f0 = z1 + tau0 * cos_phi0;
-    const Real z2 = (k3 - M11 * phi_dot * z0) * sin_theta;
-    const Real f1 = -z2;
 
     // Solve M q'' = f with M = L D L^T
+    const Real z2 = (k3 - M11 * phi_dot * z0) * sin_theta;
     const Real z3 = k4 * M10;
     const Real z4 = Real(1) / (M00 - M10 * z3);
     const Real phi_ddot = z4 * (f0 + z3 * z2);
@@ -352,3 +356,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

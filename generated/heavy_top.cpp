@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -159,12 +164,11 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Forcing f
     const Real z0 = phi_dot * cos_theta;
     const Real z1 = C * psi_dot;
-    const Real z2 = theta_dot * (k1 * z0 - z1) * sin_theta;
-    const Real f0 = -z2;
     const Real f1 = (k2 + phi_dot * (k0 * z0 - z1)) * sin_theta;
     const Real f2 = C * phi_dot * theta_dot * sin_theta;
 
     // Solve M q'' = f with M = L D L^T
+    const Real z2 = theta_dot * (k1 * z0 - z1) * sin_theta;
     const Real z3 = k3 * M20;
     const Real z4 = Real(1) / (M00 - M20 * z3);
     const Real z5 = z4 * (z2 + f2 * z3);
@@ -330,3 +334,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

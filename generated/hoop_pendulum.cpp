@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -157,8 +162,8 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &theta = state[2], &x_dot = state[3], &psi_dot = state[4], &theta_dot = state[5];
-    const Real &R = par[2], &M00 = par[5], &M11 = par[6], &k0 = par[7], &M22 = par[8], &k1 = par[9];
-    const Real &k2 = par[10], &k3 = par[11], &k4 = par[12];
+    const Real &M00 = par[5], &M11 = par[6], &k0 = par[7], &M22 = par[8], &k1 = par[9], &k2 = par[10];
+    const Real &k3 = par[11], &k4 = par[12];
 
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
@@ -168,10 +173,9 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real f0 = k0 * theta_dot * theta_dot * sin_theta;
-    const Real z0 = k1 * sin_theta;
-    const Real f2 = -z0;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = k1 * sin_theta;
     const Real z1 = k2 * M20;
     const Real z2 = Real(1) / (M00 - M20 * z1);
     const Real z3 = z2 * (f0 + z0 * z1);
@@ -361,3 +365,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -1,4 +1,4 @@
-// Equations of motion of 'rolling_disc': routh, textbook form.
+// Equations of motion of 'rolling_disc': routh, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x [m], phi [rad], then their rates
@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -128,45 +133,46 @@ void prepare(Real* par) {
     const Real sin_beta = sin(beta);
 
     // Constants
-    const Real z0 = m * r * r;
-    const Real M11 = Real(0.5) * z0;
+    const Real k0 = m * r * r;
+    const Real M11 = Real(0.5) * k0;
     const Real f0 = m * g * sin_beta;
-    const Real z1 = Real(1) / m;
-    const Real z2 = z1 * f0;
-    const Real z3 = r / z0;
-    const Real k0 = z2 / (z1 + Real(2) * r * z3);
-    const Real k1 = z2 - z1 * k0;
-    const Real k2 = Real(2) * z3 * k0;
-    const Real k3 = Real(0.5) * m;
-    const Real k4 = Real(0.25) * z0;
+    const Real z0 = Real(1) / m;
+    const Real z1 = z0 * f0;
+    const Real z2 = r / k0;
+    const Real k1 = z1 / (z0 + Real(2) * r * z2);
+    const Real k2 = z1 - z0 * k1;
+    const Real k3 = Real(2) * z2 * k1;
+    const Real k4 = Real(0.5) * m;
+    const Real k5 = Real(0.25) * k0;
 
     // Result
-    par[4] = M11;
-    par[5] = f0;
-    par[6] = k0;
+    par[4] = k0;
+    par[5] = M11;
+    par[6] = f0;
     par[7] = k1;
     par[8] = k2;
     par[9] = k3;
     par[10] = k4;
+    par[11] = k5;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &r = par[1], &M11 = par[4], &f0 = par[5], &k1 = par[7], &k2 = par[8];
+    const Real &m = par[0], &f0 = par[6], &k2 = par[8], &k3 = par[9];
 
     // Result
     rate[0] = x_dot;
     rate[1] = phi_dot;
-    rate[2] = k1;
-    rate[3] = k2;
+    rate[2] = k2;
+    rate[3] = k3;
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &M11 = par[4], &f0 = par[5];
+    const Real &m = par[0], &M11 = par[5], &f0 = par[6];
 
     // Result
     mass[0] = m;
@@ -180,20 +186,22 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &x_dot = state[2], &phi_dot = state[3];
-    const Real &f0 = par[5], &k3 = par[9], &k4 = par[10];
+    const Real &m = par[0], &k0 = par[4], &f0 = par[6], &k4 = par[10], &k5 = par[11];
 
     // Energy
-    const Real T = k3 * x_dot * x_dot + k4 * phi_dot * phi_dot;
+    const Real T = k4 * x_dot * x_dot + k5 * phi_dot * phi_dot;
     const Real z0 = f0 * x;
     const Real V = -z0;
     const Real E = T - z0;
+    const Real z1 = x_dot * m * x_dot + Real(0.5) * phi_dot * k0 * phi_dot;
+    const Real h = z1 - (z0 + T);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -226,10 +234,10 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &k0 = par[6];
+    const Real &k1 = par[7];
 
     // Result
-    lambda[0] = -k0;
+    lambda[0] = -k1;
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -271,7 +279,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.4, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 7, 0, 0, 1, "rolling_disc", "routh, textbook form",
+    3, 2, 2, 4, 8, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -296,3 +304,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

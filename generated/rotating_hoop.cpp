@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -152,12 +157,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
 
-    // Forcing f
-    const Real z0 = (k0 - k1 * cos_theta) * sin_theta;
-    const Real f0 = -z0;
-
     // Solve M q'' = f with M = L D L^T
-    const Real theta_ddot = -k2 * z0;
+    const Real theta_ddot = -k2 * (k0 - k1 * cos_theta) * sin_theta;
 
     // Result
     rate[0] = theta_dot;
@@ -323,3 +324,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -139,14 +144,13 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &J = par[1], &k0 = par[2];
+    const Real &m = par[0], &k0 = par[2];
 
     // Constraints A q'' = gamma
     const Real A0_0 = tan(phi);
-    const Real z0 = xC_dot * phi_dot * (A0_0 * A0_0 + Real(1));
-    const Real gamma0 = -z0;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = xC_dot * phi_dot * (A0_0 * A0_0 + Real(1));
     const Real z1 = k0 * A0_0;
     const Real z2 = z0 / (k0 + z1 * A0_0);
     const Real xC_ddot = -z1 * z2;
@@ -312,3 +316,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

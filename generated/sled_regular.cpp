@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -139,17 +144,13 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &J = par[1], &k0 = par[4];
+    const Real &m = par[0], &k0 = par[4];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
-    // Constraints A q'' = gamma
-    const Real A0_1 = -cos_phi;
-    const Real z0 = phi_dot * (xC_dot * cos_phi + yC_dot * sin_phi);
-    const Real gamma0 = -z0;
-
     // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = phi_dot * (xC_dot * cos_phi + yC_dot * sin_phi);
     const Real z1 = k0 * sin_phi;
     const Real z2 = k0 * cos_phi;
     const Real z3 = z0 / (z1 * sin_phi + z2 * cos_phi);
@@ -319,3 +320,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

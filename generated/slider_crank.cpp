@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -156,8 +161,8 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
     const Real &x_dot = state[5];
-    const Real &m3 = par[2], &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &M11 = par[8], &k1 = par[9];
-    const Real &k2 = par[10], &k3 = par[11], &k4 = par[12];
+    const Real &m3 = par[2], &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10];
+    const Real &k3 = par[11], &k4 = par[12];
 
     // Trigonometry
     const Real phi0 = alpha + beta;
@@ -166,53 +171,45 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
         cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
 
     // Shared terms
-    const Real z0 = beta_dot * beta_dot;
-    const Real z1 = alpha_dot * alpha_dot;
-
-    // Mass matrix M(q), lower triangle
-    const Real z2 = k0 * cos_phi0;
-    const Real M10 = -z2;
+    const Real z0 = alpha_dot * alpha_dot;
 
     // Forcing f
-    const Real z3 = k0 * sin_phi0;
-    const Real z4 = k1 * cos_alpha + z3 * z0;
-    const Real f0 = -z4;
-    const Real f1 = k2 * cos_beta - z3 * z1;
+    const Real z1 = k0 * sin_phi0;
+    const Real f1 = k2 * cos_beta - z1 * z0;
 
     // Constraints A q'' = gamma
+    const Real z2 = beta_dot * beta_dot;
     const Real A0_0 = r * sin_alpha;
     const Real A0_1 = l * sin_beta;
     const Real A1_0 = r * cos_alpha;
-    const Real z5 = l * cos_beta;
-    const Real z6 = A1_0 * z1 + z5 * z0;
-    const Real gamma0 = -z6;
-    const Real A1_1 = -z5;
-    const Real gamma1 = A0_0 * z1 - A0_1 * z0;
+    const Real gamma1 = A0_0 * z0 - A0_1 * z2;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z7 = k3 * z2;
-    const Real z8 = Real(1) / (M00 - z2 * z7);
-    const Real z9 = z4 - z7 * f1;
-    const Real z10 = k3 * A0_1;
-    const Real z11 = z10 * z2 + A0_0;
-    const Real z12 = z8 * z11;
-    const Real z13 = z12 * z11 + (k4 + z10 * A0_1);
-    const Real z14 = k3 * z5;
-    const Real z15 = z2 * z14 - A1_0;
-    const Real z16 = z8 * z15;
-    const Real z17 = z16 * z11 + z14 * A0_1;
-    const Real z18 = Real(1) / (z16 * z15 + z14 * z5);
-    const Real z19 = z17 * z18;
-    const Real z20 = Real(1) / (z13 - z17 * z19);
-    const Real z21 = z12 * z9 - (z10 * f1 + z6);
-    const Real z22 = z16 * z9 - (z14 * f1 + gamma1);
-    const Real z23 = z20 * (z21 - z22 * z19);
-    const Real z24 = z18 * z22 - z19 * z23;
-    const Real z25 = z8 * z9 - z12 * z23 - z16 * z24;
-    const Real alpha_ddot = -z25;
-    const Real z26 = z23 * z10;
-    const Real beta_ddot = z26 + z24 * z14 - z25 * z7 + k3 * f1;
-    const Real x_ddot = k4 * z23;
+    const Real z3 = k0 * cos_phi0;
+    const Real z4 = l * cos_beta;
+    const Real z5 = k3 * z3;
+    const Real z6 = Real(1) / (M00 - z3 * z5);
+    const Real z7 = (k1 * cos_alpha + z1 * z2) - z5 * f1;
+    const Real z8 = k3 * A0_1;
+    const Real z9 = z8 * z3 + A0_0;
+    const Real z10 = z6 * z9;
+    const Real z11 = z10 * z9 + (k4 + z8 * A0_1);
+    const Real z12 = k3 * z4;
+    const Real z13 = z3 * z12 - A1_0;
+    const Real z14 = z6 * z13;
+    const Real z15 = z14 * z9 + z12 * A0_1;
+    const Real z16 = Real(1) / (z14 * z13 + z12 * z4);
+    const Real z17 = z15 * z16;
+    const Real z18 = z8 * f1 + (A1_0 * z0 + z4 * z2);
+    const Real z19 = z14 * z7 - (z12 * f1 + gamma1);
+    const Real z20 = (z10 * z7 - z18) - z19 * z17;
+    const Real z21 = z20 / (z11 - z15 * z17);
+    const Real z22 = z16 * z19 - z17 * z21;
+    const Real z23 = z6 * z7 - z10 * z21 - z14 * z22;
+    const Real alpha_ddot = -z23;
+    const Real z24 = z21 * z8;
+    const Real beta_ddot = z24 + z22 * z12 - z23 * z5 + k3 * f1;
+    const Real x_ddot = k4 * z21;
 
     // Result
     rate[0] = alpha_dot;
@@ -439,3 +436,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -151,7 +156,7 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9];
+    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9];
 
     // Trigonometry
     const Real phi0 = theta1 - theta2;
@@ -162,14 +167,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Mass matrix M(q), lower triangle
     const Real M10 = k0 * cos_phi0;
 
-    // Forcing f
+    // Solve M q'' = f with M = L D L^T
     const Real z0 = k0 * sin_phi0;
     const Real z1 = k1 * sin_theta1 + z0 * theta2_dot * theta2_dot;
-    const Real f0 = -z1;
     const Real z2 = k2 * sin_theta2 - z0 * theta1_dot * theta1_dot;
-    const Real f1 = -z2;
-
-    // Solve M q'' = f with M = L D L^T
     const Real z3 = k3 * M10;
     const Real z4 = Real(1) / (M00 - M10 * z3);
     const Real z5 = z4 * (z1 - z3 * z2);
@@ -329,3 +330,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -152,21 +157,15 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Trigonometry
     const auto [sin_theta, cos_theta] = sincos(theta);
 
-    // Shared terms
-    const Real z0 = m * r;
-
     // Mass matrix M(q), lower triangle
+    const Real z0 = m * r;
     const Real M11 = r * z0;
 
-    // Forcing f
-    const Real z1 = k0 - z0 * theta_dot * theta_dot - k1 * cos_theta;
-    const Real f0 = -z1;
-    const Real z2 = r * (k2 * r_dot * theta_dot + k1 * sin_theta);
-    const Real f1 = -z2;
-
     // Solve M q'' = f with M = L D L^T
-    const Real r_ddot = -k3 * z1;
-    const Real theta_ddot = -z2 / M11;
+    const Real z1 = r * (k2 * r_dot * theta_dot + k1 * sin_theta);
+    const Real z2 = k3 * (k0 - z0 * theta_dot * theta_dot - k1 * cos_theta);
+    const Real r_ddot = -z2;
+    const Real theta_ddot = -z1 / M11;
 
     // Result
     rate[0] = r_dot;
@@ -325,3 +324,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -163,48 +168,44 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Forcing f
     const Real z1 = M22 * phi_dot;
     const Real f2 = theta_dot * z1 * sin_theta;
-    const Real z2 = z1 * z0;
-    const Real f3 = -z2;
     const Real f4 = M22 * theta_dot * z0;
 
     // Constraints A q'' = gamma
-    const Real z3 = a * sin_psi;
-    const Real A0_3 = -z3;
     const Real A1_3 = a * cos_psi;
     const Real A0_4 = A1_3 * sin_theta;
-    const Real z4 = theta_dot * cos_theta;
-    const Real z5 = sin_psi * sin_theta;
-    const Real z6 = psi_dot * (theta_dot * cos_psi + phi_dot * z5);
-    const Real z7 = a * (phi_dot * cos_psi * z4 - z6);
-    const Real z8 = z7 + Omega * y_dot;
-    const Real gamma0 = -z8;
-    const Real A1_4 = a * z5;
-    const Real z9 = phi_dot * (sin_psi * z4 + cos_psi * z0);
-    const Real z10 = a * (psi_dot * theta_dot * sin_psi - z9);
-    const Real gamma1 = z10 + Omega * x_dot;
+    const Real z2 = theta_dot * cos_theta;
+    const Real z3 = sin_psi * sin_theta;
+    const Real A1_4 = a * z3;
+    const Real z4 = phi_dot * (sin_psi * z2 + cos_psi * z0);
+    const Real z5 = a * (psi_dot * theta_dot * sin_psi - z4);
+    const Real gamma1 = z5 + Omega * x_dot;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z11 = k1 * z3;
-    const Real z12 = k1 * M42;
-    const Real z13 = Real(1) / (M22 - M42 * z12);
-    const Real z14 = z13 * A0_4;
-    const Real z15 = z11 * z3 + (k0 + z14 * A0_4);
-    const Real z16 = k1 * A1_3;
-    const Real z17 = z13 * A1_4;
-    const Real z18 = z16 * z3 - z17 * A0_4;
-    const Real z19 = Real(1) / (z16 * A1_3 + (k0 + z17 * A1_4));
-    const Real z20 = z18 * z19;
-    const Real z21 = Real(1) / (z15 - z18 * z20);
-    const Real z22 = f4 - f2 * z12;
-    const Real z23 = z11 * z2 + (z22 * z14 + z8);
-    const Real z24 = z16 * z2 - (z22 * z17 - gamma1);
-    const Real z25 = z21 * (z23 - z20 * z24);
-    const Real x_ddot = -k0 * z25;
-    const Real z26 = z19 * z24 - z20 * z25;
-    const Real y_ddot = k0 * z26;
-    const Real phi_ddot = z13 * z22 - z14 * z25 + z17 * z26;
-    const Real psi_ddot = k1 * f2 - z12 * phi_ddot;
-    const Real theta_ddot = z11 * z25 - k1 * z2 + z16 * z26;
+    const Real z6 = z1 * z0;
+    const Real z7 = a * sin_psi;
+    const Real z8 = psi_dot * (theta_dot * cos_psi + phi_dot * z3);
+    const Real z9 = a * (phi_dot * cos_psi * z2 - z8);
+    const Real z10 = k1 * z7;
+    const Real z11 = k1 * M42;
+    const Real z12 = Real(1) / (M22 - M42 * z11);
+    const Real z13 = z12 * A0_4;
+    const Real z14 = z10 * z7 + (k0 + z13 * A0_4);
+    const Real z15 = k1 * A1_3;
+    const Real z16 = z12 * A1_4;
+    const Real z17 = z15 * z7 - z16 * A0_4;
+    const Real z18 = Real(1) / (z15 * A1_3 + (k0 + z16 * A1_4));
+    const Real z19 = z17 * z18;
+    const Real z20 = f4 - f2 * z11;
+    const Real z21 = z20 * z13 + (z9 + Omega * y_dot);
+    const Real z22 = z15 * z6 - (z20 * z16 - gamma1);
+    const Real z23 = (z10 * z6 + z21) - z19 * z22;
+    const Real z24 = z23 / (z14 - z17 * z19);
+    const Real x_ddot = -k0 * z24;
+    const Real z25 = z18 * z22 - z19 * z24;
+    const Real y_ddot = k0 * z25;
+    const Real phi_ddot = z12 * z20 - z13 * z24 + z16 * z25;
+    const Real psi_ddot = k1 * f2 - z11 * phi_ddot;
+    const Real theta_ddot = z10 * z24 - k1 * z6 + z15 * z25;
 
     // Result
     rate[0] = x_dot;
@@ -533,3 +534,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -158,17 +163,12 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Mass matrix M(q), lower triangle
     const Real M11 = M00 * r * r;
 
-    // Forcing f
+    // Solve M q'' = f with M = L D L^T
     const Real z0 = Real(1) / r;
     const Real z1 = r * phi_dot;
     const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
-    const Real f0 = -z2;
-    const Real z3 = k1 * r_dot * z1;
-    const Real f1 = -z3;
-
-    // Solve M q'' = f with M = L D L^T
     const Real r_ddot = -k2 * z2;
-    const Real phi_ddot = -z3 / M11;
+    const Real phi_ddot = -k1 * r_dot * z1 / M11;
 
     // Result
     rate[0] = r_dot;
@@ -346,3 +346,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

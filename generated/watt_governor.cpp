@@ -93,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -159,11 +164,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Mass matrix M(q), lower triangle
     const Real M00 = k0 + k1 * sin_alpha * sin_alpha;
 
-    // Forcing f
-    const Real z0 = (k2 - (k4 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
-    const Real f0 = -z0;
-
     // Solve M q'' = f with M = L D L^T
+    const Real z0 = (k2 - (k4 - k1 * alpha_dot * alpha_dot) * cos_alpha) * sin_alpha;
     const Real alpha_ddot = -z0 / M00;
 
     // Result
@@ -332,3 +334,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
