@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
 #include "lower/share.hpp"
@@ -94,6 +95,7 @@ namespace {
 
 /// The forms that these equations can take, each lowered.
 void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+    const std::size_t before = programs.size();
     if (!equations.tree || !m.constraints.empty()) {
         Equations intermediate = equations;
         intermediate.formalism += ", intermediate symbols";
@@ -113,8 +115,13 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
             recursive.formalism += ", " + form.text();
             LowerOptions by = options;
             by.recursion = form;
-            programs.push_back(shared(lower(m, recursive, energy, by)));
+            try {
+                programs.push_back(shared(lower(m, recursive, energy, by)));
+            } catch (const std::domain_error&) {
+                // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
+            }
         }
+    if (programs.size() == before) programs.push_back(shared(lower(m, equations, energy, options)));
 }
 
 }  // namespace
