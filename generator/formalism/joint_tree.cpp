@@ -75,7 +75,7 @@ private:
         return R;
     }
 
-    /// Axes whose z is `a`, by columns.
+    /// LinkAxes whose z is `a`, by columns.
     Rotation3 axes_along(const Vector3& a) {
         for (int k = 0; k < 3; ++k) {
             if (!a[k].is_equal(1)) continue;
@@ -302,9 +302,9 @@ private:
 
 JointTree joint_tree(const Mechanism& m) { return Finder(m).find(); }
 
-std::vector<Dress> dress(const JointTree& tree, Axes axes) {
+std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
     std::vector<Dress> result(tree.joints.size());
-    if (axes == Axes::own) return result;
+    if (axes == LinkAxes::own) return result;
     std::vector<char> turns(result.size(), 1);  // the link turns against the ground
     for (std::size_t j = 0; j < result.size(); ++j) {
         const TreeLink<Named>& link = tree.joints[j].link;
@@ -335,11 +335,11 @@ std::vector<Dress> dress(const JointTree& tree, Axes axes) {
 }
 
 bool has_parallel_axes(const JointTree& tree) {
-    const std::vector<Dress> how = dress(tree, Axes::still);
+    const std::vector<Dress> how = dress(tree, LinkAxes::still);
     return std::any_of(how.begin(), how.end(), [](const Dress& d) { return d.continues; });
 }
 
-std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, Axes axes) {
+std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes) {
     const std::vector<Dress> how = dress(tree, axes);
     std::vector<std::vector<GiNaC::numeric>> rows;
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {

@@ -4,16 +4,16 @@
 /// A mechanism as a tree of links with one joint each, found in how its frames and points hang together.
 ///
 ///     const JointTree tree = joint_tree(mechanism);
-///     const BodyTree<Named> still = dressed<Named>(tree, Axes::still, value);
+///     const BodyTree<Named> still = dressed<Named>(tree, LinkAxes::still, value);
 ///
 /// A link is whatever keeps its place against a frame that turns or a point that is shifted; each turn whose angle moves and each
 /// coordinate in an offset is a joint. Joints' rates are w = S q' + w₀ with rational S: a frame that is turned against N, on a body that
 /// itself turns, has w = θ₂' − θ₁'. Where axes that stay parallel follow each other from the ground on, the angles and rates from
-/// the ground may be taken instead (`Axes::still`).
+/// the ground may be taken instead (`LinkAxes::still`).
 
 #include <functional>
 
-#include "formalism/axes.hpp"
+#include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/recursion.hpp"
 #include "model/mechanism.hpp"
@@ -38,20 +38,20 @@ struct JointTree {
 JointTree joint_tree(const Mechanism& mechanism);
 
 /// S as it belongs to `axes`: row by joint.
-std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, Axes axes);
+std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes);
 
 /// Which links count from the ground, and along whose axes components are taken.
 struct Dress {
     bool still = false, continues = false, absolute = false;
     int base = -1;  ///< the link whose turns add up to this one's, where axes continue; −1: none
 };
-std::vector<Dress> dress(const JointTree& tree, Axes axes);
+std::vector<Dress> dress(const JointTree& tree, LinkAxes axes);
 /// Is there a chain of parallel axes?
 bool has_parallel_axes(const JointTree& tree);
 
 /// Over another scalar: `value` takes an expression there.
 template <typename S>
-BodyTree<S> dressed(const JointTree& joints, Axes axes, Intermediates& z, const std::function<S(const GiNaC::ex&)>& value) {
+BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z, const std::function<S(const GiNaC::ex&)>& value) {
     const std::vector<Dress> how = dress(joints, axes);
     const auto vector = [&](const Triple<Named>& v) { return Triple<S>{value(v[0].e), value(v[1].e), value(v[2].e)}; };
     BodyTree<S> tree{.links = {}, .gravity = vector(joints.gravity)};
@@ -77,6 +77,7 @@ BodyTree<S> dressed(const JointTree& joints, Axes axes, Intermediates& z, const 
             drift[j] = z.name(drift[how[j].base] + drift[j]);
         }
         if (!l.slides || link.still) {
+            link.angle = value(angle[j]);
             link.cosine = value(z.name(cos(angle[j])));
             link.sine = value(z.name(sin(angle[j])));
         }

@@ -13,7 +13,7 @@ Equations recursive(const Mechanism& m) {
     check_masses_known(m, "The recursive equations");
     JointTree joints = joint_tree(m);
     Intermediates& z = *m.z;
-    const BodyTree<Named> tree = dressed<Named>(joints, Axes::own, z, [&](const ex& e) { return Named(e, z); });
+    const BodyTree<Named> tree = dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
     const std::vector<std::vector<Named>> M = composite_bodies(tree);
     const std::vector<Named> loads = joint_loads(tree, Bias<Named>(tree).wrenches);
 

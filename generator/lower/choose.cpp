@@ -104,9 +104,9 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
     for (const bool articulated : {false, true})
-        for (const Axes axes : {Axes::own, Axes::still}) {
+        for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
             const RecursionForm form{axes, articulated};
-            if (axes == Axes::still && !parallel) continue;
+            if (axes == LinkAxes::still && !parallel) continue;
             // LDLᵀ grows with the cube; articulated bodies make no multipliers.
             if (articulated ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
             Equations recursive = equations;

@@ -3,7 +3,7 @@
 
 /// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
 ///
-///     const RecursionNodes nodes = recursion(program, tree, z, {Axes::still, true}, lowering);
+///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still, true}, lowering);
 
 #include <functional>
 #include <optional>

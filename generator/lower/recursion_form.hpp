@@ -3,13 +3,13 @@
 
 #include <string>
 
-#include "formalism/axes.hpp"
+#include "formalism/link_axes.hpp"
 
 namespace alembert {
 
 /// Which of the recursions a program is made by.
 struct RecursionForm {
-    Axes axes = Axes::own;
+    LinkAxes axes = LinkAxes::own;
     bool articulated = false;  ///< else composite bodies and LDLᵀ
     std::string text() const;  ///< "articulated bodies, parallel axes"
 };

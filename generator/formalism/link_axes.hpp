@@ -4,7 +4,7 @@
 namespace alembert {
 
 /// Along which axes a recursion takes its components.
-enum class Axes {
+enum class LinkAxes {
     own,   ///< those that turn with each link
     still  ///< those that do not turn within a chain of parallel ones
 };
