@@ -73,8 +73,13 @@ int main(int argc, char** argv) {
     CLI::App* check = verb("check", "hold a hand derivation against the derived equations", alembert::check);
     check->add_option("claims", request.claims, "a file of claims, one equation a line; without it the scene's [[claim]]s");
 
+    const auto at_a_state = [&](CLI::App* sub) {
+        sub->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    };
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
-    eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    at_a_state(eval);
+
+    at_a_state(verb("linearize", "matrices and eigenvalues near an equilibrium or a steady motion", alembert::linearize));
 
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
 

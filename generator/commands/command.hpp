@@ -37,6 +37,7 @@ int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);
 int impact(const Request& request);
+int linearize(const Request& request);
 int simulate(const Request& request);
 int sweep(const Request& request);
 
