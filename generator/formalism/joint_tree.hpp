@@ -13,7 +13,7 @@
 
 #include <functional>
 
-#include "formalism/axes.hpp"
+#include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/recursion.hpp"
 #include "model/mechanism.hpp"
@@ -77,6 +77,7 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z, co
             drift[j] = z.name(drift[how[j].base] + drift[j]);
         }
         if (!l.slides || link.still) {
+            link.angle = value(angle[j]);
             link.cosine = value(z.name(cos(angle[j])));
             link.sine = value(z.name(sin(angle[j])));
         }
