@@ -91,7 +91,10 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
                                    {Method::abm, "abm", false, run<Stepper<Abm>>},
                                    {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
-                                   {Method::radau, "radau", false, run<Stepper<Radau>>}};
+                                   {Method::radau, "radau", false, run<Stepper<RadauOfAnyOrder>>},
+                                   {Method::radau5, "radau5", false, run<Stepper<Radau5>>},
+                                   {Method::radau9, "radau9", false, run<Stepper<Radau9>>},
+                                   {Method::radau13, "radau13", false, run<Stepper<Radau13>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
