@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "alembert/module.hpp"
+#include "alembert/series.hpp"
 
 namespace alembert {
 
@@ -33,6 +34,7 @@ struct Rhs {
     std::vector<std::string> names = {};  ///< of the components; may be empty
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
+    Series series = {};                   ///< of the motion, for the method taylor; may be missing
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 

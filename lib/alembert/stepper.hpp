@@ -172,6 +172,12 @@ public:
         return formula_.next_length(ends_, accepted, ratio);
     }
 
+    double first_length()
+        requires requires(Formula f, Ends e) { f.first_length(e); }
+    {
+        return formula_.first_length(ends_);
+    }
+
     void interpolate(double theta, double* out) {
         if constexpr (Formula::between == Between::own) {
             formula_.interpolate(ends_, theta, out);
