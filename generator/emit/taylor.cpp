@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <kainjow/mustache.hpp>
+#include <map>
 #include <set>
-#include <sstream>
+#include <stdexcept>
 
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
@@ -44,6 +46,9 @@ std::string exact_text(const Rational& value) {
     return "(" + sum + ")";
 }
 
+constexpr std::size_t least_lanes = 4;   // of a pack
+constexpr std::size_t most_loaded = 20;  // arrays in one loop; there are 32 registers
+
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
 
 class TaylorEmitter {
@@ -54,11 +59,13 @@ public:
           n_(static_cast<int>(p_.coordinates.size())),
           s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())),
           with_work_(with_work) {
-        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "spread", "wide", "stride", "pad", "room",
+        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "add", "loaded", "wide", "stride", "block", "to", "from", "lanes", "first_block", "last_block", "columns", "columns_count", "l", "put", "convolved", "squared", "pad", "room",
                                 "series", "quad", "clear", "solve", "terms"})
             names_.fresh(own);
         name_everything();
-        find_products();
+        for (int id = 0; id < size(); ++id) products_.push_back(products_of(id));
+        find_packs();
+        find_arrays();
     }
 
     Source emit() {
@@ -71,8 +78,10 @@ public:
         const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
         set("first", order_zero());
         set("given", given());
+        set("gathering", gathering());
         set("chain", chain());
         set("spreading", spreading());
+        set("middles", middles());
         set("storing", storing());
         set("last", last());
         set("arrays", arrays());
@@ -97,6 +106,8 @@ public:
         number("k", constants_.size());
         number("arrays_count", static_cast<std::size_t>(arrays_count_));
         number("sums_count", static_cast<std::size_t>(sums_count_));
+        number("columns_count", static_cast<std::size_t>(columns_count_));
+        number("single_count", static_cast<std::size_t>(single_count_));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
         file.set("parameter_values", values);
@@ -121,6 +132,27 @@ private:
         Weight weight;
         int a, b;
         bool a_rate = false, b_rate = false;
+    };
+
+    struct Piece {
+        bool negative;
+        std::string text;
+    };
+
+    /// Nodes of the same shape whose arguments stand in lanes of the same order: one vector operation for all of them.
+    struct Pack {
+        std::vector<int> nodes;
+        std::string column = {}, rates = {}, inverse = {};  ///< arrays [order][padded]; rates and inverse where needed
+        bool by_lanes = false;                      ///< each lane computed, or copied from elsewhere, by itself
+        bool is_copy = false;
+        std::map<int, int> sources = {};            ///< argument of the first lane → pack that has all lanes' arguments
+        std::vector<std::string> term_sums = {};    ///< one for each of the products
+        std::vector<std::vector<Weight>> weights = {};  ///< of linear, bilinear terms, then products; empty: all the same
+        std::vector<std::string> weight_arrays = {};    ///< where they differ
+        std::size_t padded() const { return (nodes.size() + 7) / 8 * 8; }
+    };
+    struct Place {
+        int pack = -1, lane = 0;
     };
 
     int width() const { return n_ + s_ + (with_work_ ? 1 : 0); }
@@ -192,11 +224,12 @@ private:
         return list;
     }
 
-    void find_products() {
-        products_.resize(r_.nodes.size());
+    bool is_packed(int id) const { return place_[id].pack >= 0; }
+
+    void find_arrays() {
         for (int id = 0; id < size(); ++id) {
-            products_[id] = products_of(id);
-            if (!products_[id].empty()) named_[id].sums = names_.fresh(named_[id].now + "_sums");
+            if (products_[id].empty() || is_packed(id)) continue;
+            named_[id].sums = names_.fresh(named_[id].now + "_sums");
             for (const Product& product : products_[id]) {
                 need(product.a, product.a_rate);
                 need(product.b, product.b_rate);
@@ -211,6 +244,157 @@ private:
         if (rate && name.rate.empty()) name.rate = names_.fresh(name.now + "_times");
     }
 
+    // Packs.
+
+    /// What must be equal for two nodes to be lanes of one pack.
+    std::string shape(int id) {
+        const SeriesNode& x = node(id);
+        std::string text = fmt::format("{} {} {}", static_cast<int>(x.kind), static_cast<int>(x.op), x.linear.size());
+        for (const auto& [weight, a, b] : x.bilinear) text += a == b ? " s" : " p";
+        if (x.kind == Kind::power) text += joined({piece(x.exponent, "")});
+        return text;
+    }
+
+    /// Arguments by position: linear ones, bilinear ones, a, b, w.
+    std::vector<int> positions(int id) const {
+        const SeriesNode& x = node(id);
+        std::vector<int> list;
+        for (const auto& [weight, a] : x.linear) list.push_back(a);
+        for (const auto& [weight, a, b] : x.bilinear) list.insert(list.end(), {a, b});
+        for (const int arg : {x.a, x.b, x.w}) if (arg >= 0) list.push_back(arg);
+        return list;
+    }
+
+    bool can_be_packed(int id) const {
+        switch (node(id).kind) {
+            case Kind::time: case Kind::coordinate: case Kind::speed: case Kind::work: case Kind::unknown: case Kind::residual: return false;
+            default: return true;
+        }
+    }
+
+    int level(int id) const { return levels_[id]; }
+
+    void find_levels() {
+        int last_row = 0;
+        for (int id = 0; id < size(); ++id) {
+            int highest = node(id).kind == Kind::unknown ? last_row : 0;
+            for (const int arg : arguments(id)) highest = std::max(highest, levels_[arg]);
+            levels_.push_back(highest + 1);
+            if (node(id).kind == Kind::residual) last_row = std::max(last_row, highest + 1);
+        }
+    }
+
+    void find_packs() {
+        place_.resize(r_.nodes.size());
+        find_levels();
+        std::map<std::pair<int, std::string>, std::vector<int>> groups;
+        for (int id = 0; id < size(); ++id)
+            if (can_be_packed(id)) groups[{-level(id), shape(id)}].push_back(id);
+        for (const auto& [key, group] : groups) {
+            // From the last level to the first, so that users decide the order of lanes; nobody shares an argument in a pack.
+            std::vector<std::vector<int>> parts;
+            std::vector<std::set<std::pair<std::size_t, int>>> taken;
+            for (const int id : group) {
+                if (is_packed(id)) continue;
+                const std::vector<int> mine = positions(id);
+                std::size_t part = 0;
+                const auto clashes = [&] {
+                    for (std::size_t k = 0; k < mine.size(); ++k)
+                        if (can_be_packed(mine[k]) && taken[part].contains({k, mine[k]})) return true;
+                    return false;
+                };
+                while (part < parts.size() && clashes()) ++part;
+                if (part == parts.size()) parts.emplace_back(), taken.emplace_back();
+                parts[part].push_back(id);
+                for (std::size_t k = 0; k < mine.size(); ++k) taken[part].insert({k, mine[k]});
+            }
+            for (const std::vector<int>& part : parts) {
+                const bool is_linear = products_[part[0]].empty();  // worth a pack only as an argument of one
+                if (part.size() >= least_lanes && !is_linear) add_pack(part);
+            }
+            const int here = -key.first;
+            for (std::size_t p = 0; p < packs_.size(); ++p)
+                if (!packs_[p].is_copy && level(packs_[p].nodes[0]) == here && packs_[p].column.empty()) arrange(static_cast<int>(p));
+        }
+        for (std::size_t p = 0; p < packs_.size(); ++p)
+            if (packs_[p].column.empty()) arrange(static_cast<int>(p));
+        for (Pack& pack : packs_)
+            if (!pack.is_copy) find_weights(pack);
+    }
+
+    int add_pack(const std::vector<int>& nodes) {
+        const int number = static_cast<int>(packs_.size());
+        packs_.push_back({.nodes = nodes});
+        for (std::size_t lane = 0; lane < nodes.size(); ++lane) place_[nodes[lane]] = {number, static_cast<int>(lane)};
+        return number;
+    }
+
+    /// Names, and where each argument's lanes come from.
+    void arrange(int number) {
+        packs_[number].column = names_.numbered("p");
+        const std::vector<int> nodes = packs_[number].nodes;
+        std::vector<std::vector<int>> lists;  // by position, the lanes' arguments
+        for (const int id : nodes) {
+            const std::vector<int> list = positions(id);
+            lists.resize(list.size());
+            for (std::size_t k = 0; k < list.size(); ++k) lists[k].push_back(list[k]);
+        }
+        const bool is_linear = products_[nodes[0]].empty();
+        std::map<int, int> sources;
+        for (const std::vector<int>& list : lists) {
+            const int source = pack_of(list, is_linear);
+            if (source < 0) {
+                packs_[number].by_lanes = true;
+                return;
+            }
+            const auto [place, is_new] = sources.try_emplace(list[0], source);
+            if (!is_new && place->second != source) throw std::logic_error("an argument with two orders of lanes");
+        }
+        packs_[number].sources = sources;
+    }
+
+    /// A pack with just these lanes: one that exists, a new one, or copies. −1: linear sums are better computed lane by lane.
+    int pack_of(const std::vector<int>& list, bool is_linear) {
+        for (std::size_t p = 0; p < packs_.size(); ++p)
+            if (packs_[p].nodes == list) return static_cast<int>(p);
+        const std::set<int> distinct(list.begin(), list.end());
+        const auto same = [&](int id) { return can_be_packed(id) && !is_packed(id) && level(id) == level(list[0]) && shape(id) == shape(list[0]); };
+        if (!is_linear && distinct.size() == list.size() && std::all_of(list.begin(), list.end(), same)) return add_pack(list);
+        if (is_linear) return -1;
+        packs_.push_back({.nodes = list, .column = names_.numbered("p"), .by_lanes = true, .is_copy = true});
+        return static_cast<int>(packs_.size()) - 1;
+    }
+
+    void find_weights(Pack& pack) {
+        const auto same = [](const Weight& a, const Weight& b) { return a.constant == b.constant && cln::equal(a.number, b.number); };
+        const auto list = [&](int id) {
+            std::vector<Weight> all;
+            for (const auto& [weight, a] : node(id).linear) all.push_back(weight);
+            for (const auto& [weight, a, b] : node(id).bilinear) all.push_back(weight);
+            for (const Product& product : products_[id]) all.push_back(product.weight);
+            return all;
+        };
+        const std::vector<Weight> first = list(pack.nodes[0]);
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            std::vector<Weight> lanes;
+            for (const int id : pack.nodes) lanes.push_back(list(id)[k]);
+            const bool differ = std::any_of(lanes.begin(), lanes.end(), [&](const Weight& w) { return !same(w, lanes[0]); });
+            pack.weight_arrays.push_back(differ && !pack.by_lanes ? names_.fresh(pack.column + "_w" + std::to_string(k)) : "");
+            pack.weights.push_back(differ ? lanes : std::vector<Weight>());
+        }
+        for (std::size_t t = 0; t < products_[pack.nodes[0]].size(); ++t) pack.term_sums.push_back(names_.fresh(fmt::format("{}_s{}", pack.column, t)));
+        for (const Product& product : products_[pack.nodes[0]])
+            for (const auto& [arg, rate] : {std::pair(product.a, product.a_rate), std::pair(product.b, product.b_rate)}) {
+                Pack& source = packs_[source_of(pack, arg)];
+                if (rate && source.rates.empty()) source.rates = names_.fresh(source.column + "_rates");
+            }
+    }
+
+    int source_of(const Pack& pack, int arg) const {
+        if (arg == pack.nodes[0]) return place_[arg].pack;
+        return pack.sources.at(arg);
+    }
+
     // Text of weights and sums.
 
     std::string constant(int id) {
@@ -221,11 +405,6 @@ private:
         if (place == constants_.end()) place = constants_.insert(constants_.end(), id);
         return fmt::format("par[{}]", p_.parameters.size() + static_cast<std::size_t>(place - constants_.begin()));
     }
-
-    struct Piece {
-        bool negative;
-        std::string text;
-    };
 
     Piece piece(const Weight& weight, const std::string& factor) {
         const Rational size = cln::abs(weight.number);
@@ -249,17 +428,60 @@ private:
         return text.find(' ') == std::string::npos ? text : "(" + text + ")";
     }
 
-    const std::string& now(int id) const { return named_[id].now; }
-    const std::string& first(int id) const { return named_[id].first; }
+    std::string now(int id) const {
+        if (!is_packed(id)) return named_[id].now;
+        const Pack& pack = packs_[place_[id].pack];
+        return fmt::format("{}[{} * k + {}]", pack.column, pack.padded(), place_[id].lane);
+    }
+    std::string first(int id) const {
+        return is_packed(id) ? fmt::format("{}[{}]", packs_[place_[id].pack].column, place_[id].lane) : named_[id].first;
+    }
+
+    /// How the text of a value names what it is made of: of one node, or of all lanes from l on.
+    struct View {
+        std::function<std::string(int)> now, first, inverse;
+        std::function<Piece(std::size_t term, const Weight&, const std::string&)> piece;
+        std::string sums;
+    };
+
+    View view(int id) {
+        return {.now = [this](int arg) { return now(arg); },
+                .first = [this](int arg) { return first(arg); },
+                .inverse = [this](int arg) { return named_[arg].inverse; },
+                .piece = [this](std::size_t, const Weight& weight, const std::string& factor) { return piece(weight, factor); },
+                .sums = named_[id].sums.empty() ? "" : named_[id].sums + "[k]"};
+    }
+
+    View view(const Pack& pack) {
+        const auto at = [this, &pack](int arg, const char* order) {
+            const Pack& source = packs_[source_of(pack, arg)];
+            return fmt::format("loaded({} + {}l)", source.column, *order == 'k' ? fmt::format("{} * k + ", source.padded()) : "");
+        };
+        const auto weighed = [this, &pack](std::size_t term, const Weight& weight, const std::string& factor) -> Piece {
+            if (pack.weight_arrays[term].empty()) return piece(weight, factor);
+            return {false, fmt::format("loaded({} + l) * {}", pack.weight_arrays[term], factor)};
+        };
+        const SeriesNode& x = node(pack.nodes[0]);
+        std::vector<Piece> sums;
+        for (std::size_t t = 0; t < pack.term_sums.size(); ++t)
+            sums.push_back(weighed(x.linear.size() + x.bilinear.size() + t, products_[pack.nodes[0]][t].weight, fmt::format("loaded({} + l)", pack.term_sums[t])));
+        return {.now = [at](int arg) { return at(arg, "k"); },
+                .first = [at](int arg) { return at(arg, "0"); },
+                .inverse = [this, &pack](int arg) { return fmt::format("loaded({} + l)", packs_[source_of(pack, arg)].inverse); },
+                .piece = weighed,
+                .sums = sums.empty() ? "" : bracketed(joined(sums))};
+    }
 
     // Order 0.
 
-    std::string value_at_zero(int id) {
+    std::string value_at_zero(int id, const View& v) {
         const SeriesNode& x = node(id);
+        const auto first = [&](int arg) { return v.first(arg); };
         const auto call = [&](const char* function) { return fmt::format("{}({})", function, first(x.a)); };
         std::vector<Piece> pieces;
-        for (const auto& [weight, a] : x.linear) pieces.push_back(piece(weight, first(a)));
-        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(piece(weight, first(a) + " * " + first(b)));
+        std::size_t term = 0;
+        for (const auto& [weight, a] : x.linear) pieces.push_back(v.piece(term++, weight, first(a)));
+        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(v.piece(term++, weight, first(a) + " * " + first(b)));
         for (const Weight& weight : x.constants) pieces.push_back(piece(weight, ""));
         switch (x.kind) {
             case Kind::quotient: return bracketed(joined(pieces)) + " / " + first(x.w);
@@ -299,8 +521,20 @@ private:
             moved = false;
             for (int id = 0; id < size(); ++id) {
                 if (!ready(id) || is_pair(node(id).kind) || (node(id).kind == Kind::unknown && !solved)) continue;
-                if (node(id).kind != Kind::unknown) lines.push_back(statement_at_zero(id));
-                done[id] = 1;
+                if (const int pack = place_[id].pack; pack >= 0 && is_vector_at_zero(packs_[pack])) {
+                    if (!std::all_of(packs_[pack].nodes.begin(), packs_[pack].nodes.end(), ready)) continue;
+                    add_copies(lines, packs_[pack], true);
+                    const View v = view(packs_[pack]);
+                    if (node(id).kind == Kind::root)
+                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = sqrt({}[l]);", packs_[pack].padded(), packs_[pack].column,
+                                                    packs_[source_of(packs_[pack], node(packs_[pack].nodes[0]).a)].column));
+                    else
+                        lines.push_back(over_lanes(packs_[pack], packs_[pack].column + " + l", value_at_zero(packs_[pack].nodes[0], v)));
+                    for (const int lane : packs_[pack].nodes) done[lane] = 1;
+                } else {
+                    if (node(id).kind != Kind::unknown) lines.push_back(statement_at_zero(id));
+                    done[id] = 1;
+                }
                 moved = true;
             }
             if (moved) continue;
@@ -317,22 +551,53 @@ private:
                 solved = moved = true;
             }
         }
+        for (const Pack& pack : packs_)  // those that only the products need
+            if (pack.is_copy) add_copy(lines, pack, true);
         add_inverses(lines);
         return lines;
     }
 
-    void add_sines(Lines& lines, const std::vector<int>& pairs) {
-        if (pairs.size() == 1) {
-            lines.push_back(fmt::format("const auto [{}, {}] = sincos({});", first(pairs[0]), first(node(pairs[0]).w), first(node(pairs[0]).a)));
-            return;
+    bool is_vector_at_zero(const Pack& pack) const {
+        const SeriesNode& x = node(pack.nodes[0]);
+        const auto plain = [&](int id) { return node(id).constants.empty(); };
+        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root) &&
+               std::all_of(pack.nodes.begin(), pack.nodes.end(), plain);
+    }
+
+    static std::string over_lanes(const Pack& pack, const std::string& to, const std::string& value) {
+        return fmt::format("for (int l = 0; l < {}; l += lanes<Real>) put({}, {});", pack.padded(), to, value);
+    }
+
+    void add_copy(Lines& lines, const Pack& pack, bool at_zero) const {
+        for (std::size_t lane = 0; lane < pack.nodes.size(); ++lane) {
+            const int id = pack.nodes[lane];
+            const std::string place = at_zero ? std::to_string(lane) : fmt::format("{} * k + {}", pack.padded(), lane);
+            lines.push_back(fmt::format("{}[{}] = {};", pack.column, place, at_zero ? first(id) : now(id)));
         }
+    }
+
+    /// What a pack takes from lanes that stand elsewhere.
+    void add_copies(Lines& lines, const Pack& pack, bool at_zero) const {
+        for (const auto& [arg, source] : pack.sources)
+            if (packs_[source].is_copy) add_copy(lines, packs_[source], at_zero);
+    }
+
+    void add_sines(Lines& lines, const std::vector<int>& pairs) {
+        const auto declared = [&](int id) { return (is_packed(id) ? "" : "const Real ") + first(id); };
         const std::string both = names_.numbered("both");
         std::string angles;
         for (const int id : pairs) angles += (angles.empty() ? "" : ", ") + first(node(id).a);
+        if (pairs.size() == 1) {
+            lines.push_back(fmt::format("const auto {} = sincos({});", both, angles));
+            lines.push_back(fmt::format("{} = {}.s;", declared(pairs[0]), both));
+            lines.push_back(fmt::format("{} = {}.c;", declared(node(pairs[0]).w), both));
+            return;
+        }
         lines.push_back(fmt::format("const auto {} = sincos({});", both, angles));
-        for (std::size_t i = 0; i < pairs.size(); ++i)
-            lines.push_back(fmt::format("const Real {} = {}.sine[{}], {} = {}.cosine[{}];", first(pairs[i]), both, i,
-                                        first(node(pairs[i]).w), both, i));
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            lines.push_back(fmt::format("{} = {}.sine[{}];", declared(pairs[i]), both, i));
+            lines.push_back(fmt::format("{} = {}.cosine[{}];", declared(node(pairs[i]).w), both, i));
+        }
     }
 
     std::string statement_at_zero(int id) {
@@ -342,21 +607,41 @@ private:
             case Kind::coordinate: return fmt::format("const Real {} = state[{}];", first(id), x.index);
             case Kind::speed: return fmt::format("const Real {} = state[{}];", first(id), n_ + x.index);
             case Kind::work: return fmt::format("const Real {} = state[{}];", first(id), n_ + s_);
-            default: return fmt::format("const Real {} = {};", first(id), value_at_zero(id));
+            default: return fmt::format("{}{} = {};", is_packed(id) ? "" : "const Real ", first(id), value_at_zero(id, view(id)));
         }
     }
 
+    /// Whose first coefficient a node is divided by; −1: none.
+    int divisor(int id) const {
+        const SeriesNode& x = node(id);
+        if (x.kind == Kind::quotient || x.kind == Kind::ratio || x.kind == Kind::turn) return x.w;
+        if (x.kind == Kind::power) return x.a;
+        return x.kind == Kind::root ? id : -1;
+    }
+
     void add_inverses(Lines& lines) {
+        for (Pack& pack : packs_) {
+            if (pack.is_copy || pack.by_lanes) continue;
+            const int of = divisor(pack.nodes[0]);
+            if (of < 0) continue;
+            Pack& source = packs_[source_of(pack, of)];
+            if (!source.inverse.empty()) continue;
+            source.inverse = names_.fresh("per_" + source.column);
+            lines.push_back(fmt::format("for (int l = 0; l < {}; l += lanes<Real>) put({} + l, Real(1) / loaded({} + l));", source.padded(),
+                                        source.inverse, source.column));
+        }
         for (int id = 0; id < size(); ++id) {
-            const SeriesNode& x = node(id);
-            int of = -1;
-            if (x.kind == Kind::quotient || x.kind == Kind::ratio || x.kind == Kind::turn) of = x.w;
-            if (x.kind == Kind::root) of = id;
-            if (x.kind == Kind::power) of = x.a;
+            if (is_packed(id) && !packs_[place_[id].pack].by_lanes) continue;
+            const int of = divisor(id);
             if (of < 0 || !named_[of].inverse.empty()) continue;
             named_[of].inverse = names_.fresh("per_" + named_[of].now);
             lines.push_back(fmt::format("const Real {} = Real(1) / {};", named_[of].inverse, first(of)));
         }
+        for (Pack& pack : packs_)
+            for (std::size_t k = 0; k < pack.weight_arrays.size(); ++k)
+                for (std::size_t lane = 0; lane < pack.nodes.size() && !pack.weight_arrays[k].empty(); ++lane)
+                    weight_lines_.push_back(fmt::format("{}[{}] = {};", pack.weight_arrays[k], lane, joined({piece(pack.weights[k][lane], "")})));
+        lines.insert(lines.begin(), weight_lines_.begin(), weight_lines_.end());
     }
 
     // The linear system: factors at order 0, then a function of the residuals.
@@ -438,18 +723,21 @@ private:
         return lines;
     }
 
-    std::string boundary(int a, int b) const {
-        if (a == b) return fmt::format("Real(2) * {} * {}", first(a), now(a));
-        return fmt::format("({} * {} + {} * {})", first(a), now(b), now(a), first(b));
-    }
-
     /// The coefficient of order k, sums of products being complete but for their ends.
-    std::string value(int id) {
+    std::string value(int id, const View& v) {
         const SeriesNode& x = node(id);
-        const std::string sums = named_[id].sums.empty() ? "" : named_[id].sums + "[k]";
+        const auto now = [&](int arg) { return v.now(arg); };
+        const auto first = [&](int arg) { return v.first(arg); };
+        const auto boundary = [&](int a, int b) {
+            if (a == b) return fmt::format("Real(2) * {} * {}", first(a), now(a));
+            return fmt::format("({} * {} + {} * {})", first(a), now(b), now(a), first(b));
+        };
+        const std::string& sums = v.sums;
         std::vector<Piece> pieces;
-        for (const auto& [weight, a] : x.linear) pieces.push_back(piece(weight, now(a)));
-        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(piece(weight, boundary(a, b)));
+        std::size_t term = 0;
+        if (!sums.empty() && x.kind != Kind::quotient) pieces.push_back({false, sums});
+        for (const auto& [weight, a] : x.linear) pieces.push_back(v.piece(term++, weight, now(a)));
+        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(v.piece(term++, weight, boundary(a, b)));
         for (const auto& [weight, m, a] : x.implied) pieces.push_back(piece(weight, fmt::format("{} * {}", now(m), first(a))));
         const std::string shared = sums.empty() ? "" : "per_k * " + sums;
         switch (x.kind) {
@@ -457,38 +745,97 @@ private:
             case Kind::quotient:
                 pieces.push_back({true, fmt::format("{} * {}", now(x.w), first(id))});
                 pieces.push_back({false, sums});
-                return fmt::format("({}) * {}", joined(pieces), named_[x.w].inverse);
-            case Kind::root: return fmt::format("Real(0.5) * ({} + {}) * {}", now(x.a), sums, named_[id].inverse);
-            case Kind::power: return fmt::format("({} + {}) * {}", joined({piece(x.exponent, now(x.a) + " * " + first(id))}), shared, named_[x.a].inverse);
+                return fmt::format("({}) * {}", joined(pieces), v.inverse(x.w));
+            case Kind::root: return fmt::format("Real(0.5) * ({} + {}) * {}", sums, now(x.a), v.inverse(id));
+            case Kind::power: return fmt::format("({} + {}) * {}", shared, bracketed(joined({piece(x.exponent, now(x.a) + " * " + first(id))})), v.inverse(x.a));
             case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area:
-                return fmt::format("{} * {} + {}", now(x.a), first(x.w), shared);
+                return fmt::format("{} + {} * {}", shared, now(x.a), first(x.w));
             case Kind::cosine: return fmt::format("{} - {} * {}", shared, now(x.a), first(x.w));
-            case Kind::exponential: return fmt::format("{} * {} + {}", now(x.a), first(id), shared);
-            case Kind::ratio: return fmt::format("({} + {}) * {}", now(x.a), shared, named_[x.w].inverse);
+            case Kind::exponential: return fmt::format("{} + {} * {}", shared, now(x.a), first(id));
+            case Kind::ratio: return fmt::format("({} + {}) * {}", shared, now(x.a), v.inverse(x.w));
             case Kind::turn:
-                return fmt::format("({} * {} - {} * {} + {}) * {}", first(x.b), now(x.a), first(x.a), now(x.b), shared, named_[x.w].inverse);
-            default:
-                if (!sums.empty()) pieces.push_back({false, sums});
-                return joined(pieces);
+                return fmt::format("({} + {} * {} - {} * {}) * {}", shared, first(x.b), now(x.a), first(x.a), now(x.b), v.inverse(x.w));
+            default: return joined(pieces);
         }
+    }
+
+    /// Sums of products in packs: all of orders below k, needed by nothing but this order.
+    Lines gathering() {
+        Lines lines;
+        for (const Pack& pack : packs_) {
+            if (pack.is_copy) continue;
+            for (std::size_t t = 0; t < pack.term_sums.size(); ++t) {
+                const Product& x = products_[pack.nodes[0]][t];
+                const auto array = [&](int arg, bool rate) -> const std::string& {
+                    const Pack& source = packs_[source_of(pack, arg)];
+                    return rate ? source.rates : source.column;
+                };
+                if (x.a == x.b && x.a_rate == x.b_rate)
+                    lines.push_back(fmt::format("squared<{}>({}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate)));
+                else
+                    lines.push_back(fmt::format("convolved<{}>({}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate), array(x.b, x.b_rate)));
+            }
+        }
+        return lines;
     }
 
     Lines chain() {
         Lines lines;
-        const auto rate = [&](int id) {
-            if (!named_[id].rate.empty()) lines.push_back(fmt::format("const Real {} = number * {};", named_[id].rate, now(id)));
-        };
-        for (int id = 0; id < size(); ++id) {
+        std::vector<char> done(r_.nodes.size(), 0);
+        bool solved = r_.matrix.empty();
+        const auto is_given = [&](int id) {
             const Kind kind = node(id).kind;
-            if (id == r_.solved_at && !r_.matrix.empty()) {
+            return kind == Kind::coordinate || kind == Kind::speed || kind == Kind::work;
+        };
+        const auto ready = [&](int id) {
+            if (node(id).kind == Kind::unknown) return solved;
+            const auto list = arguments(id);
+            return std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
+        };
+        const auto finish = [&](int id) {
+            if (!named_[id].rate.empty()) lines.push_back(fmt::format("const Real {} = number * {};", named_[id].rate, now(id)));
+            done[id] = 1;
+        };
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (int id = 0; id < size(); ++id) {
+                if (done[id] != 0 || !ready(id)) continue;
+                moved = true;
+                if (!is_packed(id)) {
+                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value(id, view(id))));
+                    finish(id);
+                    continue;
+                }
+                const Pack& pack = packs_[place_[id].pack];
+                if (!std::all_of(pack.nodes.begin(), pack.nodes.end(), ready)) {
+                    moved = false;
+                    continue;
+                }
+                if (pack.by_lanes) {
+                    for (const int lane : pack.nodes) lines.push_back(fmt::format("{} = {};", now(lane), value(lane, view(lane))));
+                } else {
+                    add_copies(lines, pack, false);
+                    lines.push_back(over_lanes(pack, fmt::format("{} + {} * k + l", pack.column, pack.padded()), value(pack.nodes[0], view(pack))));
+                }
+                for (const int lane : pack.nodes) finish(lane);
+            }
+            if (!moved && !solved) {
                 std::string unknowns;
                 for (const int a : r_.unknowns) unknowns += (unknowns.empty() ? "" : ", ") + now(a);
                 lines.push_back(fmt::format("Real {};", unknowns));
                 lines.push_back(solve_call([&](int a) { return now(a); }));
+                solved = moved = true;
             }
-            if (kind != Kind::coordinate && kind != Kind::speed && kind != Kind::work && kind != Kind::unknown)
-                lines.push_back(fmt::format("const Real {} = {};", now(id), value(id)));
-            rate(id);
+        }
+        for (const Pack& pack : packs_) {
+            bool used_before = !pack.is_copy;  // copies that only products need
+            for (const Pack& other : packs_)
+                if (!other.is_copy && !other.by_lanes)
+                    for (const auto& [arg, source] : other.sources) used_before = used_before || &packs_[source] == &pack;
+            if (!used_before) add_copy(lines, pack, false);
+            if (!pack.rates.empty())
+                lines.push_back(over_lanes(pack, fmt::format("{} + {} * k + l", pack.rates, pack.padded()),
+                                           fmt::format("number * loaded({} + {} * k + l)", pack.column, pack.padded())));
         }
         return lines;
     }
@@ -505,28 +852,65 @@ private:
         return lines;
     }
 
+    /// Loops over blocks of later orders, several sums each, so that what they read in common is loaded once.
     Lines spreading() {
         Lines lines;
+        std::vector<std::string> loaded;
+        Lines loads, sums;
+        const auto flush = [&] {
+            if (sums.empty()) return;
+            lines.emplace_back("for (int block = first_block; block <= last_block; ++block) {");
+            lines.emplace_back("    const int to = lanes<Real> * block, from = to - k;");
+            for (const Lines* part : {&loads, &sums})
+                for (const std::string& line : *part) lines.push_back("    " + line);
+            lines.emplace_back("}");
+            loaded.clear(), loads.clear(), sums.clear();
+        };
         for (int id = 0; id < size(); ++id) {
-            if (products_[id].empty()) continue;
-            std::vector<Piece> middle;
-            std::string pairs;
+            if (products_[id].empty() || is_packed(id)) continue;
+            std::vector<Piece> pieces;
             for (const Product& x : products_[id]) {
-                const auto scalar = [&](int arg, bool rate) { return rate ? named_[arg].rate : now(arg); };
-                const auto array = [&](int arg, bool rate) { return rate ? named_[arg].rates : named_[arg].series; };
-                const auto scaled = [&](const Weight& weight, const std::string& factor) { return joined({piece(weight, factor)}); };
-                middle.push_back(piece(x.weight, scalar(x.a, x.a_rate) + " * " + scalar(x.b, x.b_rate)));
+                const auto array = [&](int arg, bool rate) {
+                    const std::string& name = rate ? named_[arg].rates : named_[arg].series;
+                    const std::string block = name + "_block";
+                    if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) {
+                        loaded.push_back(name);
+                        loads.push_back(fmt::format("const auto {} = loaded({} + from);", block, name));
+                    }
+                    return block;
+                };
+                const auto add = [&](const Weight& weight, const std::string& factor, const std::string& block) {
+                    const Piece scale = piece(weight, factor);
+                    pieces.push_back({scale.negative, bracketed(scale.text) + " * " + block});
+                };
                 if (x.a == x.b && x.a_rate == x.b_rate) {
-                    pairs += fmt::format(", {}, {}", scaled({2 * x.weight.number, x.weight.constant}, scalar(x.a, x.a_rate)), array(x.a, x.a_rate));
+                    add({2 * x.weight.number, x.weight.constant}, scalar(x.a, x.a_rate), array(x.a, x.a_rate));
                 } else {
-                    pairs += fmt::format(", {}, {}", scaled(x.weight, scalar(x.a, x.a_rate)), array(x.b, x.b_rate));
-                    pairs += fmt::format(", {}, {}", scaled(x.weight, scalar(x.b, x.b_rate)), array(x.a, x.a_rate));
+                    add(x.weight, scalar(x.a, x.a_rate), array(x.b, x.b_rate));
+                    add(x.weight, scalar(x.b, x.b_rate), array(x.a, x.a_rate));
                 }
             }
-            lines.push_back(fmt::format("spread({}, k, top, {}{});", named_[id].sums, joined(middle), pairs));
+            std::string text = fmt::format("add({} + to, ", named_[id].sums) + joined(pieces) + ");";
+            sums.push_back(std::move(text));
+            if (loaded.size() > most_loaded) flush();
+        }
+        flush();
+        return lines;
+    }
+
+    /// The products of two coefficients of order k.
+    Lines middles() {
+        Lines lines;
+        for (int id = 0; id < size(); ++id) {
+            if (products_[id].empty() || is_packed(id)) continue;
+            std::vector<Piece> pieces;
+            for (const Product& x : products_[id]) pieces.push_back(piece(x.weight, scalar(x.a, x.a_rate) + " * " + scalar(x.b, x.b_rate)));
+            lines.push_back(fmt::format("{}[2 * k] += {};", named_[id].sums, joined(pieces)));
         }
         return lines;
     }
+
+    std::string scalar(int id, bool rate) const { return rate ? named_[id].rate : now(id); }
 
     Lines storing() const {
         Lines lines;
@@ -544,6 +928,20 @@ private:
                 if (!array->empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + pad;", *array, arrays_count_++));
         for (const Named& name : named_)
             if (!name.sums.empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + {} * room;", name.sums, arrays_count_, sums_count_++));
+        std::size_t columns = 0, single = 0;
+        const auto place = [&](const std::string& name, std::size_t rows, std::size_t& count) {
+            if (name.empty()) return;
+            lines.push_back(fmt::format("Real* const {} = columns + {}{};", name, count, &count == &columns ? " * room" : " + columns_count * room"));
+            count += rows;
+        };
+        for (const Pack& pack : packs_)
+            for (const std::string* name : {&pack.column, &pack.rates}) place(*name, pack.padded(), columns);
+        for (const Pack& pack : packs_) {
+            place(pack.inverse, pack.padded(), single);
+            for (const auto* list : {&pack.term_sums, &pack.weight_arrays})
+                for (const std::string& name : *list) place(name, pack.padded(), single);
+        }
+        columns_count_ = static_cast<int>(columns), single_count_ = static_cast<int>(single);
         return lines;
     }
 
@@ -596,7 +994,11 @@ private:
     std::vector<Named> named_;                    // of each node
     std::vector<std::vector<Product>> products_;  // that each node sums up
     std::vector<int> constants_;                  // of the Program, in the order of `par`
-    int arrays_count_ = 0, sums_count_ = 0;
+    int arrays_count_ = 0, sums_count_ = 0, columns_count_ = 0, single_count_ = 0;
+    std::vector<Pack> packs_;
+    std::vector<Place> place_;                    // of each node
+    std::vector<int> levels_;
+    Lines weight_lines_;
 };
 
 }  // namespace
