@@ -5,17 +5,15 @@
 #include <cmath>
 #include <iostream>
 
+#include "alembert/drift.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
-#include "commands/drift.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
+#include "commands/run_options.hpp"
 
 namespace alembert {
 
-namespace {
-
-/// The scene's wishes, those of the command line first.
 Options options_of(const Request& request, const Mechanism& mechanism, const Start& start) {
     std::string method = request.method.empty() ? mechanism.run.method : request.method;
     if (method == "auto") method = start.step > 0 || request.step > 0 ? "rk4" : "dop853";
@@ -31,8 +29,6 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
             .budget = request.budget};
 }
 
-/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no coordinate)
-/// occurs. What occurs only to cancel counts as there.
 void need_separable(const Derived& d, std::string_view method) {
     const auto refuse = [&](const std::string& why) {
         throw ModelError(fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
@@ -51,6 +47,8 @@ void need_separable(const Derived& d, std::string_view method) {
     for (int i = 0; i < e.size(); ++i)
         if (e.z->depends(e.forcing(i), e.u)) refuse(fmt::format("a rate occurs in the equation of {}", e.q[i].get_name()));
 }
+
+namespace {
 
 /// The state where the numbers failed.
 State<double> state_at(State<double> state, const Failure& failure) {

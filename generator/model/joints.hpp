@@ -26,6 +26,9 @@ namespace alembert {
 Orientation orientation_by(const Joint& joint, Places& places);
 Vector3 position_by(const Joint& joint, Places& places);
 
+/// As an arc or a chord of the system graph; bodies are left at the ground.
+JointArc arc_of(const Joint& joint, Places& places);
+
 struct ClosingRow {
     bool holonomic;
     GiNaC::ex value;

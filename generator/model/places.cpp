@@ -33,13 +33,9 @@ Orientation Places::turn(const Frame& frame) {
     SourceScope source(*m_.z, "frame " + frame.name.text);
     Orientation o = orientation(frame.parent.text);
     if (!frame.quaternion.empty()) {
-        std::array<ex, 4> e, rate;
-        for (int k = 0; k < 4; ++k) {
-            const std::size_t i = coordinate_index(frame.quaternion[k].text, m_);
-            e[k] = m_.q[i];
-            rate[k] = m_.qdot[i];
-        }
-        return o.turned(e, rate, *m_.z);
+        std::array<ex, 4> e;
+        for (std::size_t k = 0; k < 4; ++k) e[k] = value(frame.quaternion[k]);
+        return turned(o, e);
     }
     for (const Rotation& r : frame.rotations) o = turned(o, unit_axis(r), value(r.angle));
     return o;
@@ -47,6 +43,10 @@ Orientation Places::turn(const Frame& frame) {
 
 Orientation Places::turned(const Orientation& o, const Vector3& axis, const ex& angle) {
     return o.turned(axis, angle, rate(angle), *m_.z);
+}
+
+Orientation Places::turned(const Orientation& o, const std::array<ex, 4>& e) {
+    return o.turned(e, {rate(e[0]), rate(e[1]), rate(e[2]), rate(e[3])}, *m_.z);
 }
 
 ex Places::value(const Name& name) {

@@ -33,6 +33,7 @@ public:
     /// The direction of a rotation's axis.
     Vector3 unit_axis(const Rotation& rotation);
     Orientation turned(const Orientation& o, const Vector3& axis, const GiNaC::ex& angle);
+    Orientation turned(const Orientation& o, const std::array<GiNaC::ex, 4>& quaternion);
     /// The mass centre; of N the origin.
     Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
 
