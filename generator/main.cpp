@@ -96,6 +96,16 @@ int main(int argc, char** argv) {
     with_reactions(simulate);
     simulate->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
 
+    CLI::App* bench = verb("bench", "speed against error: every method over a range of tolerances, against a reference", alembert::bench);
+    bench->add_flag("--peers", request.peers, "CVODE, IDA, odeint and GSL too, on the same right-hand side, where they are installed");
+    bench->add_option("--csv", request.csv, "CSV file");
+    bench->add_option("--svg", request.svg, "work-precision plot");
+    bench->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+    bench->add_option("--method", request.method, "this one alone");
+    bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(CLI::PositiveNumber);
+    bench->add_option("--reference-seconds", request.reference_seconds, "processor time for each of the reference's methods")
+        ->check(CLI::PositiveNumber);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

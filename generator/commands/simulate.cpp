@@ -10,6 +10,7 @@
 #include "commands/drift.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
+#include "commands/separable.hpp"
 
 namespace alembert {
 
@@ -29,27 +30,6 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
             .step = wish(request.step, start.step),
             .sample = wish(request.sample, start.sample),
             .budget = request.budget};
-}
-
-/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no coordinate)
-/// occurs. What occurs only to cancel counts as there.
-void need_separable(const Derived& d, std::string_view method) {
-    const auto refuse = [&](const std::string& why) {
-        throw ModelError(fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
-                                     "alone, but {}; take gauss (symplectic for any energy) or dop853", method, why));
-    };
-    const Equations& e = d.equations;
-    if (!e.h.empty()) refuse("the equations are in generalized speeds");
-    if (!d.mechanism.constraints.empty() || !d.mechanism.unilateral.empty()) refuse("there are constraints");
-    std::vector<GiNaC::symbol> moving = e.q;
-    moving.insert(moving.end(), e.u.begin(), e.u.end());
-    moving.push_back(d.mechanism.t);
-    for (int i = 0; i < e.size(); ++i)
-        for (int j = 0; j < e.size(); ++j)
-            if (e.z->depends(e.M(i, j), moving))
-                refuse(fmt::format("the inertia of {} changes with the motion", e.q[i].get_name()));
-    for (int i = 0; i < e.size(); ++i)
-        if (e.z->depends(e.forcing(i), e.u)) refuse(fmt::format("a rate occurs in the equation of {}", e.q[i].get_name()));
 }
 
 /// The state where the numbers failed.

@@ -52,6 +52,8 @@ std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
 /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
 bool needs_separable(Method method);
+/// In the order above.
+std::vector<Method> all_methods();
 /// "euler, rk2, ... or verner98", for messages.
 std::string method_names();
 
