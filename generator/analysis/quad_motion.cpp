@@ -64,7 +64,7 @@ private:
 /// Nodes on (0, 1) and weights ∫ of the Lagrange polynomials from 0 to each node and to 1, by Legendre's polynomials, in
 /// which interpolation on Gauss's nodes loses nothing: l_j(x) = w_j Σ (2k+1) P_k(x_j) P_k(x).
 struct Gauss {
-    static constexpr int stages = 10;
+    static constexpr int stages = 14;
     Quad c[stages], b[stages], a[stages][stages];
 
     Gauss() {

@@ -3,13 +3,13 @@
 
 /// Motions in numbers of 34 digits, by two methods that have nothing in common but the right-hand side.
 ///
-///     const QuadMotion first = extrapolate(rhs, state, 0, 10, {.tolerance = 1e-26});
+///     const QuadMotion first = extrapolate(rhs, state, 0, 10, {.tolerance = 1e-28});
 ///     const QuadMotion second = collocate(rhs, state, first.mesh, {});
 ///     agreement(first.state, second.state);        // 1e-22: so many digits are beyond doubt
 ///
 /// `extrapolate`: Gragg's modified midpoint rule with 2, 4, … 2K substeps, extrapolated to h² = 0 (Bulirsch & Stoer; Hairer,
 /// Nørsett, Wanner I, §II.9), order 2K, K from the tolerance; the step from the difference of the last two columns, held against
-/// tolerance · max(1, |y|). `collocate`: Gauss's nodes, 10 of them, order 20 (Hairer & Wanner II, §IV.5), solved by iteration
+/// tolerance · max(1, |y|). `collocate`: Gauss's nodes, 14 of them, order 28 (Hairer & Wanner II, §IV.5), solved by iteration
 /// to `tolerance` on the first one's mesh; a step on which the iteration does not contract is halved.
 ///
 /// Neither throws: `finished` is false where evaluations ran out or a step vanished.
@@ -31,7 +31,7 @@ struct QuadMotion {
 };
 
 struct QuadOptions {
-    double tolerance = 1e-26;
+    double tolerance = 1e-28;
     long budget = 10'000'000;
 };
 

@@ -167,7 +167,7 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     const long budget = static_cast<long>(options.seconds / each) + 1;
 
     const Quad end = start.t + start.duration;
-    for (const double tolerance : {1e-26, 1e-20}) {
+    for (const double tolerance : {1e-28, 1e-20}) {
         const QuadMotion first = extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
         if (!first.finished) continue;
         const QuadMotion second = collocate(rhs, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
@@ -177,7 +177,7 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
                          .rates = {},
                          .speeds = {},
                          .digits = std::clamp(static_cast<int>(std::floor(-std::log10(std::max(apart, 1e-33)))), 0, 33),
-                         .by = fmt::format("extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 20, binary128", tolerance),
+                         .by = fmt::format("extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128", tolerance),
                          .evaluations = first.evaluations + second.evaluations};
         rhs(end, first.state.data(), rate.data());
         result.rates.assign(rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(n));
