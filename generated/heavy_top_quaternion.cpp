@@ -474,7 +474,7 @@ constexpr const char* speed_names[] = { "w1", "w2", "w3", nullptr};
 constexpr const char* parameter_names[] = { "m", "l", "g", "A", "C", "theta0", nullptr};
 constexpr const char* output_names[] = { "height", "vertical", "w1", "w2", "w3", nullptr};
 constexpr const char* event_names[] = { nullptr};
-constexpr double parameter_values[] = { 1, 1, 1, 1, 0.5, 1, 0};
+constexpr double parameter_values[] = { 2, 0.5, 1, 1, 0.5, 1, 0};
 
 constexpr alembert_solver_table table{
     3, 4, 3, 6, 10, 5, 0, 1, "heavy_top_quaternion", "kane, textbook form",

@@ -246,6 +246,77 @@ TEST_CASE("check: a claim that holds on one branch of a constraint only is refut
 }
 
 // Beyond the readable size the equations are in intermediate symbols z1, z2 …, which claims may name.
+TEST_CASE("check: gears keep the sines of their angles related, whatever the ratio") {
+    const auto verdicts = [](const std::string& mesh, const std::string& claims) {
+        const Scene scene = parse_scene(fmt::format(R"--(
+[parameters]
+I1 = 1
+I2 = 2
+k = 3
+[coordinates]
+a = {{ guess = 0.4 }}
+b = 0.2
+[energy]
+kinetic = "I1*a'^2/2 + I2*b'^2/2"
+potential = "k*cos(a) + k*sin(b)"
+[[constraint]]
+name = "mesh"
+holonomic = "{}"
+)--", mesh), "gears.toml");
+        std::string letters;
+        for (const CheckedClaim& c : checked(with_claims(scene, claims, "claims.txt")).claims) letters += "pruv"[static_cast<int>(c.verdict)];
+        return letters;
+    };
+    // By hand: a'' = n b'' and the mesh's torque eliminated give (n²I1 + I2)·b'' = n·k·sin(a) − k·cos(b).
+    for (const char* mesh : {"a = 2*b", "b = a/2"})
+        CHECK(verdicts(mesh, "cos(a) = 2*cos(b)^2 - 1\ncos(a) = cos(b)\n(4*I1+I2)*b'' = 2*k*sin(2*b) - k*cos(b)\n(4*I1+I2)*b'' = 2*k*sin(b) - k*cos(b)\n") == "prpr");
+    CHECK(verdicts("2*a = 3*b", "cos(2*a) = cos(3*b)\ncos(a) = cos(b)\n(9*I1/4+I2)*b'' = 3*k/2*sin(a) - k*cos(b)\n") == "prp");
+    CHECK(verdicts("a - 2*b = pi/2", "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
+    CHECK(verdicts("a - 2*b = pi/3", "2*cos(a) = cos(2*b) - sqrt(3)*sin(2*b)\ncos(a) = cos(2*b)\n") == "pr");
+    // No turn by π/5 in the field: what cannot be decided is not called wrong.
+    CHECK(verdicts("a - 2*b = pi/5", "cos(a) = cos(2*b + pi/5)\ncos(a) = cos(2*b)\n") == "ur");
+}
+
+TEST_CASE("check: roots of numbers that the field does not have, and the turns that go with them") {
+    // Two masses at the corners of an equilateral triangle that hangs from the third: 2 m a² th'' = −2 m g a sin(th) cos(π/6).
+    const std::string triangle = R"--(
+gravity = [0, "-g"]
+[parameters]
+m = 1
+a = 1
+g = 9.81
+[coordinates]
+th = 0.3
+[[frame]]
+name = "R"
+rotate = [["z", "th"]]
+[[body]]
+name = "A"
+mass = "m"
+position = ["a/2", "-a*sqrt(3)/2"]
+axes = "R"
+[[body]]
+name = "B"
+mass = "m"
+position = ["-a/2", "-a*sqrt(3)/2"]
+axes = "R"
+)--";
+    const auto verdict = [&](const std::string& claim) {
+        return checked(with_claims(parse_scene(triangle, "triangle.toml"), claim + "\n", "claims.txt")).claims[0].verdict;
+    };
+    for (const char* right : {"2*a*th'' + sqrt(3)*g*sin(th) = 0", "2*a*th'' = -3*g*sin(th)/sqrt(3)", "a*th'' = -cos(pi/6)*g*sin(th)",
+                              "2*a*th'' = g*(cos(th + pi/3) - cos(th - pi/3))", "sqrt(5)*a*th'' = -sqrt(15)/2*g*sin(th)",
+                              "sqrt(12*g/a)*a*th'' = -3*g*sqrt(g/a)*sin(th)"}) {
+        CAPTURE(right);
+        CHECK(verdict(right) == Verdict::proved);
+    }
+    for (const char* wrong : {"2*a*th'' = -3*g*sin(th)", "2*a*th'' = sqrt(3)*g*sin(th)", "a*th'' = -cos(pi/3)*g*sin(th)",
+                              "2*a*th'' = g*(cos(th + pi/6) - cos(th - pi/6))"}) {
+        CAPTURE(wrong);
+        CHECK(verdict(wrong) == Verdict::refuted);
+    }
+}
+
 TEST_CASE("check: a chain of eight rods proves its own equations and refutes one with a sign changed, which it names") {
     std::string text = "gravity = [0, \"g\"]\n[parameters]\nm = 1\nl = 1\ng = 9.81\n[coordinates]\n", bodies;
     for (int k = 1; k <= 8; ++k) {

@@ -11,6 +11,7 @@
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
 #include "lower/modular.hpp"
+#include "lower/prime_polynomial.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -204,6 +205,25 @@ TEST_CASE("modular: arithmetic modulo 2^61 - 1") {
     CHECK(a + b - a == b);
     CHECK((b * b).root() * (b * b).root() == b * b);
     CHECK((b * b).root().is_square());
+    const Prime w = a + b * Prime::i();
+    CHECK(w * w.inverse() == 1);
+    CHECK(w * (a - b * Prime::i()) == a * a + b * b);
+    CHECK((w * w).root() * (w * w).root() == w * w);
+    CHECK_FALSE(Prime(3).is_square());
+    CHECK(*Prime::root_of(3) * *Prime::root_of(3) == 3);
+    CHECK(*Prime::root_of(Rational(5) / 3) * *Prime::root_of(15) == 5);
+    const Turn twelfth = *Turn::by_pi(Rational(1) / 6);
+    CHECK(twelfth.cos * twelfth.cos + twelfth.sin * twelfth.sin == 1);
+    CHECK(twelfth.sin * 2 == 1);
+    CHECK(twelfth.power(3).cos == 0);
+    CHECK(Turn::by_pi(Rational(1) / 8)->power(2).cos == Turn::by_pi(Rational(1) / 4)->sin);
+    CHECK_FALSE(Turn::by_pi(Rational(1) / 5));
+    // (x − √3)(x − 2)(x² + 1): roots beyond the plain ones once a coefficient is.
+    const Prime r = *Prime::root_of(3);
+    PrimePolynomial f{2 * r, -(r + 2), 2 * r + 1, -(r + 2), 1};
+    const std::vector<Prime> zeros = roots(f, 5);
+    CHECK(zeros.size() == 4);
+    for (const Prime zero : zeros) CHECK(value_at(f, zero) == 0);
     CHECK(*Prime::from(Rational(1) / 3) * 3 == Prime(1));
     const Turn z = Turn::rational(17);
     CHECK(z.cos * z.cos + z.sin * z.sin == Prime(1));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "analysis/common_zeros.hpp"
+#include "analysis/angle_sum.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -87,8 +88,9 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
     // A contact's multiplier is whatever its bodies press with: a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (std::size_t k = 0; k < m.unilateral.size(); ++k)
-        given.emplace_back(m.unilateral[k].gap.multiplier, program_.variable({Variable::Kind::unknown, m_ + static_cast<int>(k)}));
+    int next_unknown = m_;
+    for (const Mechanism::Constraint* c : m.undetermined())
+        given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
     const std::vector<int> nodes = lower_expressions(program_, m, list, given);
     auto next = nodes.begin();
     const auto take = [&](int count) {
@@ -134,10 +136,10 @@ void Motions::order(std::vector<int> conditions) {
     for (const int node : conditions) held.push_back(occurrences(program_, node));
     std::set<std::pair<Variable::Kind, int>> taken;
     while (!conditions.empty()) {
-        // Multipliers, then coordinates, then parameters.
+        // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns of the others.
         constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
         std::optional<std::pair<std::size_t, Step>> chosen;
-        for (const Variable::Kind kind : kinds) {
+        for (const auto& [kind, any_multiple] : {std::pair{kinds[0], false}, {kinds[1], false}, {kinds[1], true}, {kinds[2], true}}) {
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
                 for (const auto& [variable, how] : held[c]) {
                     if (variable.first != kind || taken.contains(variable)) continue;
@@ -148,7 +150,9 @@ void Motions::order(std::vector<int> conditions) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
                     if (elsewhere || only_parameters || (how.plain && how.turned)) continue;
-                    chosen = {c, {{conditions[c], {variable.first, variable.second}, how.turned}}};
+                    const Variable unknown{variable.first, variable.second};
+                    if (!any_multiple && is_sum_of_variables(program_, conditions[c]) && !angle_sum(program_, conditions[c], unknown)) continue;
+                    chosen.emplace(c, Step{{conditions[c], unknown, how.turned}, std::nullopt});
                     break;
                 }
             if (chosen) break;
@@ -249,6 +253,8 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
             put(*all[pick]);
         else
             state.point.given_angles[plain] = Turn{-1, 0};
+        if (!step.turned)
+            if (const auto sum = angle_sum(program_, step.node, step.variable)) set_angle(state.point, *sum, *all[pick]);
         state.degree *= static_cast<double>(f.size() - 1);
         return {value_of(program_, step.node, state) == Prime(0), count};
     }
@@ -306,7 +312,6 @@ bool Motions::move(ExactState& state) const {
         rows.back().push_back(-geometry->value[system_.drift[k]]);
     }
     reduce_rows(rows, n);
-    std::vector<bool> solved(n, false);
     for (std::size_t i = 0; i < n; ++i) state.point.given[{Variable::Kind::rate, static_cast<int>(i)}] = state.point.random(800, i);
     for (std::size_t k = rows.size(); k-- > 0;) {
         const auto pivot = std::find_if(rows[k].begin(), rows[k].end(), [](Prime p) { return !p.is_zero(); });

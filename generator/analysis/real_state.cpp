@@ -196,9 +196,11 @@ void find_variables(const Program& p, const std::vector<int>& roots, std::set<Ke
 /// Small numbers first, odder ones with the seed.
 class Numbers {
 public:
-    explicit Numbers(unsigned seed) : random_(seed), spread_(3 + std::min(seed, 400U) / 20) {}
+    explicit Numbers(unsigned seed) : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
     numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
     numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
+    /// Within (−1, 1), all over one denominator: so are the components of a unit quaternion, which rarely is found otherwise.
+    numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
         const numeric r = numeric(pick(1, below)) / numeric(below == 1 ? 1 : below);
@@ -208,7 +210,7 @@ public:
 private:
     int pick(int low, int high) { return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1)); }
     std::mt19937 random_;
-    int spread_;
+    int spread_, below_;
 };
 
 /// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where there is one.
@@ -415,9 +417,10 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
                                key.first == Variable::Kind::time);
         if (is_angle)
             put_angle(state, key, {numbers.tangent()});
+        else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time)
+            state.value[key] = numbers.positive();
         else
-            state.value[key] = key.first == Variable::Kind::parameter || key.first == Variable::Kind::time ? numbers.positive()
-                                                                                                              : numbers.any();
+            state.value[key] = seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
     }
     if (motions.where() == Motions::At::rest) {
         for (int i = 0; i < motions.size(); ++i)

@@ -7,6 +7,8 @@
 #include <array>
 #include <set>
 
+#include "analysis/angle_sum.hpp"
+
 namespace alembert {
 
 namespace {
@@ -22,9 +24,7 @@ enum class How {
 struct Unknown {
     Key key;
     How how = How::plain;
-    /// Of a sum: what it is made of, and the number among it.
-    std::vector<std::pair<Key, std::uint64_t>> multiples = {};  // modulo the order of the circle's group
-    std::uint64_t number = 0;
+    AngleSum sum = {};  ///< what a sum is made of
 };
 
 /// An equation and the unknown that it gives.
@@ -130,7 +130,11 @@ private:
             if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != (how != How::plain)) continue;
             if (std::any_of(left.begin(), left.end(), [&](int j) { return j != k && depends_[j].count(key) != 0; })) continue;
             Step step{.position = positions_[k], .unknown = {.key = key, .how = how}};
-            if (how == How::sum && !find_multiples(step)) continue;
+            if (how == How::sum) {
+                const auto sum = angle_sum(program_, step.position, {key.first, key.second});
+                if (!sum) continue;
+                step.unknown.sum = *sum;
+            }
             const int former = halves_;
             if (how == How::turn) halves_ = 0;  // then sin(v/2) makes every point unlucky
             for (std::uint64_t seed = 1; seed <= 3; ++seed)
@@ -141,42 +145,6 @@ private:
             halves_ = former;
         }
         return false;
-    }
-
-    /// v = Σ c·x + number with whole c, from v + … = 0.
-    bool find_multiples(Step& step) const {
-        const Node* node = &program_[step.position];
-        while (node->is_scaled()) node = &program_[node->args[0]];
-        if (node->op != Op::sum) return false;
-        Rational own = 0;
-        const auto key_of = [&](int id) { return Key{program_[id].variable.kind, program_[id].variable.index}; };
-        for (std::size_t k = 0; k < node->args.size(); ++k) {
-            if (program_[node->args[k]].op != Op::variable) return false;
-            if (key_of(node->args[k]) == step.unknown.key) own = node->coefficients[k];
-        }
-        if (cln::zerop(own)) return false;
-        const auto whole = [&](const Rational& c) -> std::optional<std::uint64_t> {
-            const Rational ratio = -c / own;
-            if (cln::denominator(ratio) != 1) return std::nullopt;
-            return cln::cl_I_to_UQ(cln::ldb(cln::numerator(ratio), cln::cl_byte(61, 0)));
-        };
-        for (std::size_t k = 0; k < node->args.size(); ++k) {
-            if (key_of(node->args[k]) == step.unknown.key) continue;
-            const auto multiple = whole(node->coefficients[k]);
-            if (!multiple) return false;
-            step.unknown.multiples.emplace_back(key_of(node->args[k]), *multiple);
-        }
-        const auto number = whole(node->number);
-        step.unknown.number = number.value_or(0);
-        return number.has_value();
-    }
-
-    /// The angle of a sum is the product of the angles.
-    static void set_angle(ModularPoint& point, const Unknown& unknown, Prime value) {
-        Turn turn = point.angle(1).power(unknown.number);
-        for (const auto& [key, multiple] : unknown.multiples)
-            turn = turn * point.angle(point.variable({key.first, key.second})).power(multiple);
-        point.given_angles[value] = turn;
     }
 
     std::optional<ModularPoint> solved(std::uint64_t seed) const {
@@ -191,7 +159,7 @@ private:
             }
             if (!root) return std::nullopt;
             set(point, step.unknown, *root);
-            if (step.unknown.how == How::sum) set_angle(point, step.unknown, *root);
+            if (step.unknown.how == How::sum) set_angle(point, step.unknown.sum, *root);
         }
         const auto at = evaluate_mod(program_, point, all_);
         if (!at) return std::nullopt;

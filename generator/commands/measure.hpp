@@ -12,10 +12,10 @@
 
 #include <optional>
 
+#include "alembert/drift.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/module.hpp"
 #include "alembert/project.hpp"
-#include "commands/drift.hpp"
 #include "commands/pipeline.hpp"
 
 namespace alembert {

@@ -39,8 +39,9 @@ std::string wrapped(const std::string& line) {
 
 class Emitter {
 public:
-    explicit Emitter(const Program& program)
+    Emitter(const Program& program, const EmitOptions& options)
         : p_(program),
+          options_(options),
           n_(static_cast<int>(program.coordinates.size())),
           s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
         for (const Quantity& q : p_.coordinates) {
@@ -63,10 +64,10 @@ public:
         const std::vector<int> rhs = p_.right_hand_side();
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
+        mustache::data file;
         functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()
                   << multipliers();
-
-        mustache::data file;
+        add_derivatives(functions, file);
         file.set("scene", ascii_identifier(p_.name));
         file.set("formulation", p_.formulation);
         file.set("version", ALEMBERT_VERSION);
@@ -82,6 +83,7 @@ public:
                                            cost.functions));
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
+        file.set("batch", options_.batch);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
@@ -292,6 +294,10 @@ private:
         const std::string solve = is_free ? fmt::format("Solve M {} = f with M = L D L^T", unknown)
                                           : fmt::format("Solve M {0} = f + A^T lambda, A {0} = gamma", unknown);
         all = joined(all, goals("acceleration", solve));
+        // Recursions make accelerations without M and f.
+        const std::vector<int> rhs = p_.right_hand_side(), list = p_.needed(rhs);
+        const std::set<int> needed(list.begin(), list.end());
+        std::erase_if(all, [&](const Goal& goal) { return !needed.contains(goal.node); });
         std::vector<std::string> first;
         for (int i = 0; i < n_ && !own_speeds; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
         int i = 0;
@@ -362,6 +368,64 @@ private:
                         all, results);
     }
 
+    /// Of the entries that are not zero: rows and columns as text, and where each goes.
+    struct Pattern {
+        std::string rows, columns;
+        std::vector<Result> results;
+    };
+
+    void add_entries(Pattern& pattern, const std::string& group, int row, std::size_t columns) const {
+        const std::vector<int> nodes = p_.nodes_of(group);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            if (p_.is_zero(nodes[k])) continue;
+            pattern.rows += fmt::format("{}, ", row + static_cast<int>(k / columns));
+            pattern.columns += fmt::format("{}, ", k % columns);
+            pattern.results.push_back({fmt::format("values[{}]", pattern.results.size()), nodes[k]});
+        }
+    }
+
+    mustache::data derivative(const char* name, const char* about, const Pattern& pattern) {
+        std::vector<Goal> all;
+        for (const Result& result : pattern.results) all.push_back({"Derivatives", "", result.node});
+        return function(name, about,
+                        "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
+                        "[[maybe_unused]] Real* values",
+                        all, pattern.results);
+    }
+
+    void add_derivatives(mustache::data& functions, mustache::data& file) {
+        const std::vector<int> nodes = p_.nodes_of("jacobian");
+        file.set("has_derivatives", !nodes.empty());
+        if (nodes.empty()) return;
+        Pattern state, parameters;
+        add_entries(state, "jacobian", 0, static_cast<std::size_t>(n_ + s_));
+        add_entries(state, "power_gradient", n_ + s_, static_cast<std::size_t>(n_ + s_));
+        if (!par_.empty()) add_entries(parameters, "parameter_jacobian", 0, par_.size());
+        const bool by_parameters = !p_.nodes_of("parameter_jacobian").empty();
+        functions << derivative("jacobian", "d rate / d state where it is not zero at every state; row n + s: of the power.", state);
+        if (by_parameters)
+            functions << derivative("parameter_jacobian", "d rate / d parameter where it is not zero at every state.", parameters);
+        file.set("has_parameter_derivatives", by_parameters);
+        file.set("rows", wrapped_list(state.rows));
+        file.set("columns", wrapped_list(state.columns));
+        file.set("parameter_rows", wrapped_list(parameters.rows));
+        file.set("parameter_columns", wrapped_list(parameters.columns));
+        file.set("entries", std::to_string(state.results.size()));
+        file.set("parameter_entries", std::to_string(parameters.results.size()));
+        file.set("derivative_operations", std::to_string(p_.count(nodes).total()));
+    }
+
+    static std::string wrapped_list(const std::string& list) {
+        std::string result;
+        for (std::size_t start = 0; start < list.size();) {
+            std::size_t end = std::min(list.size(), start + line_width);
+            if (end < list.size()) end = list.rfind(' ', end) + 1;
+            result += (start == 0 ? "" : "\n    ") + list.substr(start, end - start);
+            start = end;
+        }
+        return result;
+    }
+
     mustache::data list(const std::string& group) {
         std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
         if (group == "output") all = joined(all, goals("speed", "Generalized speeds"));
@@ -406,6 +470,7 @@ private:
     }
 
     const Program& p_;
+    EmitOptions options_;
     int n_, s_;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
@@ -415,10 +480,10 @@ private:
 
 }  // namespace
 
-Source emit(const Program& program) {
+Source emit(const Program& program, const EmitOptions& options) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
-    return Emitter(program).emit();
+    return Emitter(program, options).emit();
 }
 
 }  // namespace alembert

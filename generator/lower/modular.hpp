@@ -14,8 +14,8 @@
 ///  - Parameters, coordinates, rates, accelerations, t and π are independent random numbers, or those of `given`.
 ///  - An angle Σ c·x (x a monomial in the variables, c rational) is a product of powers of random points of the
 ///    circle, one for each x: (cos x/h, sin x/h) with h a power of two. The circle's group has order 2⁶¹, so odd
-///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Whole multiples
-///    of π/4 have their values. `given_angles` sets the point of an x by its value.
+///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of π/2ᵏ
+///    have their values. `given_angles` sets the point of an x by its value.
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol: this
 ///    keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unlucky.
 ///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one and
@@ -33,90 +33,11 @@
 #include <utility>
 #include <vector>
 
+#include "lower/prime.hpp"
 #include "lower/program.hpp"
+#include "lower/turn.hpp"
 
 namespace alembert {
-
-/// A number modulo 2⁶¹ − 1.
-class Prime {
-public:
-    static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;
-
-    constexpr Prime() = default;
-    constexpr Prime(std::int64_t n)  // NOLINT: a number is a number
-        : n_(n >= 0 ? reduced(static_cast<std::uint64_t>(n)) : negative(reduced(0 - static_cast<std::uint64_t>(n)))) {}
-    static constexpr Prime from_bits(std::uint64_t bits) {
-        Prime result;
-        result.n_ = reduced(bits);
-        return result;
-    }
-    /// Nothing if the modulus divides the denominator.
-    static std::optional<Prime> from(const Rational& r) {
-        const auto residue = [](const cln::cl_I& n) {
-            return from_bits(cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(static_cast<unsigned long>(modulus)))));
-        };
-        const Prime below = residue(cln::denominator(r));
-        if (below.is_zero()) return std::nullopt;
-        return residue(cln::numerator(r)) * below.inverse();
-    }
-
-    constexpr std::uint64_t bits() const { return n_; }
-    constexpr bool is_zero() const { return n_ == 0; }
-    friend constexpr bool operator==(Prime, Prime) = default;
-    friend constexpr auto operator<=>(Prime, Prime) = default;
-
-    friend constexpr Prime operator+(Prime a, Prime b) { return from_bits(a.n_ + b.n_); }
-    friend constexpr Prime operator-(Prime a, Prime b) { return from_bits(a.n_ + modulus - b.n_); }
-    friend constexpr Prime operator-(Prime a) { return from_bits(modulus - a.n_); }
-    friend constexpr Prime operator*(Prime a, Prime b) {
-        __extension__ using Wide = unsigned __int128;
-        const Wide product = static_cast<Wide>(a.n_) * b.n_;
-        return from_bits((static_cast<std::uint64_t>(product) & modulus) + static_cast<std::uint64_t>(product >> 61));
-    }
-    constexpr Prime& operator+=(Prime other) { return *this = *this + other; }
-    constexpr Prime& operator-=(Prime other) { return *this = *this - other; }
-    constexpr Prime& operator*=(Prime other) { return *this = *this * other; }
-
-    constexpr Prime power(std::uint64_t exponent) const {
-        Prime result = 1, square = *this;
-        for (; exponent != 0; exponent >>= 1, square *= square)
-            if ((exponent & 1U) != 0) result *= square;
-        return result;
-    }
-    /// Of zero: zero.
-    constexpr Prime inverse() const { return power(modulus - 2); }
-    /// 0 is a square.
-    constexpr bool is_square() const { return power((modulus - 1) / 2).n_ <= 1; }
-    /// The root that is a square itself, of a square. (The modulus is 3 modulo 4.)
-    constexpr Prime root() const { return power((modulus + 1) / 4); }
-
-private:
-    static constexpr std::uint64_t reduced(std::uint64_t n) {
-        n = (n & modulus) + (n >> 61);
-        return n >= modulus ? n - modulus : n;
-    }
-    static constexpr std::uint64_t negative(std::uint64_t n) { return n == 0 ? 0 : modulus - n; }
-    std::uint64_t n_ = 0;
-};
-
-/// A point of the circle x² + y² = 1: a turn. Points multiply as complex numbers; the group has order 2⁶¹.
-struct Turn {
-    Prime cos = 1, sin = 0;
-    friend constexpr Turn operator*(const Turn& a, const Turn& b) {
-        return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
-    }
-    constexpr Turn power(std::uint64_t exponent) const {
-        Turn result, square = *this;
-        for (; exponent != 0; exponent >>= 1, square = square * square)
-            if ((exponent & 1U) != 0) result = result * square;
-        return result;
-    }
-    /// ((1 − t²)/(1 + t²), 2t/(1 + t²)); −1 is no square, so the denominator is never zero.
-    static constexpr Turn rational(Prime t) {
-        const Prime below = (t * t + 1).inverse();
-        return {(1 - t * t) * below, 2 * t * below};
-    }
-};
 
 struct ModularPoint {
     std::uint64_t seed = 0;
@@ -155,7 +76,7 @@ struct ModularValues {
 namespace modular {
 
 /// A polynomial in values: monomial's value → coefficient. 0 stands for π, 1 for a plain number.
-using Angle = std::map<std::uint64_t, Rational>;
+using Angle = std::map<Prime, Rational>;
 
 class Evaluation {
 public:
@@ -212,8 +133,12 @@ private:
                 return turn->sin * turn->cos.inverse();
             }
             case Op::sqrt: return square_root(node.args[0]);
-            case Op::abs: return arg(0).is_square() ? arg(0) : -arg(0);
-            case Op::sign: return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
+            case Op::abs:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_plain() ? (arg(0).is_square() ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
+            case Op::sign:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
             case Op::exp: return exponential(node.args[0], degree);
             case Op::sinh:
             case Op::cosh:
@@ -280,23 +205,33 @@ private:
 
     std::optional<Prime> square_root(int arg) {
         const Node& node = program_[arg];
-        if (node.is_scaled()) {  // √(9a) = 3 √a, though 3 may be no square
-            Rational root;
-            const Rational c = node.coefficients[0];
-            if (cln::plusp(c) && cln::sqrtp(c, &root)) {
-                const std::optional<Prime> inner = square_root(node.args[0]), outer = Prime::from(root);
-                if (!inner || !outer) return std::nullopt;
-                return *inner * *outer;
-            }
+        if (node.is_number()) {
+            if (cln::zerop(node.number)) return Prime(0);
+            if (!cln::plusp(node.number)) return std::nullopt;
+            if (const auto root = Prime::root_of(node.number)) return root;
+            result_.exact = false;
+            return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
         }
-        const Prime a = value(arg);
-        if (a.is_square()) {
-            if (!node.is_number()) result_.conditions += 1;
-            return a.root();
+        // √(3a + 3b) = √3 √(a + b), though 3 may be no square
+        const Rational content = node.op == Op::sum ? content_of(node) : Rational(1);
+        const auto outer = Prime::root_of(content);
+        const auto factor = Prime::from(outer ? content : Rational(1));
+        if (!factor || factor->is_zero()) return std::nullopt;
+        const Prime a = value(arg) * factor->inverse();
+        if (!a.is_square()) return std::nullopt;
+        result_.conditions += 1;
+        result_.exact = result_.exact && a.is_plain();
+        return outer ? *outer * a.root() : a.root();
+    }
+
+    /// The positive number by which the coefficients of a sum are whole without a common factor.
+    static Rational content_of(const Node& node) {
+        cln::cl_I above = cln::numerator(node.number), below = cln::denominator(node.number);
+        for (const Rational& c : node.coefficients) {
+            above = cln::gcd(above, cln::numerator(c));
+            below = cln::lcm(below, cln::denominator(c));
         }
-        if (!node.is_number()) return std::nullopt;
-        result_.exact = false;
-        return point_.random(static_cast<std::uint64_t>(Op::sqrt), a.bits());
+        return cln::abs(above) / below;
     }
 
     // Angles
@@ -307,7 +242,7 @@ private:
         if (node.is_number()) return Angle{{1, node.number}};
         if (node.op == Op::pi) return Angle{{0, 1}};
         Angle result;
-        const auto add = [&](std::uint64_t monomial, const Rational& c) {
+        const auto add = [&](Prime monomial, const Rational& c) {
             Rational& to = result.emplace(monomial, 0).first->second;
             to = to + c;
         };
@@ -327,22 +262,22 @@ private:
                     const Angle before = std::exchange(result, {});
                     if (before.size() * part->size() > most_terms) return std::nullopt;
                     for (const auto& [m1, c1] : before)
-                        for (const auto& [m2, c2] : *part) add((leaf(m1) * leaf(m2)).bits(), c1 * c2);
+                        for (const auto& [m2, c2] : *part) add(leaf(m1) * leaf(m2), c1 * c2);
                 }
             }
             return result;
         } else {
-            return Angle{{value(id).bits(), 1}};
+            return Angle{{value(id), 1}};
         }
         return result.size() > most_terms ? std::nullopt : std::optional(result);
     }
 
-    Prime leaf(std::uint64_t monomial) const { return monomial == 0 ? pi_ : Prime::from_bits(monomial); }
+    Prime leaf(Prime monomial) const { return monomial.is_zero() ? pi_ : monomial; }
 
     Angle angle_or_leaf(int id) {
         if (auto result = angle(id)) return *result;
         result_.exact = false;
-        return Angle{{value(id).bits(), 1}};
+        return Angle{{value(id), 1}};
     }
 
     std::optional<Turn> turned(int id, double& degree) {
@@ -351,7 +286,7 @@ private:
         const Angle sum = angle_or_leaf(id);
         for (const auto& [monomial, c] : sum) {
             if (cln::zerop(c)) continue;
-            if (monomial == 0) {
+            if (monomial.is_zero()) {
                 const std::optional<Turn> part = turned_by_pi(c);
                 if (!part) return std::nullopt;
                 result = result * *part;
@@ -364,28 +299,20 @@ private:
             note_denominator(odd);
             numerator = numerator << halves;
             degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, point_.halves);
-            // numerator/odd modulo 2⁶¹, by Newton's iteration for 1/odd
-            const std::uint64_t mask = (std::uint64_t{1} << 61) - 1;
-            const auto low = [&](const cln::cl_I& n) { return cln::cl_I_to_UQ(cln::ldb(n, cln::cl_byte(61, 0))); };
-            const std::uint64_t d = low(odd);
-            std::uint64_t inverse = d;
-            for (int k = 0; k < 6; ++k) inverse *= 2 - d * inverse;
-            result = result * point_.angle(leaf(monomial)).power((low(numerator) * inverse) & mask);
+            const Turn turn = point_.angle(leaf(monomial));
+            if (odd != 1 && !turn.is_plain()) return std::nullopt;
+            result = result * turn.power(*Turn::exponent(numerator / odd));
         }
         return result;
     }
 
-    /// Multiples of π/4 have their values; any other is a random turn of its own.
+    /// A multiple of π that the group has, or a random turn of its own.
     std::optional<Turn> turned_by_pi(const Rational& c) {
-        const Rational eighths = 4 * c;
-        if (cln::denominator(eighths) != 1) {
-            result_.exact = false;
-            const std::optional<Prime> key = Prime::from(c);
-            if (!key) return std::nullopt;
-            return Turn::rational(point_.random(201, key->bits()));
-        }
-        const Prime s = Prime(2).root() * Prime(2).inverse();
-        return Turn{s, s}.power(cln::cl_I_to_UQ(cln::mod(cln::numerator(eighths), cln::cl_I(8))));
+        if (const auto turn = Turn::by_pi(c)) return turn;
+        result_.exact = false;
+        const std::optional<Prime> key = Prime::from(c);
+        if (!key) return std::nullopt;
+        return Turn::rational(point_.random(201, key->bits()));
     }
 
     void note_denominator(const cln::cl_I& odd) {

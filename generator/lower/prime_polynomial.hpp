@@ -6,7 +6,7 @@
 ///     const PrimePolynomial f = interpolate(points, values);    // ascending powers
 ///     for (const Prime root : roots(f, seed)) …                 // each once
 ///
-/// Roots: gcd(x^p − x, f) is the product of the distinct linear factors, split by gcd with (x + a)^((p−1)/2) − 1 for random
+/// Roots: gcd(x^q − x, f), q the field's size, is the product of the distinct linear factors, split by gcd with (x + a)^((q−1)/2) − 1 for random
 /// a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
 
 #include <vector>
@@ -73,20 +73,22 @@ inline PrimePolynomial quotient(PrimePolynomial f, const PrimePolynomial& g) {
     return result;
 }
 
-inline void split(const PrimePolynomial& f, std::uint64_t seed, std::vector<Prime>& found) {
+inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std::vector<Prime>& found) {
     if (f.size() < 2) return;
     if (f.size() == 2) return found.push_back(-f[0] * f[1].inverse());
     for (;; ++seed) {
-        const Prime shift = ModularPoint{.seed = seed}.random(500, f.size());
+        Prime shift = ModularPoint{.seed = seed}.random(500, f.size());
+        if (!plain) shift += Prime::i() * ModularPoint{.seed = seed}.random(501, f.size());
         PrimePolynomial half = power_modulo({shift, 1}, (Prime::modulus - 1) / 2, f);
+        if (!plain) half = power_modulo(std::move(half), Prime::modulus + 1, f);
         half.resize(std::max<std::size_t>(half.size(), 1));
         half[0] -= 1;
         trim(half);
         if (half.empty()) continue;
         const PrimePolynomial part = divisor(f, half);
         if (part.size() < 2 || part.size() == f.size()) continue;
-        split(part, seed + 1, found);
-        return split(quotient(f, part), seed + 1, found);
+        split(part, plain, seed + 1, found);
+        return split(quotient(f, part), plain, seed + 1, found);
     }
 }
 
@@ -128,16 +130,18 @@ inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
     }
 }
 
-/// In ascending order. Of the zero polynomial: none.
+/// In ascending order: the plain ones if all coefficients are plain (lower/prime.hpp). Of the zero polynomial: none.
 inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
     using namespace prime_polynomial;
     std::vector<Prime> found;
     if (f.size() < 2) return found;
+    const bool plain = std::all_of(f.begin(), f.end(), [](Prime c) { return c.is_plain(); });
     PrimePolynomial all = power_modulo({0, 1}, Prime::modulus, f);
+    if (!plain) all = power_modulo(std::move(all), Prime::modulus, f);
     all.resize(std::max<std::size_t>(all.size(), 2));
     all[1] -= 1;
     trim(all);
-    split(all.empty() ? f : divisor(f, all), seed, found);
+    split(all.empty() ? f : divisor(f, all), plain, seed, found);
     std::sort(found.begin(), found.end());
     return found;
 }

@@ -11,13 +11,13 @@ namespace {
 
 class Elimination {
 public:
-    Elimination(Program& program, const std::vector<int>& lower, std::vector<int> f, int preferred)
-        : p_(program), preferred_(preferred), n_(static_cast<int>(f.size())), b_(std::move(f)), rows_(n_, std::vector<int>(n_)) {
+    Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides, int preferred)
+        : p_(program), preferred_(preferred), n_(static_cast<int>(sides[0].size())), b_(std::move(sides)), rows_(n_, std::vector<int>(n_)) {
         for (int i = 0, k = 0; i < n_; ++i)
             for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
     }
 
-    std::optional<std::vector<int>> solve() {
+    std::optional<std::vector<std::vector<int>>> solve() {
         std::vector<int> left(n_);
         for (int i = 0; i < n_; ++i) left[i] = i;
         while (!left.empty()) {
@@ -28,7 +28,7 @@ public:
             eliminate(k, left);
             order_.push_back(k);
         }
-        return back_substituted(std::vector<int>(n_, -1));
+        return back_substituted({b_.size(), std::vector<int>(n_, -1)});
     }
 
 private:
@@ -60,26 +60,28 @@ private:
             for (const int j : left)
                 if (j <= i && !zero(j, k))
                     rows_[i][j] = rows_[j][i] = minus(rows_[i][j], times(l, rows_[j][k]));
-            b_[i] = minus(b_[i], times(l, b_[k]));
+            for (auto& b : b_) b[i] = minus(b[i], times(l, b[k]));
         }
         for (const int i : left)
             if (!zero(i, k)) rows_[k][i] = times(rows_[k][i], inverse);  // now Lᵀ
-        b_[k] = times(b_[k], inverse);
+        for (auto& b : b_) b[k] = times(b[k], inverse);
     }
 
     /// Lᵀ x = z for the rows in `order_`, last first; `x` holds what is known already.
-    std::optional<std::vector<int>> back_substituted(std::vector<int> x) {
-        for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
-            std::vector<Program::Term> terms{{1, b_[*k]}};
-            for (int i = 0; i < n_; ++i)
-                if (i != *k && x[i] >= 0 && !zero(*k, i)) terms.emplace_back(-1, times(rows_[*k][i], x[i]));
-            x[*k] = p_.sum(0, terms);
-        }
-        return x;
+    std::vector<std::vector<int>> back_substituted(std::vector<std::vector<int>> solutions) {
+        for (std::size_t side = 0; side < b_.size(); ++side)
+            for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
+                std::vector<int>& x = solutions[side];
+                std::vector<Program::Term> terms{{1, b_[side][*k]}};
+                for (int i = 0; i < n_; ++i)
+                    if (i != *k && x[i] >= 0 && !zero(*k, i)) terms.emplace_back(-1, times(rows_[*k][i], x[i]));
+                x[*k] = p_.sum(0, terms);
+            }
+        return solutions;
     }
 
     /// Gaussian elimination with row exchanges on the rows and columns in `left`.
-    std::optional<std::vector<int>> with_exchanges(const std::vector<int>& left) {
+    std::optional<std::vector<std::vector<int>>> with_exchanges(const std::vector<int>& left) {
         std::vector<int> rows = left;
         for (std::size_t c = 0; c < left.size(); ++c) {
             std::size_t r = c;
@@ -92,23 +94,25 @@ private:
                 const int factor = times(rows_[rows[i]][left[c]], inverse);
                 for (std::size_t j = c; j < left.size(); ++j)
                     rows_[rows[i]][left[j]] = minus(rows_[rows[i]][left[j]], times(factor, rows_[rows[c]][left[j]]));
-                b_[rows[i]] = minus(b_[rows[i]], times(factor, b_[rows[c]]));
+                for (auto& b : b_) b[rows[i]] = minus(b[rows[i]], times(factor, b[rows[c]]));
             }
         }
-        std::vector<int> x(n_, -1);
-        for (std::size_t c = left.size(); c-- > 0;) {
-            std::vector<Program::Term> terms{{1, b_[rows[c]]}};
-            for (std::size_t j = c + 1; j < left.size(); ++j)
-                terms.emplace_back(-1, times(rows_[rows[c]][left[j]], x[left[j]]));
-            x[left[c]] = p_.product(1, {{p_.sum(0, terms), 1}, {rows_[rows[c]][left[c]], -1}});
-        }
-        return back_substituted(std::move(x));
+        std::vector<std::vector<int>> solutions(b_.size(), std::vector<int>(n_, -1));
+        for (std::size_t side = 0; side < b_.size(); ++side)
+            for (std::size_t c = left.size(); c-- > 0;) {
+                std::vector<int>& x = solutions[side];
+                std::vector<Program::Term> terms{{1, b_[side][rows[c]]}};
+                for (std::size_t j = c + 1; j < left.size(); ++j)
+                    terms.emplace_back(-1, times(rows_[rows[c]][left[j]], x[left[j]]));
+                x[left[c]] = p_.product(1, {{p_.sum(0, terms), 1}, {rows_[rows[c]][left[c]], -1}});
+            }
+        return back_substituted(std::move(solutions));
     }
 
     Program& p_;
     int preferred_;
     int n_;
-    std::vector<int> b_;
+    std::vector<std::vector<int>> b_;  // right-hand sides, one after the other
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
 };
@@ -117,7 +121,14 @@ private:
 
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
                                                 const std::vector<int>& f, int preferred) {
-    return Elimination(program, lower, f, preferred).solve();
+    auto solutions = Elimination(program, lower, {f}, preferred).solve();
+    if (!solutions) return std::nullopt;
+    return std::move(solutions->front());
+}
+
+std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
+                                                             const std::vector<std::vector<int>>& sides, int preferred) {
+    return Elimination(program, lower, sides, preferred).solve();
 }
 
 }  // namespace alembert

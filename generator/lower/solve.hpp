@@ -19,4 +19,8 @@ namespace alembert {
 std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
                                                 const std::vector<int>& f, int preferred = 0);
 
+/// The same for several right-hand sides, one at least, with one factorization; a solution for each.
+std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
+                                                             const std::vector<std::vector<int>>& sides, int preferred);
+
 }  // namespace alembert

@@ -2,6 +2,7 @@
 #include "symbolic/polynomial.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -38,6 +39,19 @@ int compare_symbols(const SymbolInfo& a, const SymbolInfo& b) {
         return std::pair(info.kind == SymbolInfo::Kind::coordinate ? 0 : 1, info.rank);
     };
     return key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
+}
+
+/// Of atoms that compare as equal: are their symbols of the same scene?
+int compare_owners(const AtomNode& a, const AtomNode& b) {
+    if (&a == &b) return 0;
+    if (a.kind == AtomNode::Kind::symbol) return a.symbol.compare(b.symbol);
+    for (std::size_t i = 0; i < a.args.size(); ++i)
+        for (std::size_t k = 0; k < a.args[i].size(); ++k) {
+            const Monomial &m = a.args[i].terms()[k].monomial, &n = b.args[i].terms()[k].monomial;
+            for (std::size_t j = 0; j < m.size(); ++j)
+                if (const int order = compare_owners(*m[j].atom, *n[j].atom); order != 0) return order;
+        }
+    return 0;
 }
 
 }  // namespace
@@ -94,7 +108,14 @@ Atom compound_atom(AtomNode::Kind kind, std::vector<Polynomial> args, std::strin
     node->args = std::move(args);
     node->steady = std::all_of(node->args.begin(), node->args.end(), steady);
     if (kind == AtomNode::Kind::base) node->primitive = is_primitive(node->args.at(0));
-    return node;
+    // Equal atoms are mostly one object, which makes their comparison short.
+    constexpr std::size_t most = 4096;
+    static auto& known = *new std::set<Atom, decltype([](const Atom& a, const Atom& b) {
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : compare_owners(*a, *b) < 0;
+    })>;
+    if (known.size() >= most) known.clear();
+    return *known.insert(std::move(node)).first;
 }
 
 int compare(const AtomNode& a, const AtomNode& b) {
@@ -115,7 +136,9 @@ int compare(const Atom& a, const Atom& b) {
 int compare(const Monomial& a, const Monomial& b) {
     const std::size_t common = std::min(a.size(), b.size());
     for (std::size_t i = 0; i < common; ++i) {
-        if (const int order = compare(a[i].atom, b[i].atom); order != 0) return order;
+        if (a[i].atom != b[i].atom)
+            if (const int order = compare(*a[i].atom, *b[i].atom); order != 0) return order;
+        if (a[i].exponent.pointer == b[i].exponent.pointer) continue;  // small whole numbers are their own pointers
         if (const int order = sign(static_cast<int>(cln::compare(b[i].exponent, a[i].exponent))); order != 0)
             return order;
     }

@@ -54,6 +54,36 @@ struct alembert_solver_table {
     void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
 };
 
+/// What `alembert_derivatives()` returns, of an emitted file that has this function: partial derivatives of `rhs`, those entries
+/// that are not zero at every state, row by row.
+struct alembert_derivative_table {
+    int abi;
+    int entries;                   ///< of d rate / d state
+    int parameter_entries;         ///< of d rate / d parameter
+    int operations;                ///< of one `jacobian`
+    const int* rows;               ///< of each entry; n + s is a row more: of the power
+    const int* columns;
+    const int* parameter_rows;
+    const int* parameter_columns;  ///< among the p parameters that a caller sets; what `prepare` makes of them is followed through
+    void (*jacobian)(double t, const double* state, const double* par, double* values);
+    void (*parameter_jacobian)(double t, const double* state, const double* par, double* values);  ///< null if not asked for
+};
+
+/// What `alembert_pack()` of a file emitted with `--batch` returns: the functions of the same name above for `lanes`
+/// systems at once. Each number of theirs becomes `lanes` of them side by side, one of each system (its own time and
+/// parameters too): q₁ is at state[lanes] … state[2·lanes − 1]. Arrays begin at multiples of 64 bytes. What happens in one
+/// lane does not change another by a bit.
+struct alembert_pack_table {
+    int abi;
+    int lanes;
+    void (*prepare)(double* par);
+    void (*rhs)(const double* t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(const double* t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(const double* t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(const double* t, const double* state, const double* rate, const double* par, double* out);
+};
+
 }  // extern "C"
 
 namespace alembert {

@@ -38,6 +38,8 @@ void check(bool good, const std::string& message) {
     if (!good) throw std::invalid_argument(message);
 }
 
+}  // namespace
+
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
     const auto number = [](const char* key, double value, bool good, const char* wanted) {
         check(std::isfinite(value) && good, fmt::format("{} = {}: {}", key, value, wanted));
@@ -61,6 +63,8 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     check(options.duration == 0 || options.duration / sample_interval(options) < most_rows,
           fmt::format("sample = {}: more than {:g} rows", options.sample, most_rows));
 }
+
+namespace {
 
 template <class AnyStep>
 Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {

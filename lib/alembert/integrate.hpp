@@ -75,6 +75,9 @@ struct Options {
     std::function<void(double t, double* state)> project = {};
 };
 
+/// What `integrate` begins with.
+void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options);
+
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});
 

@@ -32,7 +32,12 @@ Module load(const std::filesystem::path& object) {
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
                         path, table->abi, abi_version));
-    return Module(std::shared_ptr<const alembert_solver_table>(file, table));
+    using Further = const alembert_derivative_table* (*)();
+    using PackEntry = const alembert_pack_table* (*)();
+    const auto further = reinterpret_cast<Further>(dlsym(handle, "alembert_derivatives"));
+    const auto pack_entry = reinterpret_cast<PackEntry>(dlsym(handle, "alembert_pack"));
+    return Module(std::shared_ptr<const alembert_solver_table>(file, table), further != nullptr ? further() : nullptr,
+                  pack_entry != nullptr ? pack_entry() : nullptr);
 }
 
 std::vector<double> prepared(const Module& module, const std::vector<double>& values) {

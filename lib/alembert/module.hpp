@@ -20,11 +20,18 @@ namespace alembert {
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }
+    /// Null where the file was emitted without.
+    const alembert_derivative_table* derivatives() const { return derivatives_; }
+    /// Null where the file was emitted without `--batch`.
+    const alembert_pack_table* pack() const { return pack_; }
 
 private:
     friend Module load(const std::filesystem::path& object);
-    explicit Module(std::shared_ptr<const alembert_solver_table> table) : table_(std::move(table)) {}
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives, const alembert_pack_table* pack)
+        : table_(std::move(table)), derivatives_(derivatives), pack_(pack) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
+    const alembert_derivative_table* derivatives_;        ///< in it
+    const alembert_pack_table* pack_;                     ///< in it
 };
 
 Module load(const std::filesystem::path& object);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/rhs.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace alembert {
@@ -26,6 +28,22 @@ void rate_and_power(const void* context, double t, const double* state, double* 
     rate[table.coordinates + table.speeds] = energy[3];
 }
 
+/// With a quadrature the dimension is one more, and the row of the power is its; else that row is left out.
+template <int quadratures>
+void derivative_of(const void* context, double t, const double* state, double* values) {
+    const auto& solver = *static_cast<const Emitted*>(context);
+    const alembert_solver_table& table = solver.module.table();
+    const alembert_derivative_table& derivatives = *solver.module.derivatives();
+    const int dimension = table.coordinates + table.speeds + quadratures;
+    thread_local std::vector<double> entries;
+    entries.resize(static_cast<std::size_t>(derivatives.entries));
+    derivatives.jacobian(t, state, solver.par.data(), entries.data());
+    std::fill_n(values, dimension * dimension, 0.0);
+    for (int k = 0; k < derivatives.entries; ++k)
+        if (derivatives.rows[k] < dimension)
+            values[derivatives.columns[k] * dimension + derivatives.rows[k]] = entries[static_cast<std::size_t>(k)];
+}
+
 }  // namespace
 
 std::string Rhs::describe(int component) const {
@@ -41,7 +59,9 @@ Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work)
             .extra = with_work ? 1 : 0,
             .names = {},
             .context = std::make_shared<const Emitted>(Emitted{module, prepared(module, values)}),
-            .call = with_work ? rate_and_power : rate_of};
+            .call = with_work ? rate_and_power : rate_of,
+            .jacobian = nullptr};
+    if (module.derivatives() != nullptr) rhs.jacobian = with_work ? derivative_of<1> : derivative_of<0>;
     for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
     for (int i = 0; i < table.speeds; ++i)
         rhs.names.push_back(table.speed_names != nullptr ? table.speed_names[i] : std::string(table.coordinate_names[i]) + "'");

@@ -11,7 +11,8 @@
 /// The last `extra` components are quadratures: integrated with the same stages, but left out of error control,
 /// and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the work
 /// balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if the
-/// function is. `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no
+/// function is. Where the file has derivatives, `jacobian` fills the dense ∂rate/∂state, column by column, quadratures
+/// included; elsewhere it is null, and those who need it take differences (newton.hpp). `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no
 /// sense.
 
 #include <concepts>
@@ -33,6 +34,7 @@ struct Rhs {
     std::vector<std::string> names = {};  ///< of the components; may be empty
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
+    Call jacobian = nullptr;  ///< writes dimension² numbers
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
@@ -44,6 +46,21 @@ enum class Work { left_out, integrated };
 
 /// The emitted right-hand side with `values` for parameters (empty: the scene's own).
 Rhs make_rhs(const Module& module, const std::vector<double>& values = {}, Work work = Work::left_out);
+
+/// Any function f(t, const double* state, double* rate), with a Jacobian of the same form.
+template <std::invocable<double, const double*, double*> Function, std::invocable<double, const double*, double*> Jacobian>
+Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {
+    using Both = std::pair<Function, Jacobian>;
+    if (dimension < 1) throw std::invalid_argument("a right-hand side needs at least one component");
+    return {.dimension = dimension,
+            .extra = 0,
+            .names = {},
+            .context = std::make_shared<const Both>(std::move(function), std::move(jacobian)),
+            .call = [](const void* context, double t, const double* state,
+                       double* rate) { static_cast<const Both*>(context)->first(t, state, rate); },
+            .jacobian = [](const void* context, double t, const double* state,
+                           double* values) { static_cast<const Both*>(context)->second(t, state, values); }};
+}
 
 /// Any function f(t, const double* state, double* rate).
 template <std::invocable<double, const double*, double*> Function>
@@ -58,7 +75,8 @@ Rhs make_rhs(int dimension, Function function, int extra = 0) {
             .extra = extra,
             .names = {},
             .context = std::make_shared<const Function>(std::move(function)),
-            .call = call};
+            .call = call,
+            .jacobian = nullptr};
 }
 
 }  // namespace alembert

@@ -28,7 +28,7 @@ systems=()
 add() { # SCENE
     local name
     name=$(basename "$1" .toml)
-    "$alembert" emit --json "$1" -o "$folder" >"$folder/$name.json"
+    "$alembert" emit --batch --json "$1" -o "$folder" >"$folder/$name.json"
     systems+=("$folder/$name.json" "$folder/$name.cpp")
 }
 for n in 2 4 8 16 32; do

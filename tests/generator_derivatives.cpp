@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// The differentiated program against dual numbers that go through the undifferentiated one, its solve included.
+#include <doctest/doctest.h>
+
+#include <map>
+
+#include "alembert/compile.hpp"
+#include "alembert/error.hpp"
+#include "alembert/rhs.hpp"
+#include "dual.hpp"
+#include "emit/emit.hpp"
+#include "formalism/formalisms.hpp"
+#include "lower/choose.hpp"
+#include "lower/differentiate.hpp"
+#include "lower/partials.hpp"
+#include "scenes.hpp"
+#include "symbolic/symbols.hpp"
+
+using namespace alembert;
+using test::Dual;
+
+namespace {
+
+/// q, then q' or u.
+std::vector<double> flat(const State<double>& s) {
+    std::vector<double> y = s.q;
+    y.insert(y.end(), s.qdot.begin(), s.qdot.end());
+    return y;
+}
+
+/// (q', u'), and the power last, with the derivatives along component j of the state, or of the parameters.
+std::vector<Dual> along(const Program& p, const State<double>& s, bool parameter, std::size_t j) {
+    State<Dual> at{.parameters = {s.parameters.begin(), s.parameters.end()}, .t = s.t, .q = {s.q.begin(), s.q.end()},
+                   .qdot = {s.qdot.begin(), s.qdot.end()}, .qddot = {}};
+    (parameter ? at.parameters[j] : j < s.q.size() ? at.q[j] : at.qdot[j - s.q.size()]).d = 1;
+    std::vector<Dual> rates, value = interpret(p, at);
+    if (p.speeds.empty()) rates = at.qdot;
+    for (const int id : p.nodes_of("rate")) rates.push_back(value[static_cast<std::size_t>(id)]);
+    for (const int id : p.nodes_of("acceleration")) rates.push_back(value[static_cast<std::size_t>(id)]);
+    at.qddot.assign(rates.begin() + static_cast<std::ptrdiff_t>(s.q.size()), rates.end());
+    value = interpret(p, at);
+    rates.push_back(value[static_cast<std::size_t>(p.nodes_of("power")[0])]);
+    return rates;
+}
+
+/// The largest difference over the largest entry, of a matrix whose columns are `along` and whose rows are roots; −1 where the
+/// state has no finite rates.
+double misfit(const Program& program, const Differentiated& d, const State<double>& s) {
+    const std::vector<double> y = flat(s);
+    State<double> at = s;
+    std::vector<double> value = interpret(d.program, at);
+    for (const int id : d.program.nodes_of("acceleration")) at.qddot.push_back(value[static_cast<std::size_t>(id)]);
+    value = interpret(d.program, at);
+    double worst = 0;
+    const auto compare = [&](const char* group, const char* last, bool parameter, std::size_t columns) {
+        const std::vector<int> nodes = d.program.nodes_of(group), tail = d.program.nodes_of(last);
+        double difference = 0, largest = 1e-3;
+        for (std::size_t j = 0; j < columns; ++j) {
+            const std::vector<Dual> exact = along(program, s, parameter, j);
+            for (std::size_t i = 0; i < y.size() + (tail.empty() ? 0 : 1); ++i) {
+                const double ours = value[static_cast<std::size_t>(i < y.size() ? nodes[i * columns + j] : tail[j])];
+                difference = std::max(difference, std::isfinite(exact[i].d) ? std::abs(ours - exact[i].d) : 0);
+                largest = std::max(largest, std::abs(exact[i].d));
+                if (!std::isfinite(exact[i].v)) return;
+            }
+        }
+        worst = std::max(worst, difference / largest);
+    };
+    compare("jacobian", "power_gradient", false, y.size());
+    if (!d.program.nodes_of("parameter_jacobian").empty()) compare("parameter_jacobian", "", true, s.parameters.size());
+    return worst;
+}
+
+/// n uniform rods, one hanging from the other, by relative angles.
+std::string chain(int n) {
+    std::string coordinates = "title = \"chain\"\ngravity = [0, \"g\"]\n[parameters]\nm = 1.0\nl = 1.0\ng = 9.81\n[coordinates]\n", bodies;
+    std::string frame = "N", joint = "O";
+    for (int k = 1; k <= n; ++k) {
+        const std::string i = std::to_string(k);
+        coordinates += "q" + i + " = 0.3\n";
+        bodies += "[[frame]]\nname = \"R" + i + "\"\nparent = \"" + frame + "\"\nrotate = [[\"z\", \"q" + i + "\"]]\n[[point]]\nname = \"J" + i +
+                  "\"\nfrom = \"" + joint + "\"\noffset = [0, \"l\"]\naxes = \"R" + i + "\"\n[[body]]\nname = \"B" + i +
+                  "\"\nmass = \"m\"\nframe = \"R" + i + "\"\nfrom = \"" + joint + "\"\nposition = [0, \"l/2\"]\naxes = \"R" + i +
+                  "\"\ninertia = \"m*l^2/12\"\n";
+        frame = "R" + i;
+        joint = "J" + i;
+    }
+    return coordinates + bodies;
+}
+
+}  // namespace
+
+// Griewank & Walther, §9.2: the Jacobian does not depend on the order of elimination; its cost does.
+TEST_CASE("partials: forward, reverse and least fill give what dual numbers give, for every function") {
+    Program p;
+    const int x = p.variable({Variable::Kind::coordinate, 0}), y = p.variable({Variable::Kind::coordinate, 1});
+    const int small = p.product(Rational(1) / 3, {{x, 1}, {y, 1}});
+    std::vector<int> outputs;
+    for (const Op op : {Op::sin, Op::cos, Op::tan, Op::asin, Op::acos, Op::atan, Op::sinh, Op::cosh, Op::tanh, Op::exp, Op::log, Op::sqrt, Op::abs,
+                        Op::sign})
+        outputs.push_back(p.call(op, {small}));
+    for (const Op op : {Op::pow, Op::atan2, Op::min, Op::max}) outputs.push_back(p.call(op, {p.sum(1, {{1, y}}), p.call(Op::sin, {x})}));
+    const int quotient = p.product(1, {{outputs[0], 2}, {p.sum(2, {{1, y}, {1, small}}), -3}, {x, 7}});
+    outputs.push_back(quotient);
+    outputs.push_back(p.sum(3, {{2, quotient}, {-1, outputs[1]}, {5, x}}));
+    outputs.push_back(x);
+    outputs.push_back(p.number(4));
+    const std::vector<int> inputs{x, y};
+    for (const Elimination order : {Elimination::forward, Elimination::reverse, Elimination::least_fill}) {
+        Program q = p;
+        const auto found = partials(q, outputs, inputs, order);
+        REQUIRE(found);
+        for (const double a : {0.7, -0.4}) {
+            const std::vector<double> value = interpret<double>(q, {.parameters = {}, .q = {a, 0.9}, .qdot = {}, .qddot = {}});
+            for (int j = 0; j < 2; ++j) {
+                const std::vector<Dual> exact = interpret<Dual>(
+                    p, {.parameters = {}, .q = {{a, j == 0 ? 1. : 0.}, {0.9, j == 1 ? 1. : 0.}}, .qdot = {}, .qddot = {}});
+                for (std::size_t k = 0; k < outputs.size(); ++k) {
+                    double ours = 0;
+                    for (const Partial& part : *found)
+                        if (part.output == static_cast<int>(k) && part.input == j) ours = value[static_cast<std::size_t>(part.node)];
+                    const double theirs = exact[static_cast<std::size_t>(outputs[k])].d;
+                    INFO("output " << k << " by " << j << " at " << a);
+                    CHECK((std::isnan(theirs) ? std::isnan(ours) : std::abs(ours - theirs) <= 1e-14 * std::max(1., std::abs(theirs))));
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("partials: what lies before an input is held, and a budget is kept") {
+    Program p;
+    const int x = p.variable({Variable::Kind::coordinate, 0}), s = p.call(Op::sin, {x});
+    const int f = p.sum(0, {{1, p.product(1, {{s, 2}})}, {3, x}});
+    const std::vector<int> outputs{f}, inputs{s, x};
+    const auto found = partials(p, outputs, inputs, Elimination::reverse);
+    REQUIRE(found);
+    CHECK((*found)[0].node == p.product(2, {{s, 1}}));
+    CHECK((*found)[1].node == p.number(3));
+    CHECK_FALSE(partials(p, outputs, inputs, Elimination::reverse, 1));
+}
+
+TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most four right-hand sides") {
+    for (const int n : {4, 6, 8}) {
+        const Mechanism m = build(parse_scene(chain(n), "chain.toml"));
+        const Program program = choose(m, formalism("lagrange").derive(m)).program;
+        const auto d = differentiated(program);
+        REQUIRE(d);
+        const int rhs = program.count(program.right_hand_side()).total();
+        MESSAGE(n << " rods: " << rhs << " operations, the Jacobian " << d->operations.total() << " by " << d->route);
+        CHECK(d->operations.total() <= 4 * rhs);
+        State<double> s = start_of(m).state();
+        for (double& u : s.qdot) u = 0.5;
+        CHECK(misfit(program, *d, s) < 1e-10);
+    }
+}
+
+TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and with the row of the power") {
+    for (const char* name : {"double_pendulum", "cartesian_pendulum", "ball_on_turntable", "chaplygin_sleigh_in_speeds"}) {
+        CAPTURE(name);
+        const Mechanism m = build(read_scene(test::source_path("scenes/textbook/") + name + ".toml"));
+        const Equations equations = formalism(m.speeds.empty() ? "routh" : "kane").derive(m);
+        const Program plain = choose(m, equations).program;
+        const auto d = differentiated(plain, {.parameters = true, .power = true});
+        REQUIRE(d);
+        const Module module = load(compile(emit(d->program).text, d->program.name, {}).object);
+        REQUIRE(bool(module.derivatives()));
+        CHECK(module.derivatives()->operations == d->operations.total());
+        State<double> s = state_of(start_of(m), m, equations);
+        for (double& u : s.qdot) u += 0.3;
+        std::vector<double> y = flat(s), value = interpret(d->program, s);
+        for (const int id : d->program.nodes_of("acceleration")) s.qddot.push_back(value[static_cast<std::size_t>(id)]);
+        value = interpret(d->program, s);
+        const std::size_t n = y.size();
+        const Rhs driven = make_rhs(module, s.parameters, Work::integrated);
+        REQUIRE(bool(driven.jacobian));
+        std::vector<double> J((n + 1) * (n + 1), NAN);
+        y.push_back(0);
+        driven.jacobian(driven.context.get(), s.t, y.data(), J.data());
+        std::vector<int> nodes = d->program.nodes_of("jacobian");
+        const std::vector<int> last = d->program.nodes_of("power_gradient");
+        nodes.insert(nodes.end(), last.begin(), last.end());
+        double largest = 1;
+        for (const int id : nodes) largest = std::max(largest, std::abs(value[static_cast<std::size_t>(id)]));
+        for (std::size_t i = 0; i <= n; ++i)
+            for (std::size_t j = 0; j <= n; ++j)
+                CHECK(std::abs(J[j * (n + 1) + i] - (j < n ? value[static_cast<std::size_t>(nodes[i * n + j])] : 0)) <= 1e-13 * largest);
+        // The parameters' pattern is that of the entries.
+        const std::vector<double> par = prepared(module, s.parameters);
+        std::vector<double> entries(static_cast<std::size_t>(module.derivatives()->parameter_entries));
+        module.derivatives()->parameter_jacobian(s.t, y.data(), par.data(), entries.data());
+        const std::vector<int> by_parameters = d->program.nodes_of("parameter_jacobian");
+        for (std::size_t k = 0; k < entries.size(); ++k) {
+            const int at = module.derivatives()->parameter_rows[k] * static_cast<int>(s.parameters.size()) +
+                           module.derivatives()->parameter_columns[k];
+            const double expected = value[static_cast<std::size_t>(by_parameters[static_cast<std::size_t>(at)])];
+            CHECK(std::abs(entries[k] - expected) <= 1e-12 * std::max(1., std::abs(expected)));
+        }
+        CHECK(load(compile(emit(plain).text, plain.name, {}).object).derivatives() == nullptr);
+    }
+}
+
+TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") {
+    std::mt19937_64 random(20240917);
+    int checked = 0;
+    for (const char* folder : {"scenes/textbook", "scenes/gallery"})
+        for (const std::string& path : test::scenes_in(folder)) {
+            const Mechanism m = build(read_scene(path));
+            for (const Formalism& f : formalisms()) {
+                if (f.name != std::string("routh") && f.name != std::string("kane")) continue;
+                std::optional<Equations> derived;
+                try {
+                    derived = f.derive(m);
+                } catch (const ModelError&) {
+                    continue;  // it does not apply to this scene
+                }
+                const Equations& equations = *derived;
+                const Program program = choose(m, equations).program;
+                if (program.singular) continue;
+                const auto d = differentiated(program, {.parameters = true, .power = true});
+                REQUIRE(d);
+                const Start start = start_of(m);
+                State<double> s = state_of(start, m, equations);
+                std::uniform_real_distribution<double> near(-0.3, 0.3);
+                for (int k = 0; k < 4; ++k) {
+                    INFO(path << " by " << f.name << ", seed 20240917, state " << k << ": " << d->route);
+                    // Rounding: the accelerations' own, and that of the differences of large terms in their derivatives.
+                    CHECK(misfit(program, *d, s) < 1e-10);
+                    ++checked;
+                    s.t += 0.1;
+                    for (double& q : s.q) q += near(random);
+                    for (double& u : s.qdot) u += near(random);
+                }
+            }
+        }
+    CHECK(checked > 100);
+}
