@@ -524,7 +524,7 @@ TEST_CASE("joints: incidence and path matrix of the system graph are inverse to 
 }
 
 TEST_CASE("joints: every formalism that applies gives the same equations of the gallery's mechanisms") {
-    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum"}) {
+    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum", "furuta_joints", "rssr"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
         const Derivations derivations = derive_all(m);

@@ -8,7 +8,8 @@ namespace alembert {
 Cost cost_of(const Program& program) {
     const std::vector<int> wanted = program.right_hand_side();
     std::vector<int> ready(static_cast<std::size_t>(program.size()), 0);
-    Cost cost{.operations = program.count(wanted).total()};
+    const Operations operations = program.count(wanted);
+    Cost cost{.operations = operations.total(), .functions = operations.functions};
     for (const int id : program.needed(wanted)) {
         const Node& node = program[id];
         if (node.is_constant() || node.args.empty()) continue;
