@@ -121,6 +121,12 @@ bool has_fixed_step(Method method) {
     return entry(method).fixed_step;
 }
 
+std::vector<Method> all_methods() {
+    std::vector<Method> list;
+    for (const MethodEntry& one : methods) list.push_back(one.method);
+    return list;
+}
+
 std::string method_names() {
     std::string names;
     for (const MethodEntry& one : methods)

@@ -58,6 +58,8 @@ bool has_fixed_step(Method method);
 bool needs_separable(Method method);
 /// Only for right-hand sides with Rhs::series.
 bool needs_series(Method method);
+/// In the order above.
+std::vector<Method> all_methods();
 /// "euler, rk2, ... or verner98", for messages.
 std::string method_names();
 

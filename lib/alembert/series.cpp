@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/series.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "alembert/module.hpp"
 
 namespace alembert {
 
 SeriesModule load_series(const std::filesystem::path& object) {
-    const std::string path = std::filesystem::absolute(object).string();
-    void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr) throw CompileError(fmt::format("cannot load the Taylor series: {}; delete it from the cache, and see that the folder allows programs to run", dlerror()));
-    const std::shared_ptr<void> file(handle, [](void* open) { dlclose(open); });
+    const ObjectFile file(object);
     using Entry = const alembert_series_table* (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(handle, "alembert_series"));
+    const auto entry = reinterpret_cast<Entry>(file.find("alembert_series"));
     const alembert_series_table* const table = entry != nullptr ? entry() : nullptr;
-    if (table == nullptr) throw CompileError(path + " holds no Taylor series: it has no alembert_series()");
+    if (table == nullptr) throw CompileError(object.string() + " holds no Taylor series: it has no alembert_series()");
     if (table->abi != series_abi_version)
         throw CompileError(fmt::format("{} was emitted for version {} of the series' ABI, this program has version {}; emit it again",
-                                       path, table->abi, series_abi_version));
-    return {file, table};
+                                       object.string(), table->abi, series_abi_version));
+    return {file.handle(), table};
 }
 
 Series make_series(const SeriesModule& module, const std::vector<double>& values) {
