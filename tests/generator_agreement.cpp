@@ -150,23 +150,25 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         const std::vector<double> nearby = accelerations(beside, program);
         double largest = 1e-300, moved = 0;
         for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i])), moved = std::max(moved, std::abs(nearby[i] - a[i]));
-        if (!all_finite(a) || moved > 1e-12 * largest) {
+        if (!all_finite(a)) {
             ++singular;
             continue;
         }
+        const double harder = std::max(1.0, moved / (2e-14 * largest));
+        largest *= harder;  // where a rounding of the state alone moves them more, no more can be asked
         check_energy(module, program, state, y, rate);
         std::vector<double> multipliers;
         for (const int id : program.nodes_of("multiplier")) multipliers.push_back(interpret(program, state)[id]);
         for (int i = 0; i < n; ++i) {
             emitted_error = std::max(emitted_error, std::abs(rate[n + i] - a[i]) / largest);
             form_error = std::max(form_error, std::abs(b[i] - a[i]) / largest);
-            if (plain && k < 8) plain_error = std::max(plain_error, plain->relative_residual(i, state, a, multipliers));
+            if (plain && k < 8) plain_error = std::max(plain_error, plain->relative_residual(i, state, a, multipliers) / harder);
         }
     }
     CAPTURE(program.formulation);
     CAPTURE(singular);
     CHECK(singular < states / 2);
-    // Rounding of a few dozen operations, and the conditioning at states that are not counted as singular: below 10⁴.
+    // Rounding of a few dozen operations, and conditioning below 10²; in proportion beyond.
     CHECK(emitted_error < 1e-12);
     CHECK(form_error < 1e-10);
     CHECK(plain_error < 1e-12);
