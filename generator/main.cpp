@@ -101,6 +101,14 @@ int main(int argc, char** argv) {
         sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
         sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
     };
+    CLI::App* import_robot = app.add_subcommand("import", "write the scene of a robot description (URDF)");
+    import_robot->add_option("robot", request.scene, "the robot, an .urdf file")->required();
+    import_robot->add_option("-o,--output", request.output, "the scene to be written")->required();
+    import_robot->add_flag("--floating", request.floating, "the root link moves freely; otherwise it is the ground");
+    import_robot->add_flag("--quaternion", request.quaternion, "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
+    import_robot->add_flag("--json", request.json, "print one JSON object");
+    import_robot->callback([&command] { command = alembert::import_robot; });
+
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
     with_run(simulate);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
