@@ -81,6 +81,8 @@ int main(int argc, char** argv) {
 
     at_a_state(verb("linearize", "matrices and eigenvalues near an equilibrium or a steady motion", alembert::linearize));
 
+    at_a_state(verb("inverse", "the loads along the coordinates that accelerations need: --at \"theta1''=2\"", alembert::inverse));
+
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
 
     with_reactions(eval);

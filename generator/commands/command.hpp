@@ -39,6 +39,7 @@ int eval(const Request& request);
 int emit_files(const Request& request);
 int impact(const Request& request);
 int import_robot(const Request& request);
+int inverse(const Request& request);
 int linearize(const Request& request);
 int simulate(const Request& request);
 int sweep(const Request& request);

@@ -8,6 +8,7 @@
 #include "alembert/drift.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
+#include "analysis/joint_reactions.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
 #include "commands/run_options.hpp"
@@ -225,7 +226,9 @@ int simulate(const Request& request) {
     account.jacobi_conserved = !energy.conserved && energy.jacobi_conserved && !has_contacts;
     for (const ContactEvent& event : motion.contacts) account.impact_loss += event.energy_loss;
 
-    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes));
+    std::optional<JointReactions> reactions;
+    if (request.reactions && !request.output.empty() && !d.mechanism.joints.empty()) reactions = joint_reactions(d.scene, d.mechanism);
+    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first));
     if (request.json)
         std::cout << as_json(motion, contacts, d, free, account, moved).dump(2) << "\n";
     else
