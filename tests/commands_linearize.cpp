@@ -147,9 +147,9 @@ y = "n*x"
 )toml";
     const Json turning = json_of({"linearize", temporary("turning.toml", text), "--json"});
     const Json& symbols = turning["symbolic"];
-    CHECK(symbols["M"] == Json{{"m", "0"}, {"0", "m"}});
-    CHECK(symbols["C"] == Json{{"c", "0"}, {"0", "0"}});
-    CHECK(symbols["N"] == Json{{"0", "n"}, {"-n", "0"}});
+    CHECK(symbols["M"] == Json::parse(R"([["m","0"],["0","m"]])"));
+    CHECK(symbols["C"] == Json::parse(R"([["c","0"],["0","0"]])"));
+    CHECK(symbols["N"] == Json::parse(R"([["0","n"],["-n","0"]])"));
     const Json pendulum = json_of({"linearize", source_path("scenes/textbook/double_pendulum.toml"), "--at", "theta1=0", "--at", "theta2=0", "--json"});
     for (const auto& [scene, near] : {std::pair(text, turning), std::pair(std::string("[parameters]\nm1 = 1.0\nm2 = 1.0\nl1 = 1.0\nl2 = 0.8\ng = 9.81\n[coordinates]\nx = 0\n"
                                                                                       "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"),
@@ -169,5 +169,5 @@ y = "n*x"
     }
     CHECK(matrix(turning["matrices"]["G"])(1, 0) == doctest::Approx(4.8));
     CHECK(matrix(pendulum["matrices"]["K"])(0, 0) == doctest::Approx(2 * 9.81));
-    CHECK_FALSE(json_of({"linearize", bicycle, "--json"}).contains("symbolic"));
+    CHECK_FALSE(json_of({"linearize", bicycle, "--at", "kick=0", "--json"}).contains("symbolic"));
 }

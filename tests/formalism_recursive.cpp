@@ -77,7 +77,7 @@ std::string tree_in_space(int n) {
     return text;
 }
 
-const char* const absolute_frames = R"(gravity = [0, "g"]
+const char* const absolute_frames = R"toml(gravity = [0, "g"]
 [parameters]
 m = 1
 l = 0.8
@@ -155,9 +155,9 @@ at = "F"
 vector = [1, "2*sin(t)"]
 [forces]
 b = "0.5 - b'"
-)";
+)toml";
 
-const char* const oblique = R"(gravity = [0.5, "g", -3]
+const char* const oblique = R"toml(gravity = [0.5, "g", -3]
 [parameters]
 m = 1
 g = 9.81
@@ -224,7 +224,7 @@ from = "fan"
 position = [0, 0.2, 0]
 axes = "blade"
 inertia = [0.001, 0.002, 0.003]
-)";
+)toml";
 
 }  // namespace
 

@@ -103,6 +103,9 @@ public:
         file.set("reaction", p_.nodes_of("gamma").empty() ? ""
                              : own_speeds                 ? " + A^T lambda with A u' = gamma"
                                                           : " + A^T lambda with A q'' = gamma");
+        std::string elementary = mustache::mustache{std::string(template_elementary)}.render(file);
+        elementary.pop_back();  // the line's end is the template's
+        file.set("elementary", elementary);
         mustache::mustache shape{std::string(template_solver)};
         return {.file = ascii_identifier(p_.name) + ".cpp",
                 .text = shape.render(file),
