@@ -172,6 +172,22 @@ TEST_CASE("reactions: a pin bears what Newton's and Euler's laws say of its rod,
     check_near(three(pin["moment"]), {-moment[0], -moment[1], -moment[2]}, 1e-12);
 }
 
+TEST_CASE("reactions: derive shows what a pin bears as a textbook has it") {
+    const Json pin = json_of({"derive", temporary("pin.toml", with_forces(pendulum, {{"theta", 0.8}})), "--reactions"})["joint_reactions"]["pin"];
+    CHECK(pin["F_x"] == "1.3*a*theta''*cos(theta) - 1.3*a*theta'^2*sin(theta)");
+    CHECK(pin["F_y"] == "1.3*a*theta''*sin(theta) + 1.3*a*theta'^2*cos(theta) + 1.3*g");
+    CHECK(pin["F_z"] == "0");
+    // With numbers it is what eval has, about the free axis too.
+    const std::string scene = with_forces(pendulum, {{"theta", 0.8}});
+    std::string outputs = scene + "[outputs]\n";
+    for (const auto& [name, formula] : pin.items()) outputs += fmt::format("{} = \"{}\"\n", name, formula.get<std::string>());
+    const Json eval = json_of({"eval", temporary("both.toml", outputs), "--reactions"});
+    for (std::size_t k = 0; k < 3; ++k) {
+        CHECK(std::abs(eval["outputs"][fmt::format("F_{}", "xyz"[k])].get<double>() - eval["joint_reactions"]["pin"]["force"][k].get<double>()) < 1e-12);
+        CHECK(std::abs(eval["outputs"][fmt::format("M_{}", "xyz"[k])].get<double>() - eval["joint_reactions"]["pin"]["moment"][k].get<double>()) < 1e-12);
+    }
+}
+
 // The carriage does not turn: about its joint's point M = c × m (a − g), wherever on the rail it is.
 TEST_CASE("reactions: a rail bears the moment of a carriage about the carriage's own point, with springs and forces counted") {
     const std::string text = R"(gravity = [0, 0, -9.81]

@@ -180,7 +180,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
 }  // namespace
 
 int simulate(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                  request.scene);
