@@ -259,6 +259,104 @@ TEST_CASE("reactions: the ground's joints together bear what Newton's law says o
     }
 }
 
+// F = Σ m (a − g) − P and M = Σ (r_i − r_Q) × m (a − g) + H_i' − (r_tip − r_Q) × P over the base and an arm on it, about the base's
+// point Q of the joint; all from the positions and angular velocities of the bodies, differentiated as outputs.
+TEST_CASE("reactions: a joint of each type bears what Newton's and Euler's laws say of all that hangs on it") {
+    struct Type {
+        std::string name, rest;
+    };
+    for (const auto& [type, rest] : {Type{"fixed", ""},
+                                     {"revolute", "axis = [1, 2, 2]\ncoordinates = { a = { initial = 0.3, rate = 0.8 } }"},
+                                     {"revolute", "axis = \"y\"\nmotion = { a = \"0.4*sin(3*t)\" }"},
+                                     {"prismatic", "axis = [0, 3, 4]\ncoordinates = { a = { initial = 0.3, rate = 0.8 } }"},
+                                     {"cylindrical", "axis = \"x\"\ncoordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 1.2, rate = -0.5 } }"},
+                                     {"screw", "axis = [2, 0, 1]\npitch = 0.3\ncoordinates = { a = { initial = 1.3, rate = 0.8 } }"},
+                                     {"universal", "coordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 1.2, rate = -0.5 } }"},
+                                     {"planar", "coordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 1.2, rate = -0.5 }, c = { initial = 0.7, rate = 2 } }"},
+                                     {"spherical", "angles = \"xyz\"\ncoordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 0.2, rate = -0.5 }, c = { initial = 0.7, rate = 2 } }"},
+                                     {"spherical", "coordinates = { a = { initial = 0.5, rate = 0.2 }, b = { initial = 0.5, rate = -0.2 }, c = { initial = -0.5, rate = 0.3 }, d = { initial = 0.5, rate = 0.3 } }"}}) {
+        CAPTURE(type);
+        CAPTURE(rest);
+        std::string text = fmt::format(R"(gravity = [1, 2, -9.81]
+[[body]]
+name = "base"
+mass = 2
+inertia = {{ xx = 0.3, yy = 0.2, zz = 0.25, xy = 0.01, yz = -0.02, zx = 0.03 }}
+[[joint]]
+name = "foot"
+type = "{}"
+parent = "N"
+child = "base"
+parent_point = [0.5, 0.4, 0.3]
+child_point = [-0.1, 0.2, -0.3]
+{}
+[[body]]
+name = "arm"
+mass = 0.7
+inertia = [0.02, 0.05, 0.06]
+[[joint]]
+name = "elbow"
+type = "revolute"
+parent = "base"
+child = "arm"
+parent_point = [0.2, 0.3, 0.1]
+child_point = [-0.4, 0, 0.1]
+axis = "y"
+coordinates = {{ q = {{ initial = 0.6, rate = -1.1 }} }}
+[[point]]
+name = "Q"
+from = "base"
+offset = [-0.1, 0.2, -0.3]
+axes = "base"
+[[point]]
+name = "tip"
+from = "arm"
+offset = [0.5, 0.1, 0]
+axes = "arm"
+[[force]]
+at = "tip"
+vector = [3, -2, 1]
+[outputs]
+)",
+                                       type, rest);
+        for (const char* k : {"x", "y", "z"}) {
+            text += fmt::format("t{0} = \"dot(pos(Q, tip), e{0}(N))\"\n", k);
+            for (const auto& [body, tensor] : {std::pair("base", std::array{"0.3*{x} + 0.01*{y} + 0.03*{z}", "0.01*{x} + 0.2*{y} - 0.02*{z}", "0.03*{x} - 0.02*{y} + 0.25*{z}"}),
+                                               std::pair("arm", std::array{"0.02*{x}", "0.05*{y}", "0.06*{z}"})}) {
+                text += fmt::format("a{0}{1} = \"(dot(vel({1}), e{0}(N)))'\"\nr{0}{1} = \"dot(pos(Q, {1}), e{0}(N))\"\n", k, body);
+                std::string H;
+                for (std::size_t i = 0; i < 3; ++i) {
+                    std::string part = tensor[i];
+                    for (const char* w : {"x", "y", "z"})
+                        for (std::size_t at; (at = part.find(fmt::format("{{{}}}", w))) != std::string::npos;) part.replace(at, 3, fmt::format("dot(omega({0}), e{1}({0}))", body, w));
+                    H += fmt::format("{}({})*dot(e{}({}), e{}(N))", i == 0 ? "" : " + ", part, "xyz"[i], body, k);
+                }
+                text += fmt::format("h{0}{1} = \"({2})'\"\n", k, body, H);
+            }
+        }
+        const Json json = json_of({"eval", temporary("type.toml", text), "--reactions"});
+        const auto vector = [&](const std::string& letter, const std::string& of) {
+            V3 v;
+            for (std::size_t k = 0; k < 3; ++k) v[k] = json["outputs"][fmt::format("{}{}{}", letter, "xyz"[k], of)].get<double>();
+            return v;
+        };
+        const V3 g{1, 2, -9.81}, P{3, -2, 1};
+        V3 force{-P[0], -P[1], -P[2]}, moment{0, 0, 0};
+        const auto add_moment = [&](const V3& r, const V3& f) {
+            for (std::size_t k = 0; k < 3; ++k) moment[k] += r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3];
+        };
+        add_moment(vector("t", ""), force);
+        for (const auto& [body, mass] : {std::pair("base", 2.0), std::pair("arm", 0.7)}) {
+            V3 f = vector("a", body);
+            for (std::size_t k = 0; k < 3; ++k) f[k] = mass * (f[k] - g[k]), force[k] += f[k], moment[k] += vector("h", body)[k];
+            add_moment(vector("r", body), f);
+        }
+        check_near(three(json["joint_reactions"]["foot"]["force"]), force, 1e-11);
+        check_near(three(json["joint_reactions"]["foot"]["moment"]), moment, 1e-11);
+        CHECK(std::abs(force[2]) + std::abs(moment[0]) + std::abs(moment[2]) > 0.1);
+    }
+}
+
 TEST_CASE("reactions: those of a body on a quaternion's joint, and those that a run records, are those of its state") {
     const std::string scene = source_path("scenes/textbook/heavy_top_joint.toml"), file = temporary("top.csv", "");
     const Json run_of_it = json_of({"simulate", scene, "--reactions", "--duration", "0.3", "-o", file})["final"];
