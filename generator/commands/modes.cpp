@@ -6,12 +6,26 @@
 #include "alembert/compile.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
+#include "lower/differentiate.hpp"
 
 namespace alembert {
 
+namespace {
+
+constexpr int most_operations = 8000;  // of a Jacobian that compiles in a second or two; beyond, differences serve
+
+std::optional<Differentiated> affordable_derivatives(const Program& program, Work work) {
+    if (program.count(program.right_hand_side()).total() > most_operations / 2) return std::nullopt;
+    auto result = differentiated(program, {.power = work == Work::integrated, .budget = 100000});
+    if (result && result->operations.total() > most_operations) return std::nullopt;
+    return result;
+}
+
+}  // namespace
+
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,
-             OnModeStep on_step)
-    : request_(request), derived_(derived), start_(start), first_(first), work_(work), on_step_(std::move(on_step)) {}
+             bool jacobian, OnModeStep on_step)
+    : request_(request), derived_(derived), start_(start), first_(first), work_(work), jacobian_(jacobian), on_step_(std::move(on_step)) {}
 
 void Modes::take_free(Program program) { free_ = std::move(program); }
 
@@ -38,7 +52,8 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
-    Source source = emit(program);
+    const std::optional<Differentiated> derivatives = jacobian_ ? affordable_derivatives(program, work_) : std::nullopt;
+    Source source = emit(derivatives ? derivatives->program : program);
     seconds_.emit += lap();
     const Compiled compiled =
         compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}});
@@ -57,6 +72,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                         .contact = {.rhs = make_rhs(module, values, work_),
                                                                     .events = make_events(module, values, stops)},
                                                         .from_cache = compiled.from_cache});
+    if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     LoadedMode* const self = mode.get();
     if (constrained) mode->contact.project = std::ref(self->projection);
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {

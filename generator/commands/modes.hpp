@@ -4,7 +4,7 @@
 /// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A scene
 /// without unilateral constraints has the one mode {}.
 ///
-///     Modes modes(request, derived, start, first, Work::left_out, on_step);
+///     Modes modes(request, derived, start, first, Work::left_out, false, on_step);
 ///     const LoadedMode& lying = modes({0});
 ///     lying.contact.rhs(t, state, rate);
 
@@ -28,13 +28,16 @@ struct LoadedMode {
     Projection projection;
     ContactMode contact;
     bool from_cache = false;
+    std::optional<int> jacobian_operations = {};  ///< where it is emitted
 };
 
 class Modes {
 public:
     /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode of each step.
+    /// With `jacobian` the solvers are emitted with theirs, unless it would take long to compile.
     using OnModeStep = std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
-    Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work, OnModeStep on_step);
+    Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work, bool jacobian,
+          OnModeStep on_step);
 
     /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what the
     /// stages throw.
@@ -56,6 +59,7 @@ private:
     const Start& start_;
     const State<double>& first_;
     Work work_;
+    bool jacobian_;
     OnModeStep on_step_;
     std::optional<Program> free_;
     std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;

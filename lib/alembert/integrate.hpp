@@ -53,6 +53,8 @@ enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet,
 std::string_view name(Method method);
 std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
+/// Implicit methods that solve their equations with ∂f/∂y.
+bool uses_jacobian(Method method);
 /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
 bool needs_separable(Method method);
 /// "euler, rk2, ... or verner98", for messages.
@@ -71,6 +73,8 @@ struct Options {
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
+    /// Where the steps of an explicit method are found to be held down by stiffness (stiffness.hpp), the run goes on with this one.
+    std::optional<Method> when_stiff = {};
     OnStep on_step = {};       ///< may be empty
     /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
     std::function<void(double t, double* state)> project = {};

@@ -154,6 +154,7 @@ private:
         sum.evaluations += s.evaluations;
         sum.seconds += s.seconds;
         sum.method = s.method;
+        if (!sum.switched) sum.switched = s.switched;
     }
 
     /// The mode's events, those of the contacts held against their bounds and stopping the phase.

@@ -26,6 +26,7 @@
 #include "alembert/integrate.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
+#include "alembert/stiffness.hpp"
 
 namespace alembert {
 
@@ -45,6 +46,7 @@ public:
           events_(events),
           step_(rhs, options.start, initial, options.tolerance),
           watch_(events, rhs),
+          stiffness_(options.method),
           row_(initial.size()),
           event_rate_(initial.size()) {
         result_.dimension = rhs.dimension;
@@ -77,8 +79,10 @@ public:
     }
 
 private:
-    long evaluations() const { return step_.evaluations() + watch_.evaluations() + further_evaluations_; }
-    bool ended() const { return result_.ending != Ending::completed; }
+    long evaluations() const {
+        return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + further_evaluations_;
+    }
+    bool ended() const { return result_.ending != Ending::completed || result_.statistics.switched; }
 
     void steps() {
         if constexpr (AnyStep::has_fixed_step)
@@ -153,7 +157,16 @@ private:
         add_rows_before(step_.end_time());
         step_.advance();
         tell(step_.time(), step_.state(), step_.rate());
-        if (step_.time() == end_) add_row(end_, step_.state());
+        if (step_.time() == end_) {
+            add_row(end_, step_.state());
+        } else if (options_.when_stiff &&
+                   stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length())) {
+            result_.statistics.switched = Switch{.time = step_.time(),
+                                                 .method = std::string(name(*options_.when_stiff)),
+                                                 .largest_eigenvalue = stiffness_.largest_eigenvalue(),
+                                                 .step = step_.length()};
+            if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
+        }
     }
 
     std::vector<Crossing> look_for_events() {
@@ -263,6 +276,7 @@ private:
     const Events& events_;
     AnyStep step_;
     EventWatch watch_;
+    StiffnessWatch stiffness_;
     Trajectory result_;
     std::vector<double> row_;
     std::vector<double> event_rate_;
