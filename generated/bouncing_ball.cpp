@@ -1,4 +1,4 @@
-// Equations of motion of 'bouncing_ball': lagrange, textbook form.
+// Equations of motion of 'bouncing_ball': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  y [m], then their rates
@@ -35,19 +35,17 @@ void prepare(Real* par) {
     // Constants
     const Real k0 = m * g;
     const Real k1 = k0 / m;
-    const Real k2 = Real(0.5) * m;
 
     // Result
     par[4] = k0;
     par[5] = k1;
-    par[6] = k2;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &y_dot = state[1];
-    const Real &m = par[0], &k0 = par[4], &k1 = par[5];
+    const Real &m = par[0], &k1 = par[5];
 
     // Result
     rate[0] = y_dot;
@@ -68,19 +66,21 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &y = state[0], &y_dot = state[1];
-    const Real &k0 = par[4], &k2 = par[6];
+    const Real &m = par[0], &k0 = par[4];
 
     // Energy
-    const Real T = k2 * y_dot * y_dot;
+    const Real z0 = m * y_dot * y_dot;
+    const Real T = Real(0.5) * z0;
     const Real V = k0 * y;
-    const Real E = T + V;
+    const Real E = Real(0.5) * z0 + V;
+    const Real h_ = y_dot * m * y_dot - (Real(0.5) * z0 - V);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h_;
 }
 
 /// The scene's outputs.
@@ -152,7 +152,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.5, 9.81, 1, 0.7, 0};
 
 constexpr alembert_solver_table table{
-    3, 1, 1, 4, 3, 1, 0, 0, "bouncing_ball", "lagrange, textbook form",
+    3, 1, 1, 4, 2, 1, 0, 0, "bouncing_ball", "lagrange, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -177,3 +177,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

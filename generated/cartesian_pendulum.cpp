@@ -56,19 +56,13 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &m = par[0], &k0 = par[3], &k2 = par[5], &k3 = par[6];
 
-    // Constraints A q'' = gamma
-    const Real A0_0 = Real(2) * x;
-    const Real A0_1 = Real(2) * y;
-    const Real z0 = x_dot * x_dot + y_dot * y_dot;
-    const Real gamma0 = -Real(2) * z0;
-
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z1 = k2 * x;
-    const Real z2 = k2 * y;
-    const Real z3 = Real(1) / (x * z1 + y * z2);
-    const Real z4 = (k0 * z2 - Real(2) * z0) * z3;
-    const Real x_ddot = Real(0.5) * z1 * z4;
-    const Real y_ddot = Real(0.5) * z2 * z4 - k3;
+    const Real z0 = k2 * x;
+    const Real z1 = k2 * y;
+    const Real z2 = k0 * z1 - Real(2) * (x_dot * x_dot + y_dot * y_dot);
+    const Real z3 = z2 / (x * z0 + y * z1);
+    const Real x_ddot = Real(0.5) * z0 * z3;
+    const Real y_ddot = Real(0.5) * z1 * z3 - k3;
 
     // Result
     rate[0] = x_dot;
@@ -225,3 +219,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

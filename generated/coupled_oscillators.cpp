@@ -1,9 +1,9 @@
-// Equations of motion of 'coupled_oscillators': lagrange, intermediate symbols.
+// Equations of motion of 'coupled_oscillators': lagrange, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x1 [m], x2 [m], then their rates
 //   par    m1 [kg], m2 [kg], k1 [N/m], k2 [N/m], k3 [N/m], c1 [N s/m], c2 [N s/m]
-//   cost   14 operations a right-hand side: 7 additions, 7 multiplications, 0 divisions, 0 functions
+//   cost   15 operations a right-hand side: 6 additions, 9 multiplications, 0 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
@@ -30,34 +30,51 @@ template <typename Real> Real max(const Real& x, const Real& y) { return x < y ?
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
 void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1];
+    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
 
     // Constants
-    const Real k0 = Real(1) / m1;
-    const Real k4 = Real(1) / m2;
+    const Real k0 = k1 + k2;
+    const Real k4 = c1 + c2;
+    const Real k5 = k2 + k3;
+    const Real k6 = Real(1) / m1;
+    const Real k7 = Real(1) / m2;
+    const Real k8 = Real(0.5) * m1;
+    const Real k9 = Real(0.5) * m2;
+    const Real k10 = Real(0.5) * k1;
+    const Real k11 = Real(0.5) * k2;
+    const Real k12 = Real(0.5) * k3;
+    const Real k13 = Real(2) * c2;
 
     // Result
     par[7] = k0;
     par[8] = k4;
+    par[9] = k5;
+    par[10] = k6;
+    par[11] = k7;
+    par[12] = k8;
+    par[13] = k9;
+    par[14] = k10;
+    par[15] = k11;
+    par[16] = k12;
+    par[17] = k13;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
-    const Real &k0 = par[7], &k4 = par[8];
+    const Real &m1 = par[0], &m2 = par[1], &k2 = par[3], &c2 = par[6], &k0 = par[7], &k4 = par[8], &k5 = par[9];
+    const Real &k6 = par[10], &k7 = par[11];
 
     // Forcing f
-    const Real z0 = k2 * (x1 - x2);
-    const Real z1 = c2 * (x1_dot - x2_dot);
-    const Real z2 = (k1 * x1 + z0) + (c1 * x1_dot + z1);
-    const Real f0 = -z2;
-    const Real f1 = (z0 - k3 * x2) + z1;
+    const Real z0 = c2 * (x1_dot - x2_dot);
+    const Real f1 = k2 * x1 - k5 * x2 + z0;
 
     // Solve M q'' = f with M = L D L^T
-    const Real x1_ddot = -k0 * z2;
-    const Real x2_ddot = k4 * f1;
+    const Real z1 = k0 * x1;
+    const Real z2 = z1 - k2 * x2 + k4 * x1_dot - c2 * x2_dot;
+    const Real x1_ddot = -k6 * z2;
+    const Real x2_ddot = k7 * f1;
 
     // Result
     rate[0] = x1_dot;
@@ -70,14 +87,14 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
+    const Real &m1 = par[0], &m2 = par[1], &k2 = par[3], &c2 = par[6], &k0 = par[7], &k4 = par[8], &k5 = par[9];
 
     // Forcing f
-    const Real z0 = k2 * (x1 - x2);
-    const Real z1 = c2 * (x1_dot - x2_dot);
-    const Real z2 = (k1 * x1 + z0) + (c1 * x1_dot + z1);
-    const Real f0 = -z2;
-    const Real f1 = (z0 - k3 * x2) + z1;
+    const Real z0 = k0 * x1;
+    const Real z1 = z0 - k2 * x2 + k4 * x1_dot - c2 * x2_dot;
+    const Real f0 = -z1;
+    const Real z2 = c2 * (x1_dot - x2_dot);
+    const Real f1 = k2 * x1 - k5 * x2 + z2;
 
     // Result
     mass[0] = m1;
@@ -91,27 +108,23 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &k1 = par[2], &k2 = par[3], &k3 = par[4], &c1 = par[5], &c2 = par[6];
+    const Real &c2 = par[6], &k4 = par[8], &k8 = par[12], &k9 = par[13], &k10 = par[14], &k11 = par[15];
+    const Real &k12 = par[16], &k13 = par[17];
 
     // Energy
+    const Real T = k8 * x1_dot * x1_dot + k9 * x2_dot * x2_dot;
     const Real z0 = x1 - x2;
-    const Real z1 = c2 * (x1_dot - x2_dot);
-    const Real z2 = m1 * x1_dot * x1_dot + m2 * x2_dot * x2_dot;
-    const Real T = Real(0.5) * z2;
-    const Real z3 = k1 * x1 * x1 + k2 * z0 * z0 + k3 * x2 * x2;
-    const Real V = Real(0.5) * z3;
-    const Real E = Real(0.5) * (z2 + z3);
-    const Real z4 = x1_dot * (c1 * x1_dot + z1) - x2_dot * z1;
-    const Real P = -z4;
-    const Real z5 = x1_dot * m1 * x1_dot + x2_dot * m2 * x2_dot;
-    const Real h = z5 - Real(0.5) * (z2 - z3);
+    const Real V = k10 * x1 * x1 + k11 * z0 * z0 + k12 * x2 * x2;
+    const Real E = T + V;
+    const Real z1 = k4 * x1_dot * x1_dot + c2 * x2_dot * x2_dot - k13 * x1_dot * x2_dot;
+    const Real P = -z1;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = P;
-    jacobi[0] = h;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
@@ -188,7 +201,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 0.5, 20, 5, 15, 0.05, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 7, 2, 1, 0, 0, "coupled_oscillators", "lagrange, intermediate symbols",
+    3, 2, 2, 7, 11, 1, 0, 0, "coupled_oscillators", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -213,3 +226,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

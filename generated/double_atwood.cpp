@@ -1,4 +1,4 @@
-// Equations of motion of 'double_atwood': lagrange, textbook form.
+// Equations of motion of 'double_atwood': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x [m], y [m], then their rates
@@ -36,26 +36,26 @@ void prepare(Real* par) {
     const Real M00 = m1 + m2 + m3;
     const Real k0 = m2 - m3;
     const Real M11 = m2 + m3;
-    const Real k1 = m1 - m2 - m3;
-    const Real f0 = g * k1;
-    const Real f1 = g * k0;
+    const Real k1 = m1 * g;
+    const Real k2 = m2 * g;
+    const Real k3 = m3 * g;
+    const Real f0 = k1 - k2 - k3;
+    const Real f1 = k2 - k3;
     const Real z0 = Real(1) / M11;
     const Real z1 = k0 * z0;
     const Real z2 = Real(1) / (M00 - k0 * z1);
-    const Real k2 = z2 * (f0 + f1 * z1);
-    const Real k3 = k2 * z1 + z0 * f1;
-    const Real k4 = Real(0.5) * M00;
-    const Real k5 = Real(0.5) * M11;
+    const Real k4 = z2 * (f0 + f1 * z1);
+    const Real k5 = k4 * z1 + z0 * f1;
 
     // Result
     par[4] = M00;
     par[5] = k0;
     par[6] = M11;
     par[7] = k1;
-    par[8] = f0;
-    par[9] = f1;
-    par[10] = k2;
-    par[11] = k3;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = f0;
+    par[11] = f1;
     par[12] = k4;
     par[13] = k5;
 }
@@ -64,20 +64,19 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x_dot = state[2], &y_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &f0 = par[8], &f1 = par[9], &k2 = par[10];
-    const Real &k3 = par[11];
+    const Real &M00 = par[4], &M11 = par[6], &f0 = par[10], &f1 = par[11], &k4 = par[12], &k5 = par[13];
 
     // Result
     rate[0] = x_dot;
     rate[1] = y_dot;
-    rate[2] = k2;
-    rate[3] = k3;
+    rate[2] = k4;
+    rate[3] = k5;
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &f0 = par[8], &f1 = par[9];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &f0 = par[10], &f1 = par[11];
 
     // Result
     mass[0] = M00;
@@ -91,20 +90,28 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
-    const Real &g = par[3], &k0 = par[5], &k1 = par[7], &k4 = par[12], &k5 = par[13];
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &k1 = par[7], &k2 = par[8], &k3 = par[9];
 
     // Energy
-    const Real T = k4 * x_dot * x_dot - k0 * x_dot * y_dot + k5 * y_dot * y_dot;
-    const Real z0 = g * (k1 * x + k0 * y);
-    const Real V = -z0;
-    const Real E = T - z0;
+    const Real z0 = x_dot - y_dot;
+    const Real z1 = x_dot + y_dot;
+    const Real z2 = m1 * x_dot * x_dot + m2 * z0 * z0 + m3 * z1 * z1;
+    const Real T = Real(0.5) * z2;
+    const Real z3 = k2 * (x - y);
+    const Real z4 = k1 * x - z3 - k3 * (x + y);
+    const Real V = -z4;
+    const Real E = Real(0.5) * z2 - z4;
+    const Real z5 = m2 * z0;
+    const Real z6 = m3 * z1;
+    const Real z7 = x_dot * (m1 * x_dot + z5 + z6);
+    const Real h = (z7 - y_dot * (z5 - z6)) - (Real(0.5) * z2 + z4);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -174,7 +181,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 1.1, 0.9, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 10, 0, 0, 0, "double_atwood", "lagrange, textbook form",
+    3, 2, 2, 4, 10, 0, 0, 0, "double_atwood", "lagrange, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -199,3 +206,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

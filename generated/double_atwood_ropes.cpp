@@ -1,4 +1,4 @@
-// Equations of motion of 'double_atwood_ropes': routh, textbook form.
+// Equations of motion of 'double_atwood_ropes': routh, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  y1 [m], z [m], y2 [m], y3 [m], then their rates
@@ -55,10 +55,6 @@ void prepare(Real* par) {
     const Real k3 = k0 * z2 - Real(2) * k2 * z2 - z8;
     const Real k4 = k2 * z3 - z9;
     const Real k5 = k2 * z4 - z10;
-    const Real k6 = Real(0.5) * m1;
-    const Real k7 = Real(0.5) * m2;
-    const Real k8 = Real(0.5) * m3;
-    const Real k9 = Real(0.5) * mp;
 
     // Result
     par[7] = f0;
@@ -71,10 +67,6 @@ void prepare(Real* par) {
     par[14] = k3;
     par[15] = k4;
     par[16] = k5;
-    par[17] = k6;
-    par[18] = k7;
-    par[19] = k8;
-    par[20] = k9;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
@@ -123,24 +115,29 @@ template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
     const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &g = par[6], &k6 = par[17], &k7 = par[18];
-    const Real &k8 = par[19], &k9 = par[20];
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
+    const Real &f3 = par[10];
 
     // Energy
-    const Real z0 = k6 * y1_dot * y1_dot;
-    const Real T = z0 + k7 * y2_dot * y2_dot + k8 * y3_dot * y3_dot + k9 * z_dot * z_dot;
-    const Real z1 = m1 * y1;
-    const Real z2 = z1 + m2 * y2 + m3 * y3 + mp * z;
-    const Real z3 = g * z2;
+    const Real z0 = m1 * y1_dot * y1_dot;
+    const Real z1 = z0 + m2 * y2_dot * y2_dot + m3 * y3_dot * y3_dot + mp * z_dot * z_dot;
+    const Real T = Real(0.5) * z1;
+    const Real z2 = f0 * y1;
+    const Real z3 = z2 + f2 * y2 + f3 * y3 + f1 * z;
     const Real V = -z3;
-    const Real E = T - z3;
+    const Real E = Real(0.5) * z1 - z3;
+    const Real z4 = y1_dot * m1 * y1_dot;
+    const Real z5 = y2_dot * m2 * y2_dot;
+    const Real z6 = y3_dot * m3 * y3_dot;
+    const Real z7 = z4 + z5 + z6 + z_dot * mp * z_dot;
+    const Real h = z7 - (Real(0.5) * z1 + z3);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -231,7 +228,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 1.1, 0.9, 0.3, 10, 8, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 4, 7, 14, 2, 0, 2, "double_atwood_ropes", "routh, textbook form",
+    3, 4, 4, 7, 10, 2, 0, 2, "double_atwood_ropes", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -256,3 +253,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

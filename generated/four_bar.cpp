@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -150,8 +160,7 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
     const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &M11 = par[9], &M22 = par[10];
-    const Real &k1 = par[11], &k2 = par[12];
+    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
 
     // Trigonometry
     const Real phi0 = alpha - beta;
@@ -161,59 +170,54 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
         cos_gamma = trig0.cosine[3];
 
     // Shared terms
-    const Real z0 = beta_dot * beta_dot;
-    const Real z1 = alpha_dot * alpha_dot;
+    const Real z0 = alpha_dot * alpha_dot;
 
     // Mass matrix M(q), lower triangle
     const Real M10 = k0 * cos_phi0;
 
     // Forcing f
-    const Real z2 = k0 * sin_phi0;
-    const Real z3 = z2 * z0;
-    const Real f0 = -z3;
-    const Real f1 = z2 * z1;
+    const Real z1 = k0 * sin_phi0;
+    const Real f1 = z1 * z0;
 
     // Constraints A q'' = gamma
-    const Real z4 = a * sin_alpha;
-    const Real A0_0 = -z4;
-    const Real z5 = b * sin_beta;
-    const Real A0_1 = -z5;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = a * sin_alpha;
+    const Real z4 = b * sin_beta;
     const Real A0_2 = c * sin_gamma;
     const Real A1_0 = a * cos_alpha;
     const Real A1_1 = b * cos_beta;
-    const Real z6 = c * cos_gamma;
-    const Real z7 = gamma_dot * gamma_dot;
-    const Real gamma0 = A1_0 * z1 + A1_1 * z0 - z6 * z7;
-    const Real A1_2 = -z6;
-    const Real gamma1 = z4 * z1 + z5 * z0 - A0_2 * z7;
+    const Real z5 = c * cos_gamma;
+    const Real z6 = gamma_dot * gamma_dot;
+    const Real gamma0 = A1_0 * z0 + A1_1 * z2 - z5 * z6;
+    const Real gamma1 = z3 * z0 + z4 * z2 - A0_2 * z6;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z8 = k1 * M10;
-    const Real z9 = Real(1) / (M00 - M10 * z8);
-    const Real z10 = z3 + f1 * z8;
-    const Real z11 = k1 * z5;
-    const Real z12 = z4 - M10 * z11;
-    const Real z13 = z12 * z9;
-    const Real z14 = k2 * A0_2;
-    const Real z15 = z12 * z13 + (z5 * z11 + A0_2 * z14);
-    const Real z16 = k1 * A1_1;
-    const Real z17 = A1_0 - M10 * z16;
-    const Real z18 = z17 * z9;
-    const Real z19 = k2 * z6;
-    const Real z20 = z12 * z18 + (z5 * z16 + A0_2 * z19);
-    const Real z21 = z17 * z18 + (A1_1 * z16 + z6 * z19);
-    const Real z22 = Real(1) / z21;
-    const Real z23 = z20 * z22;
-    const Real z24 = Real(1) / (z15 - z20 * z23);
-    const Real z25 = (gamma0 + f1 * z11) - z10 * z13;
-    const Real z26 = (gamma1 - f1 * z16) + z10 * z18;
-    const Real z27 = z24 * (z25 + z26 * z23);
-    const Real z28 = z22 * z26 + z23 * z27;
-    const Real z29 = z9 * z10 + z13 * z27 - z18 * z28;
-    const Real alpha_ddot = -z29;
-    const Real z30 = k1 * f1;
-    const Real beta_ddot = z30 - z27 * z11 + z28 * z16 + z8 * z29;
-    const Real gamma_ddot = z27 * z14 - z28 * z19;
+    const Real z7 = k1 * M10;
+    const Real z8 = Real(1) / (M00 - M10 * z7);
+    const Real z9 = z1 * z2 + f1 * z7;
+    const Real z10 = k1 * z4;
+    const Real z11 = z3 - M10 * z10;
+    const Real z12 = z11 * z8;
+    const Real z13 = k2 * A0_2;
+    const Real z14 = z11 * z12 + (z4 * z10 + A0_2 * z13);
+    const Real z15 = k1 * A1_1;
+    const Real z16 = A1_0 - M10 * z15;
+    const Real z17 = z16 * z8;
+    const Real z18 = k2 * z5;
+    const Real z19 = z11 * z17 + (z4 * z15 + A0_2 * z18);
+    const Real z20 = z16 * z17 + (A1_1 * z15 + z5 * z18);
+    const Real z21 = Real(1) / z20;
+    const Real z22 = z19 * z21;
+    const Real z23 = Real(1) / (z14 - z19 * z22);
+    const Real z24 = (gamma0 + f1 * z10) - z9 * z12;
+    const Real z25 = (gamma1 - f1 * z15) + z9 * z17;
+    const Real z26 = z23 * (z24 + z25 * z22);
+    const Real z27 = z21 * z25 + z22 * z26;
+    const Real z28 = z8 * z9 + z12 * z26 - z17 * z27;
+    const Real alpha_ddot = -z28;
+    const Real z29 = k1 * f1;
+    const Real beta_ddot = z29 - z26 * z10 + z27 * z15 + z7 * z28;
+    const Real gamma_ddot = z26 * z13 - z27 * z18;
 
     // Result
     rate[0] = alpha_dot;
@@ -444,3 +448,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -71,13 +71,11 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real f0 = k0 * w2 * w3;
-    const Real z0 = k1 * w1 * w3;
-    const Real f1 = -z0;
     const Real f2 = k2 * w1 * w2;
 
     // Solve M u' = f with M = L D L^T
     const Real w1_dot = k3 * f0;
-    const Real w2_dot = -k4 * z0;
+    const Real w2_dot = -k4 * k1 * w1 * w3;
     const Real w3_dot = k5 * f2;
 
     // Result
@@ -415,3 +413,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

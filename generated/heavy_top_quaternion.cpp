@@ -76,13 +76,11 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real z1 = k1 / z0;
     const Real z2 = z1 * (e0 * e1 + e2 * e3);
     const Real f0 = w2 * k0 * w3 + z2;
-    const Real z3 = z1 * (e0 * e2 - e1 * e3);
-    const Real z4 = w3 * k0 * w1 - z3;
-    const Real f1 = -z4;
 
     // Solve M u' = f with M = L D L^T
+    const Real z3 = z1 * (e0 * e2 - e1 * e3);
     const Real w1_dot = k2 * f0;
-    const Real w2_dot = -k2 * z4;
+    const Real w2_dot = -k2 * (w3 * k0 * w1 - z3);
 
     // Result
     rate[0] = e0_dot;
@@ -474,7 +472,7 @@ constexpr const char* speed_names[] = { "w1", "w2", "w3", nullptr};
 constexpr const char* parameter_names[] = { "m", "l", "g", "A", "C", "theta0", nullptr};
 constexpr const char* output_names[] = { "height", "vertical", "w1", "w2", "w3", nullptr};
 constexpr const char* event_names[] = { nullptr};
-constexpr double parameter_values[] = { 1, 1, 1, 1, 0.5, 1, 0};
+constexpr double parameter_values[] = { 2, 0.5, 1, 1, 0.5, 1, 0};
 
 constexpr alembert_solver_table table{
     3, 4, 3, 6, 10, 5, 0, 1, "heavy_top_quaternion", "kane, textbook form",
@@ -502,3 +500,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -1,9 +1,9 @@
-// Equations of motion of 'linked_particles': routh, intermediate symbols.
+// Equations of motion of 'linked_particles': routh, textbook form.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x1 [m], y1 [m], x2 [m], y2 [m], then their rates
 //   par    m1 [kg], m2 [kg], l [m], beta [rad], g [m/s^2]
-//   cost   79 operations a right-hand side: 30 additions, 47 multiplications, 2 divisions, 0 functions
+//   cost   87 operations a right-hand side: 30 additions, 55 multiplications, 2 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -123,9 +133,8 @@ void prepare(Real* par) {
     const Real sin_beta = sin(beta);
 
     // Constants
-    const Real z0 = g * sin_beta;
-    const Real k0 = m1 * z0;
-    const Real k1 = m2 * z0;
+    const Real k0 = m1 * g * sin_beta;
+    const Real k1 = m2 * g * sin_beta;
     const Real k2 = l * l;
     const Real k3 = Real(1) / m1;
     const Real k4 = Real(2) * k3;
@@ -133,8 +142,11 @@ void prepare(Real* par) {
     const Real k6 = Real(2) * k5;
     const Real k7 = k3 * k0;
     const Real k8 = k5 * k1;
-    const Real z1 = Real(1) / l;
-    const Real k9 = z1 * z1;
+    const Real k9 = Real(0.5) * m1;
+    const Real k10 = Real(0.5) * m2;
+    const Real k11 = g * sin_beta;
+    const Real z0 = Real(1) / l;
+    const Real k12 = z0 * z0;
 
     // Result
     par[5] = k0;
@@ -147,6 +159,9 @@ void prepare(Real* par) {
     par[12] = k7;
     par[13] = k8;
     par[14] = k9;
+    par[15] = k10;
+    par[16] = k11;
+    par[17] = k12;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
@@ -159,43 +174,36 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Constraints A q'' = gamma
     const Real A1_1 = x1 - x2;
-    const Real A0_0 = Real(2) * A1_1;
-    const Real z0 = y1 - y2;
-    const Real A0_1 = Real(2) * z0;
-    const Real A0_2 = -Real(2) * A1_1;
-    const Real A0_3 = -Real(2) * z0;
-    const Real z1 = x1_dot - x2_dot;
-    const Real z2 = y1_dot - y2_dot;
-    const Real z3 = z1 * z1 + z2 * z2;
-    const Real gamma0 = -Real(2) * z3;
-    const Real A1_0 = -z0;
-    const Real z4 = z1 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z2;
-    const Real gamma1 = -z4;
+    const Real z0 = x1_dot * x1_dot + y1_dot * y1_dot;
+    const Real z1 = x2_dot * x2_dot + y2_dot * y2_dot;
+    const Real gamma0 = Real(4) * x1_dot * x2_dot - Real(2) * z0 + Real(4) * y1_dot * y2_dot - Real(2) * z1;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z5 = k4 * A1_1;
-    const Real z6 = k4 * z0;
-    const Real z7 = k6 * z0;
-    const Real z8 = k0 * z6 - (k1 * z7 + Real(2) * z3);
-    const Real z9 = k3 * A1_1;
-    const Real z10 = k5 * A1_1;
-    const Real z11 = k0 * z9 + (k1 * z10 - z4);
-    const Real z12 = k3 * z0;
-    const Real z13 = k5 * z0;
-    const Real z14 = z9 * z0 + (z13 * A1_1 - z10 * z0);
-    const Real z15 = z12 * A1_1 - z14;
-    const Real z16 = z9 * A1_1 + (z10 * A1_1 + z13 * z0);
-    const Real z17 = Real(1) / (z12 * z0 + z16);
-    const Real z18 = z15 * z17;
-    const Real z19 = k6 * A1_1;
-    const Real z20 = z6 * z0 + (z19 * A1_1 + z7 * z0);
-    const Real z21 = Real(1) / (Real(2) * (z5 * A1_1 + z20) - Real(4) * z15 * z18);
-    const Real z22 = (z8 + Real(2) * z11 * z18) * z21;
-    const Real z23 = z11 * z17 + Real(2) * z18 * z22;
-    const Real x1_ddot = z5 * z22 - z12 * z23;
-    const Real y1_ddot = z6 * z22 - k7 + z9 * z23;
-    const Real x2_ddot = -z22 * z19 - z23 * z13;
-    const Real y2_ddot = z23 * z10 - k8 - z22 * z7;
+    const Real z2 = y1 - y2;
+    const Real z3 = k4 * A1_1;
+    const Real z4 = k4 * z2;
+    const Real z5 = k6 * z2;
+    const Real z6 = k0 * z4 - (k1 * z5 - gamma0);
+    const Real z7 = k3 * A1_1;
+    const Real z8 = k5 * A1_1;
+    const Real z9 = k1 * z8 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
+    const Real z10 = k0 * z7 + z9;
+    const Real z11 = k3 * z2;
+    const Real z12 = k5 * z2;
+    const Real z13 = z7 * z2 + (z12 * A1_1 - z8 * z2);
+    const Real z14 = z11 * A1_1 - z13;
+    const Real z15 = z7 * A1_1 + (z8 * A1_1 + z12 * z2);
+    const Real z16 = Real(1) / (z11 * z2 + z15);
+    const Real z17 = z14 * z16;
+    const Real z18 = k6 * A1_1;
+    const Real z19 = z4 * z2 + (z18 * A1_1 + z5 * z2);
+    const Real z20 = Real(1) / (Real(2) * (z3 * A1_1 + z19) - Real(4) * z14 * z17);
+    const Real z21 = (z6 + Real(2) * z10 * z17) * z20;
+    const Real z22 = z10 * z16 + Real(2) * z17 * z21;
+    const Real x1_ddot = z3 * z21 - z11 * z22;
+    const Real y1_ddot = z4 * z21 - k7 + z7 * z22;
+    const Real x2_ddot = -z21 * z18 - z22 * z12;
+    const Real y2_ddot = z22 * z8 - k8 - z21 * z5;
 
     // Result
     rate[0] = x1_dot;
@@ -235,26 +243,20 @@ template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &y1 = state[1], &y2 = state[3], &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6];
     const Real &y2_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
+    const Real &m1 = par[0], &m2 = par[1], &k9 = par[14], &k10 = par[15], &k11 = par[16];
 
     // Energy
-    const Real z0 = m1 * (x1_dot * x1_dot + y1_dot * y1_dot);
-    const Real z1 = z0 + m2 * (x2_dot * x2_dot + y2_dot * y2_dot);
-    const Real T = Real(0.5) * z1;
-    const Real V = k0 * y1 + k1 * y2;
-    const Real E = Real(0.5) * z1 + V;
-    const Real z2 = y1_dot * m1 * y1_dot;
-    const Real z3 = x1_dot * m1 * x1_dot;
-    const Real z4 = y2_dot * m2 * y2_dot;
-    const Real z5 = z2 + z3 + z4 + x2_dot * m2 * x2_dot;
-    const Real h = z5 - (Real(0.5) * z1 - V);
+    const Real z0 = k9 * (x1_dot * x1_dot + y1_dot * y1_dot);
+    const Real T = z0 + k10 * (x2_dot * x2_dot + y2_dot * y2_dot);
+    const Real V = k11 * (m1 * y1 + m2 * y2);
+    const Real E = V + T;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
@@ -263,31 +265,32 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
     const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
     const Real &l = par[2], &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-    const Real &k9 = par[14];
+    const Real &k12 = par[17];
 
     // Outputs
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = x1_dot - x2_dot;
-    const Real z3 = y1_dot - y2_dot;
-    const Real z4 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z2 = x1_dot * x1_dot + y1_dot * y1_dot;
+    const Real z3 = x2_dot * x2_dot + y2_dot * y2_dot;
+    const Real z4 = Real(4) * x1_dot * x2_dot - Real(2) * z2 + Real(4) * y1_dot * y2_dot - Real(2) * z3;
     const Real z5 = k4 * z1;
     const Real z6 = k6 * z1;
-    const Real z7 = k1 * z6 + Real(2) * (z2 * z2 + z3 * z3);
+    const Real z7 = k0 * z5 - (k1 * z6 - z4);
     const Real z8 = k3 * z0;
     const Real z9 = k5 * z0;
-    const Real z10 = k3 * z1;
-    const Real z11 = k5 * z1;
-    const Real z12 = z8 * z1 + (z11 * z0 - z9 * z1);
-    const Real z13 = z10 * z0 - z12;
-    const Real z14 = z8 * z0 + (z9 * z0 + z11 * z1);
-    const Real z15 = z13 / (z10 * z1 + z14);
-    const Real z16 = (k0 * z8 + (k1 * z9 - z4)) * z15;
-    const Real z17 = (k0 * z5 - z7) + Real(2) * z16;
+    const Real z10 = k1 * z9 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
+    const Real z11 = k3 * z1;
+    const Real z12 = k5 * z1;
+    const Real z13 = z8 * z1 + (z12 * z0 - z9 * z1);
+    const Real z14 = z11 * z0 - z13;
+    const Real z15 = z8 * z0 + (z9 * z0 + z12 * z1);
+    const Real z16 = z14 / (z11 * z1 + z15);
+    const Real z17 = z7 + Real(2) * (k0 * z8 + z10) * z16;
     const Real z18 = k6 * z0 * z0 + z6 * z1;
     const Real z19 = k4 * z0 * z0 + (z5 * z1 + z18);
-    const Real tension = -Real(2) * l * z17 / (Real(2) * z19 - Real(4) * z13 * z15);
-    const Real turn = k9 * (z0 * z3 - z1 * z2);
+    const Real tension = -Real(2) * l * z17 / (Real(2) * z19 - Real(4) * z14 * z16);
+    const Real z20 = z0 * (y1_dot - y2_dot) - z1 * (x1_dot - x2_dot);
+    const Real turn = k12 * z20;
 
     // Result
     out[0] = tension;
@@ -311,13 +314,15 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     // Constraints
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = z0 * (x1_dot - x2_dot) + z1 * (y1_dot - y2_dot);
+    const Real z2 = x1_dot * z0;
+    const Real z3 = z2 - x2_dot * z0 - y2_dot * z1 + y1_dot * z1;
+    const Real z4 = y2_dot * z0;
 
     // Result
     position[0] = z0 * z0 - k2 + z1 * z1;
     position[1] = Real(0);
-    velocity[0] = Real(2) * z2;
-    velocity[1] = z0 * (y1_dot + y2_dot) - z1 * (x1_dot + x2_dot);
+    velocity[0] = Real(2) * z3;
+    velocity[1] = z4 + y1_dot * z0 - x2_dot * z1 - x1_dot * z1;
     rows[0] = Real(2) * z0;
     rows[1] = Real(2) * z1;
     rows[2] = -Real(2) * z0;
@@ -338,27 +343,28 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     // Multipliers
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = x1_dot - x2_dot;
-    const Real z3 = y1_dot - y2_dot;
-    const Real z4 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z2 = x1_dot * x1_dot + y1_dot * y1_dot;
+    const Real z3 = x2_dot * x2_dot + y2_dot * y2_dot;
+    const Real z4 = Real(4) * x1_dot * x2_dot - Real(2) * z2 + Real(4) * y1_dot * y2_dot - Real(2) * z3;
     const Real z5 = k4 * z1;
     const Real z6 = k6 * z1;
-    const Real z7 = k1 * z6 + Real(2) * (z2 * z2 + z3 * z3);
+    const Real z7 = k0 * z5 - (k1 * z6 - z4);
     const Real z8 = k3 * z0;
     const Real z9 = k5 * z0;
-    const Real z10 = k0 * z8 + (k1 * z9 - z4);
-    const Real z11 = k3 * z1;
-    const Real z12 = k5 * z1;
-    const Real z13 = z8 * z1 + (z12 * z0 - z9 * z1);
-    const Real z14 = z11 * z0 - z13;
-    const Real z15 = z8 * z0 + (z9 * z0 + z12 * z1);
-    const Real z16 = Real(1) / (z11 * z1 + z15);
-    const Real z17 = z14 * z16;
-    const Real z18 = (k0 * z5 - z7) + Real(2) * z10 * z17;
+    const Real z10 = k1 * z9 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
+    const Real z11 = k0 * z8 + z10;
+    const Real z12 = k3 * z1;
+    const Real z13 = k5 * z1;
+    const Real z14 = z8 * z1 + (z13 * z0 - z9 * z1);
+    const Real z15 = z12 * z0 - z14;
+    const Real z16 = z8 * z0 + (z9 * z0 + z13 * z1);
+    const Real z17 = Real(1) / (z12 * z1 + z16);
+    const Real z18 = z15 * z17;
     const Real z19 = k6 * z0 * z0 + z6 * z1;
     const Real z20 = k4 * z0 * z0 + (z5 * z1 + z19);
-    const Real lambda1 = z18 / (Real(2) * z20 - Real(4) * z14 * z17);
-    const Real lambda2 = z10 * z16 + Real(2) * z17 * lambda1;
+    const Real z21 = Real(1) / (Real(2) * z20 - Real(4) * z15 * z18);
+    const Real lambda1 = (z7 + Real(2) * z11 * z18) * z21;
+    const Real lambda2 = z11 * z17 + Real(2) * z18 * lambda1;
 
     // Result
     lambda[0] = lambda1;
@@ -404,7 +410,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1.5, 1, 0.2, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 4, 5, 10, 2, 0, 2, "linked_particles", "routh, intermediate symbols",
+    3, 4, 4, 5, 13, 2, 0, 2, "linked_particles", "routh, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -429,3 +435,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -53,12 +53,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Forcing f
     const Real f0 = k0 + k1 * y_dot;
-    const Real z0 = k1 * x_dot;
-    const Real f1 = -z0;
 
     // Solve M q'' = f with M = L D L^T
     const Real x_ddot = k2 * f0;
-    const Real y_ddot = -k2 * z0;
+    const Real y_ddot = -k2 * k1 * x_dot;
 
     // Result
     rate[0] = x_dot;
@@ -208,3 +206,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

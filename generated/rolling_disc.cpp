@@ -1,4 +1,4 @@
-// Equations of motion of 'rolling_disc': routh, textbook form.
+// Equations of motion of 'rolling_disc': routh, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x [m], phi [rad], then their rates
@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -123,45 +133,46 @@ void prepare(Real* par) {
     const Real sin_beta = sin(beta);
 
     // Constants
-    const Real z0 = m * r * r;
-    const Real M11 = Real(0.5) * z0;
+    const Real k0 = m * r * r;
+    const Real M11 = Real(0.5) * k0;
     const Real f0 = m * g * sin_beta;
-    const Real z1 = Real(1) / m;
-    const Real z2 = z1 * f0;
-    const Real z3 = r / z0;
-    const Real k0 = z2 / (z1 + Real(2) * r * z3);
-    const Real k1 = z2 - z1 * k0;
-    const Real k2 = Real(2) * z3 * k0;
-    const Real k3 = Real(0.5) * m;
-    const Real k4 = Real(0.25) * z0;
+    const Real z0 = Real(1) / m;
+    const Real z1 = z0 * f0;
+    const Real z2 = r / k0;
+    const Real k1 = z1 / (z0 + Real(2) * r * z2);
+    const Real k2 = z1 - z0 * k1;
+    const Real k3 = Real(2) * z2 * k1;
+    const Real k4 = Real(0.5) * m;
+    const Real k5 = Real(0.25) * k0;
 
     // Result
-    par[4] = M11;
-    par[5] = f0;
-    par[6] = k0;
+    par[4] = k0;
+    par[5] = M11;
+    par[6] = f0;
     par[7] = k1;
     par[8] = k2;
     par[9] = k3;
     par[10] = k4;
+    par[11] = k5;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &r = par[1], &M11 = par[4], &f0 = par[5], &k1 = par[7], &k2 = par[8];
+    const Real &m = par[0], &f0 = par[6], &k2 = par[8], &k3 = par[9];
 
     // Result
     rate[0] = x_dot;
     rate[1] = phi_dot;
-    rate[2] = k1;
-    rate[3] = k2;
+    rate[2] = k2;
+    rate[3] = k3;
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
 void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &M11 = par[4], &f0 = par[5];
+    const Real &m = par[0], &M11 = par[5], &f0 = par[6];
 
     // Result
     mass[0] = m;
@@ -175,20 +186,22 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &x_dot = state[2], &phi_dot = state[3];
-    const Real &f0 = par[5], &k3 = par[9], &k4 = par[10];
+    const Real &m = par[0], &k0 = par[4], &f0 = par[6], &k4 = par[10], &k5 = par[11];
 
     // Energy
-    const Real T = k3 * x_dot * x_dot + k4 * phi_dot * phi_dot;
+    const Real T = k4 * x_dot * x_dot + k5 * phi_dot * phi_dot;
     const Real z0 = f0 * x;
     const Real V = -z0;
     const Real E = T - z0;
+    const Real z1 = x_dot * m * x_dot + Real(0.5) * phi_dot * k0 * phi_dot;
+    const Real h = z1 - (z0 + T);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -221,10 +234,10 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &k0 = par[6];
+    const Real &k1 = par[7];
 
     // Result
-    lambda[0] = -k0;
+    lambda[0] = -k1;
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -266,7 +279,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.4, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 7, 0, 0, 1, "rolling_disc", "routh, textbook form",
+    3, 2, 2, 4, 8, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -291,3 +304,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

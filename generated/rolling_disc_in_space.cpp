@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -163,96 +173,83 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
         cos_psi = trig0.cosine[1];
 
-    // Shared terms
-    const Real z0 = k0 * sin_theta;
-
     // Mass matrix M(q), lower triangle
+    const Real z0 = k0 * sin_theta;
     const Real M20 = z0 * cos_psi;
     const Real M21 = z0 * sin_psi;
     const Real M22 = k1 + M33 * sin_theta * sin_theta;
     const Real z1 = k0 * cos_theta;
     const Real M30 = z1 * sin_psi;
-    const Real z2 = z1 * cos_psi;
-    const Real M31 = -z2;
     const Real M42 = M44 * sin_theta;
 
     // Forcing f
-    const Real z3 = psi_dot * cos_theta;
-    const Real z4 = theta_dot * z3;
-    const Real z5 = k2 * z4;
-    const Real z6 = psi_dot * psi_dot + theta_dot * theta_dot;
-    const Real z7 = z5 * cos_psi - M21 * z6;
-    const Real f0 = -z7;
-    const Real z8 = z5 * sin_psi + M20 * z6;
-    const Real f1 = -z8;
-    const Real z9 = M44 * phi_dot;
-    const Real z10 = theta_dot * (z9 + k3 * psi_dot * sin_theta) * cos_theta;
-    const Real f2 = -z10;
-    const Real z11 = (k4 + M33 * psi_dot * z3) * sin_theta;
-    const Real f3 = z9 * z3 + z11;
-    const Real z12 = M44 * z4;
-    const Real f4 = -z12;
+    const Real z2 = psi_dot * cos_theta;
+    const Real z3 = M44 * phi_dot;
+    const Real z4 = (k4 + M33 * psi_dot * z2) * sin_theta;
+    const Real f3 = z3 * z2 + z4;
 
     // Constraints A q'' = gamma
-    const Real z13 = r * cos_psi;
-    const Real A0_4 = -z13;
-    const Real z14 = r * sin_psi;
-    const Real z15 = psi_dot * phi_dot;
-    const Real z16 = z14 * z15;
-    const Real gamma0 = -z16;
-    const Real A1_4 = -z14;
-    const Real gamma1 = z13 * z15;
+    const Real z5 = r * cos_psi;
+    const Real z6 = psi_dot * phi_dot;
+    const Real gamma1 = z5 * z6;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z17 = k5 * M30;
-    const Real z18 = k5 * z2;
-    const Real z19 = M30 * z18;
-    const Real z20 = Real(1) / (m - z2 * z18);
-    const Real z21 = z19 * z20;
-    const Real z22 = (m - M30 * z17) - z19 * z21;
-    const Real z23 = M21 * z20;
-    const Real z24 = M20 - z19 * z23;
-    const Real z25 = k6 * M42;
-    const Real z26 = Real(1) / ((M22 - M42 * z25) - M21 * z23);
-    const Real z27 = z24 * z26;
-    const Real z28 = Real(1) / (z22 - z24 * z27);
-    const Real z29 = z8 - z18 * f3;
-    const Real z30 = (z7 + z17 * f3) - z21 * z29;
-    const Real z31 = (z10 - z12 * z25) - z23 * z29;
-    const Real z32 = z30 - z27 * z31;
-    const Real z33 = k6 * z13;
-    const Real z34 = M42 * z33;
-    const Real z35 = z34 * z26;
-    const Real z36 = z24 * z35 - Real(1);
-    const Real z37 = z36 * z28;
-    const Real z38 = (z33 * z13 + z34 * z35) + z36 * z37;
-    const Real z39 = k6 * z14;
-    const Real z40 = M42 * z39 - z23;
-    const Real z41 = z40 * z26;
-    const Real z42 = z21 + z24 * z41;
-    const Real z43 = z42 * z28;
-    const Real z44 = (z39 * z13 + z34 * z41) + z36 * z43;
-    const Real z45 = (z39 * z14 + z20) + z40 * z41;
-    const Real z46 = Real(1) / (z45 + z42 * z43);
-    const Real z47 = z44 * z46;
-    const Real z48 = (z33 * z12 + z16) - z35 * z31;
-    const Real z49 = z20 * z29;
-    const Real z50 = ((z39 * z12 - gamma1) - z49) - z41 * z31;
-    const Real z51 = z50 + z32 * z43;
-    const Real z52 = (z48 + z37 * z32) - z51 * z47;
-    const Real z53 = z52 / (z38 - z44 * z47);
-    const Real z54 = z46 * z51 - z47 * z53;
-    const Real z55 = z28 * z32 - z37 * z53 - z43 * z54;
-    const Real x_ddot = -z55;
-    const Real z56 = z26 * z31;
-    const Real z57 = z56 + z35 * z53 + z41 * z54 - z27 * z55;
-    const Real z58 = z49 + z20 * z54 - z21 * z55 - z23 * z57;
-    const Real y_ddot = -z58;
-    const Real psi_ddot = -z57;
-    const Real theta_ddot = k5 * f3 + z17 * z55 - z18 * z58;
-    const Real z59 = k6 * z12;
-    const Real z60 = z59 - z33 * z53 - z39 * z54 - z25 * z57;
-    const Real phi_ddot = -z60;
+    const Real z7 = z1 * cos_psi;
+    const Real z8 = theta_dot * z2;
+    const Real z9 = k2 * z8;
+    const Real z10 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real z11 = theta_dot * (z3 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real z12 = M44 * z8;
+    const Real z13 = r * sin_psi;
+    const Real z14 = k5 * M30;
+    const Real z15 = k5 * z7;
+    const Real z16 = M30 * z15;
+    const Real z17 = Real(1) / (m - z7 * z15);
+    const Real z18 = z16 * z17;
+    const Real z19 = (m - M30 * z14) - z16 * z18;
+    const Real z20 = M21 * z17;
+    const Real z21 = M20 - z16 * z20;
+    const Real z22 = k6 * M42;
+    const Real z23 = Real(1) / ((M22 - M42 * z22) - M21 * z20);
+    const Real z24 = z21 * z23;
+    const Real z25 = Real(1) / (z19 - z21 * z24);
+    const Real z26 = (z9 * cos_psi - M21 * z10) + z14 * f3;
+    const Real z27 = (z9 * sin_psi + M20 * z10) - z15 * f3;
+    const Real z28 = (z11 - z12 * z22) - z20 * z27;
+    const Real z29 = (z26 - z18 * z27) - z24 * z28;
+    const Real z30 = k6 * z5;
+    const Real z31 = M42 * z30;
+    const Real z32 = z31 * z23;
+    const Real z33 = z21 * z32 - Real(1);
+    const Real z34 = z33 * z25;
+    const Real z35 = (z30 * z5 + z31 * z32) + z33 * z34;
+    const Real z36 = k6 * z13;
+    const Real z37 = M42 * z36 - z20;
+    const Real z38 = z37 * z23;
+    const Real z39 = z18 + z21 * z38;
+    const Real z40 = z39 * z25;
+    const Real z41 = (z36 * z5 + z31 * z38) + z33 * z40;
+    const Real z42 = (z36 * z13 + z17) + z37 * z38;
+    const Real z43 = Real(1) / (z42 + z39 * z40);
+    const Real z44 = z41 * z43;
+    const Real z45 = (z30 * z12 + z13 * z6) - z32 * z28;
+    const Real z46 = z17 * z27;
+    const Real z47 = ((z36 * z12 - gamma1) - z46) - z38 * z28;
+    const Real z48 = z47 + z29 * z40;
+    const Real z49 = (z45 + z34 * z29) - z48 * z44;
+    const Real z50 = z49 / (z35 - z41 * z44);
+    const Real z51 = z43 * z48 - z44 * z50;
+    const Real z52 = z25 * z29 - z34 * z50 - z40 * z51;
+    const Real x_ddot = -z52;
+    const Real z53 = z23 * z28;
+    const Real z54 = z53 + z32 * z50 + z38 * z51 - z24 * z52;
+    const Real z55 = z46 + z17 * z51 - z18 * z52 - z20 * z54;
+    const Real y_ddot = -z55;
+    const Real psi_ddot = -z54;
+    const Real theta_ddot = k5 * f3 + z14 * z52 - z15 * z55;
+    const Real z56 = k6 * z12;
+    const Real z57 = z56 - z30 * z50 - z36 * z51 - z22 * z54;
+    const Real phi_ddot = -z57;
 
     // Result
     rate[0] = x_dot;
@@ -547,3 +544,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

@@ -1,4 +1,4 @@
-// Equations of motion of 'slack_pendulum': lagrange, textbook form.
+// Equations of motion of 'slack_pendulum': lagrange, intermediate symbols.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x [m], y [m], then their rates
@@ -35,19 +35,17 @@ void prepare(Real* par) {
     // Constants
     const Real k0 = m * g;
     const Real k1 = k0 / m;
-    const Real k2 = Real(0.5) * m;
 
     // Result
     par[3] = k0;
     par[4] = k1;
-    par[5] = k2;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x_dot = state[2], &y_dot = state[3];
-    const Real &m = par[0], &k0 = par[3], &k1 = par[4];
+    const Real &m = par[0], &k1 = par[4];
 
     // Result
     rate[0] = x_dot;
@@ -73,19 +71,22 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &y = state[1], &x_dot = state[2], &y_dot = state[3];
-    const Real &k0 = par[3], &k2 = par[5];
+    const Real &m = par[0], &k0 = par[3];
 
     // Energy
-    const Real T = k2 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z0 = m * (x_dot * x_dot + y_dot * y_dot);
+    const Real T = Real(0.5) * z0;
     const Real V = k0 * y;
-    const Real E = V + T;
+    const Real E = V + Real(0.5) * z0;
+    const Real z1 = y_dot * m * y_dot + x_dot * m * x_dot;
+    const Real h = z1 + (V - Real(0.5) * z0);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -157,7 +158,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 3, 3, 1, 0, 0, "slack_pendulum", "lagrange, textbook form",
+    3, 2, 2, 3, 2, 1, 0, 0, "slack_pendulum", "lagrange, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -182,3 +183,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

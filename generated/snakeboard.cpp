@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -154,8 +164,8 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
     const Real &psi_dot = state[8], &phi_dot = state[9];
-    const Real &m = par[0], &l = par[1], &Jr = par[3], &w = par[7], &M22 = par[8], &M44 = par[9], &k0 = par[10];
-    const Real &k1 = par[11], &k2 = par[12], &k3 = par[13], &k4 = par[14], &k5 = par[15];
+    const Real &m = par[0], &l = par[1], &Jr = par[3], &w = par[7], &M22 = par[8], &k0 = par[10], &k1 = par[11];
+    const Real &k2 = par[12], &k3 = par[13], &k4 = par[14], &k5 = par[15];
 
     // Trigonometry
     const Real phi0 = w * t;
@@ -165,47 +175,37 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real sin_phi0 = trig0.sine[0], sin_phi1 = trig0.sine[1], cos_phi1 = trig0.cosine[1],
         sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2], sin_phi2 = trig0.sine[3], cos_phi2 = trig0.cosine[3];
 
-    // Forcing f
-    const Real z0 = k0 * sin_phi0;
-    const Real f3 = -z0;
-    const Real z1 = k1 * sin_phi0;
-    const Real f4 = -Real(2) * z1;
-
     // Constraints A q'' = gamma
-    const Real A0_0 = -sin_phi1;
     const Real A0_2 = l * cos_phi;
-    const Real z2 = l * theta_dot * phi_dot * sin_phi;
-    const Real z3 = theta_dot + phi_dot;
-    const Real z4 = z2 + cos_phi1 * x_dot * z3;
-    const Real gamma0 = z4 + sin_phi1 * y_dot * z3;
-    const Real A1_0 = -sin_phi2;
-    const Real A1_2 = -A0_2;
-    const Real z5 = y_dot * sin_phi2 + x_dot * cos_phi2;
-    const Real z6 = (z2 + phi_dot * z5) - theta_dot * z5;
-    const Real gamma1 = -z6;
+    const Real z0 = l * theta_dot * phi_dot * sin_phi;
+    const Real z1 = theta_dot + phi_dot;
+    const Real z2 = z0 + cos_phi1 * x_dot * z1;
+    const Real gamma0 = z2 + sin_phi1 * y_dot * z1;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z7 = k2 * sin_phi1;
-    const Real z8 = k2 * cos_phi1;
-    const Real z9 = k3 * A0_2;
-    const Real z10 = A0_2 * z9;
-    const Real z11 = z7 * sin_phi1 + (z8 * cos_phi1 - z10);
-    const Real z12 = k2 * sin_phi2;
-    const Real z13 = k2 * cos_phi2;
-    const Real z14 = z12 * sin_phi1 + (z13 * cos_phi1 + z10);
-    const Real z15 = Real(1) / (z12 * sin_phi2 + (z13 * cos_phi2 - z10));
-    const Real z16 = z14 * z15;
-    const Real z17 = z9 * z0;
-    const Real z18 = z17 + z6;
-    const Real z19 = z16 * z18 + (z17 + gamma0);
-    const Real z20 = z19 / (z11 - z14 * z16);
-    const Real z21 = z15 * z18 + z16 * z20;
-    const Real x_ddot = z12 * z21 - z7 * z20;
-    const Real y_ddot = z8 * z20 - z13 * z21;
-    const Real z22 = (z20 + z21) * z9 + k3 * z0;
-    const Real theta_ddot = -z22;
-    const Real psi_ddot = z22 - k4 * z0;
-    const Real phi_ddot = -k5 * z1;
+    const Real z3 = k0 * sin_phi0;
+    const Real z4 = y_dot * sin_phi2 + x_dot * cos_phi2;
+    const Real z5 = k2 * sin_phi1;
+    const Real z6 = k2 * cos_phi1;
+    const Real z7 = k3 * A0_2;
+    const Real z8 = A0_2 * z7;
+    const Real z9 = z5 * sin_phi1 + (z6 * cos_phi1 - z8);
+    const Real z10 = k2 * sin_phi2;
+    const Real z11 = k2 * cos_phi2;
+    const Real z12 = z10 * sin_phi1 + (z11 * cos_phi1 + z8);
+    const Real z13 = Real(1) / (z10 * sin_phi2 + (z11 * cos_phi2 - z8));
+    const Real z14 = z12 * z13;
+    const Real z15 = z7 * z3;
+    const Real z16 = z15 + ((z0 + phi_dot * z4) - theta_dot * z4);
+    const Real z17 = z14 * z16 + (z15 + gamma0);
+    const Real z18 = z17 / (z9 - z12 * z14);
+    const Real z19 = z13 * z16 + z14 * z18;
+    const Real x_ddot = z10 * z19 - z5 * z18;
+    const Real y_ddot = z6 * z18 - z11 * z19;
+    const Real z20 = (z18 + z19) * z7 + k3 * z3;
+    const Real theta_ddot = -z20;
+    const Real psi_ddot = z20 - k4 * z3;
+    const Real phi_ddot = -k5 * k1 * sin_phi0;
 
     // Result
     rate[0] = x_dot;
@@ -451,3 +451,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

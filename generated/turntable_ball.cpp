@@ -26,10 +26,10 @@ template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - R
 template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
 template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
 
-// Sines and cosines of several angles at once, each within 1.5 ulp; lanes of a vector are angles.
+// Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
 //   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   r = hi - lo keeps its digits next to a multiple of pi/2 (Cody & Waite 1980, ch. 8; two-sum of Knuth, 4.2.2);
+//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -55,19 +55,24 @@ template <typename Bits, typename Real>
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real rest = (x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30, third = turns * 0x1.1a62630p-54;
-    const Real hi = rest - third, taken = hi - rest;
-    const Real lo = ((third + taken) - (rest - (hi - taken))) + turns * 0x1.8a2e03707344ap-81;
+    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+    const Real lo = turns * 0x1.8a2e03707344ap-81;
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + (zz * Q + hi * lo);
-    const Bits odd = -(k & 1), s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c);
-    const Bits differ = (s_bits ^ c_bits) & odd;
-    sine = __builtin_bit_cast(Real, (s_bits ^ differ) ^ ((k & 2) << 62));
-    cosine = __builtin_bit_cast(Real, (c_bits ^ differ) ^ (((k + 1) & 2) << 62));
+    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
+    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) > sizeof(double)) {
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
+    } else {
+        const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
+        sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
+        cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
+    }
 }
 
 [[gnu::noinline, gnu::cold]] inline void sines_far(double x, double& sine, double& cosine) {
@@ -88,6 +93,11 @@ template <typename Wide, typename Bits, typename... Angle>
 [[gnu::always_inline]] inline sines<double, sizeof...(Angle)> sincos_in(Angle... x) {
     sines<double, sizeof...(Angle)> result;
     Wide s, c;
+#if defined(__x86_64__)
+    // One load for each: a wide load of a state that was just written number by number would wait for the stores.
+    const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
+    (alone(x), ...);
+#endif
     sines_near<Bits>(Wide{x...}, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
     if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
@@ -158,48 +168,44 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     // Forcing f
     const Real z1 = M22 * phi_dot;
     const Real f2 = theta_dot * z1 * sin_theta;
-    const Real z2 = z1 * z0;
-    const Real f3 = -z2;
     const Real f4 = M22 * theta_dot * z0;
 
     // Constraints A q'' = gamma
-    const Real z3 = a * sin_psi;
-    const Real A0_3 = -z3;
     const Real A1_3 = a * cos_psi;
     const Real A0_4 = A1_3 * sin_theta;
-    const Real z4 = theta_dot * cos_theta;
-    const Real z5 = sin_psi * sin_theta;
-    const Real z6 = psi_dot * (theta_dot * cos_psi + phi_dot * z5);
-    const Real z7 = a * (phi_dot * cos_psi * z4 - z6);
-    const Real z8 = z7 + Omega * y_dot;
-    const Real gamma0 = -z8;
-    const Real A1_4 = a * z5;
-    const Real z9 = phi_dot * (sin_psi * z4 + cos_psi * z0);
-    const Real z10 = a * (psi_dot * theta_dot * sin_psi - z9);
-    const Real gamma1 = z10 + Omega * x_dot;
+    const Real z2 = theta_dot * cos_theta;
+    const Real z3 = sin_psi * sin_theta;
+    const Real A1_4 = a * z3;
+    const Real z4 = phi_dot * (sin_psi * z2 + cos_psi * z0);
+    const Real z5 = a * (psi_dot * theta_dot * sin_psi - z4);
+    const Real gamma1 = z5 + Omega * x_dot;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z11 = k1 * z3;
-    const Real z12 = k1 * M42;
-    const Real z13 = Real(1) / (M22 - M42 * z12);
-    const Real z14 = z13 * A0_4;
-    const Real z15 = z11 * z3 + (k0 + z14 * A0_4);
-    const Real z16 = k1 * A1_3;
-    const Real z17 = z13 * A1_4;
-    const Real z18 = z16 * z3 - z17 * A0_4;
-    const Real z19 = Real(1) / (z16 * A1_3 + (k0 + z17 * A1_4));
-    const Real z20 = z18 * z19;
-    const Real z21 = Real(1) / (z15 - z18 * z20);
-    const Real z22 = f4 - f2 * z12;
-    const Real z23 = z11 * z2 + (z22 * z14 + z8);
-    const Real z24 = z16 * z2 - (z22 * z17 - gamma1);
-    const Real z25 = z21 * (z23 - z20 * z24);
-    const Real x_ddot = -k0 * z25;
-    const Real z26 = z19 * z24 - z20 * z25;
-    const Real y_ddot = k0 * z26;
-    const Real phi_ddot = z13 * z22 - z14 * z25 + z17 * z26;
-    const Real psi_ddot = k1 * f2 - z12 * phi_ddot;
-    const Real theta_ddot = z11 * z25 - k1 * z2 + z16 * z26;
+    const Real z6 = z1 * z0;
+    const Real z7 = a * sin_psi;
+    const Real z8 = psi_dot * (theta_dot * cos_psi + phi_dot * z3);
+    const Real z9 = a * (phi_dot * cos_psi * z2 - z8);
+    const Real z10 = k1 * z7;
+    const Real z11 = k1 * M42;
+    const Real z12 = Real(1) / (M22 - M42 * z11);
+    const Real z13 = z12 * A0_4;
+    const Real z14 = z10 * z7 + (k0 + z13 * A0_4);
+    const Real z15 = k1 * A1_3;
+    const Real z16 = z12 * A1_4;
+    const Real z17 = z15 * z7 - z16 * A0_4;
+    const Real z18 = Real(1) / (z15 * A1_3 + (k0 + z16 * A1_4));
+    const Real z19 = z17 * z18;
+    const Real z20 = f4 - f2 * z11;
+    const Real z21 = z20 * z13 + (z9 + Omega * y_dot);
+    const Real z22 = z15 * z6 - (z20 * z16 - gamma1);
+    const Real z23 = (z10 * z6 + z21) - z19 * z22;
+    const Real z24 = z23 / (z14 - z17 * z19);
+    const Real x_ddot = -k0 * z24;
+    const Real z25 = z18 * z22 - z19 * z24;
+    const Real y_ddot = k0 * z25;
+    const Real phi_ddot = z12 * z20 - z13 * z24 + z16 * z25;
+    const Real psi_ddot = k1 * f2 - z11 * phi_ddot;
+    const Real theta_ddot = z10 * z24 - k1 * z6 + z15 * z25;
 
     // Result
     rate[0] = x_dot;
@@ -528,3 +534,4 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+

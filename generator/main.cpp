@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, schiehlen, roberson-wittenburg, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
@@ -73,8 +73,13 @@ int main(int argc, char** argv) {
     CLI::App* check = verb("check", "hold a hand derivation against the derived equations", alembert::check);
     check->add_option("claims", request.claims, "a file of claims, one equation a line; without it the scene's [[claim]]s");
 
+    const auto at_a_state = [&](CLI::App* sub) {
+        sub->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    };
     CLI::App* eval = verb("eval", "evaluate once, at the initial state or the one given", alembert::eval);
-    eval->add_option("--at", request.at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    at_a_state(eval);
+
+    at_a_state(verb("linearize", "matrices and eigenvalues near an equilibrium or a steady motion", alembert::linearize));
 
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
 
@@ -84,18 +89,39 @@ int main(int argc, char** argv) {
     emit->add_option("-o,--output", request.output, "folder")->required();
     emit->add_flag("--fold", request.fold, "parameters as constants");
     emit->add_flag("--jacobian", request.jacobian, "with the derivatives of the right-hand side by state and parameters");
+    emit->add_flag("--batch", request.batch, "the same functions for eight systems at once too");
 
+    const auto with_run = [&](CLI::App* sub) {
+        sub->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+        sub->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
+            ->check(CLI::PositiveNumber);
+        sub->add_option("--method", request.method, "auto, " + alembert::method_names());
+        sub->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
+        sub->add_option("-o,--output", request.output, "CSV file");
+        sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+        sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
+    };
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
-    simulate->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
-    simulate->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
-        ->check(CLI::PositiveNumber);
-    simulate->add_option("--method", request.method, "auto, " + alembert::method_names());
-    simulate->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
+    with_run(simulate);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
-    simulate->add_option("-o,--output", request.output, "CSV file");
-    simulate->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+    simulate->add_flag("!--no-estimate", request.estimate, "no second run to estimate the error: half the time");
     with_reactions(simulate);
-    simulate->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
+
+    CLI::App* sweep = verb("sweep", "integrate from many initial states or with many parameters, a row for each", alembert::sweep);
+    with_run(sweep);
+    sweep->add_option("--vary", request.vary, "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; several make a grid")
+        ->required();
+    sweep->add_option("--threads", request.threads, "as many as there are cores where it is missing")->check(CLI::Range(1, 1024));
+
+    CLI::App* bench = verb("bench", "speed against error: every method over a range of tolerances, against a reference", alembert::bench);
+    bench->add_flag("--peers", request.peers, "CVODE, IDA, odeint and GSL too, on the same right-hand side, where they are installed");
+    bench->add_option("--csv", request.csv, "CSV file");
+    bench->add_option("--svg", request.svg, "work-precision plot");
+    bench->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+    bench->add_option("--method", request.method, "this one alone");
+    bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(CLI::PositiveNumber);
+    bench->add_option("--reference-seconds", request.reference_seconds, "processor time for each of the reference's methods")
+        ->check(CLI::PositiveNumber);
 
     try {
         app.parse(argc, argv);

@@ -38,10 +38,12 @@ forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
 forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
 forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
 
-# The emitted file's copy of the ABI's struct, word for word.
-words() { sed -n '/^struct alembert_solver_table {/,/^};/p' "$1" | sed 's|///.*||' | tr -s ' \n' ' '; }
-[ "$(words lib/alembert/abi.hpp)" = "$(words templates/solver.cpp.mustache)" ] ||
-    { echo 'templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about alembert_solver_table'; failed=1; }
+# The emitted file's copy of the ABI's structs, word for word.
+words() { sed -n "/^struct $1 {/,/^};/p" "$2" | sed 's|///.*||' | tr -s ' \n' ' '; }
+for struct in alembert_solver_table alembert_pack_table; do
+    [ "$(words $struct lib/alembert/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
+        { echo "templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about $struct"; failed=1; }
+done
 missing=$(files lib generator tests | grep -v '^tests/stranger' | xargs grep -L 'SPDX-License-Identifier')
 [ -z "$missing" ] || { printf 'no licence line in:\n%s\n' "$missing"; failed=1; }
 [ "$failed" = 0 ] && echo 'the layers hold'

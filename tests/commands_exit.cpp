@@ -82,7 +82,7 @@ TEST_CASE("commands: a mistake in the scene is exit 3 with its place, an unknown
     CHECK(result.err.find("did you mean 'theta'?") != std::string::npos);
     CHECK(run({"derive", "no/such/scene.toml"}).exit == 3);
     const std::string scene = temporary("pendulum.toml", pendulum);
-    CHECK(run({"derive", scene, "--by", "schiehlen"}).exit == 3);
+    CHECK(run({"derive", scene, "--by", "newton"}).exit == 3);
     CHECK(run({"eval", scene, "--at", "thetta=1"}).exit == 3);
     CHECK(run({"eval", scene, "--at", "theta=1x"}).exit == 3);
     CHECK(run({"simulate", scene, "--tolerance", "-1"}).exit == 3);

@@ -196,6 +196,42 @@ TEST_CASE("space: the free body moves by Jacobi's elliptic functions, and its mo
         for (const double h : column(file, name)) CHECK(std::abs(h - value) < 1e-12);
 }
 
+// The same by a free joint, without speeds: four coordinates, their multiplier, and the mass centre drifting along.
+TEST_CASE("space: a body on a free joint tumbles by Jacobi's elliptic functions") {
+    const double A = 1, B = 2, C = 3, w1 = 0.3, w2 = 1, T2 = A * w1 * w1 + B * w2 * w2, L2 = A * A * w1 * w1 + B * B * w2 * w2;
+    const double a = std::sqrt((T2 * C - L2) / (A * (C - A))), b = std::sqrt((L2 - T2 * A) / (B * (B - A))),
+                 c = std::sqrt((L2 - T2 * A) / (C * (C - A))), p = std::sqrt((T2 * C - L2) * (B - A) / (A * B * C)),
+                 m = (C - B) * (L2 - T2 * A) / ((B - A) * (T2 * C - L2));
+    const std::string scene = temporary("tumble.toml", R"toml(
+[[body]]
+name = "brick"
+mass = 2
+inertia = [1, 2, 3]
+[[joint]]
+name = "flight"
+type = "free"
+parent = "N"
+child = "brick"
+coordinates = { x = { initial = 0, rate = 0.5 }, y = 0, z = 0, e0 = 1, e1 = { initial = 0, rate = 0.15 }, e2 = { initial = 0, rate = 0.5 }, e3 = 0 }
+[outputs]
+w1 = "dot(omega(brick), ex(brick))"
+w2 = "dot(omega(brick), ey(brick))"
+w3 = "dot(omega(brick), ez(brick))"
+[simulation]
+tolerance = 1e-13
+)toml"), file = temporary("tumble.csv", "");
+    for (const char* by : {"routh", "schiehlen", "roberson-wittenburg"}) {
+        CAPTURE(by);
+        const Json end = json_of({"simulate", scene, "--json", "--duration", "20", "--by", by, "-o", file});
+        const Jacobi e = jacobi(p * 20 + std::comp_ellint_1(std::sqrt(m)), m);
+        CHECK(std::abs(column(file, "w1").back() - a * e.dn) < 1e-10);
+        CHECK(std::abs(column(file, "w2").back() - b * e.sn) < 1e-10);
+        CHECK(std::abs(column(file, "w3").back() - c * e.cn) < 1e-10);
+        CHECK(std::abs(number(end["final"], "coordinates", "x") - 10) < 1e-10);
+        CHECK(end["constraint_drift"].get<double>() < 1e-13);
+    }
+}
+
 TEST_CASE("space: a body turned by a quaternion and by Euler angles goes through the same attitudes") {
     std::string by_e = textbook("free_body_quaternion");
     by_e = replaced(replaced(by_e, "e0 = 1", "e0 = \"cos(0.5)\""), "e1 = 0", "e1 = \"sin(0.5)\"");
@@ -237,13 +273,16 @@ TEST_CASE("space: the heavy top follows its elliptic solution, by Euler angles a
         CHECK(std::abs(number(angles, "coordinates", "phi") - point.phi) < 1e-10);
         CHECK(std::abs(number(angles, "coordinates", "psi") - point.psi) < 1e-10);
         const std::string file = temporary("top.csv", "");
-        const Json e = json_of({"simulate", source_path("scenes/textbook/heavy_top_quaternion.toml"), "--json", "--duration", point.t, "-o", file});
-        CHECK(std::abs(column(file, "height").back() - std::cos(point.theta)) < 1e-10);
-        // z-x-z: e0 = cos θ/2 cos (φ+ψ)/2, e3 = cos θ/2 sin (φ+ψ)/2; both signs are the same attitude, continued from the start.
-        const double half = (point.phi + point.psi) / 2;
-        CHECK(std::abs(number(e["final"], "coordinates", "e0") - std::cos(point.theta / 2) * std::cos(half)) < 1e-10);
-        CHECK(std::abs(number(e["final"], "coordinates", "e3") - std::cos(point.theta / 2) * std::sin(half)) < 1e-10);
-        for (const double v : column(file, "vertical")) CHECK(std::abs(v - 0.5 * 4 * std::cos(1.0)) < 1e-12);
+        for (const char* name : {"heavy_top_quaternion", "heavy_top_joint"}) {
+            CAPTURE(name);
+            const Json e = json_of({"simulate", source_path(std::string("scenes/textbook/") + name + ".toml"), "--json", "--duration", point.t, "-o", file});
+            CHECK(std::abs(column(file, "height").back() - std::cos(point.theta)) < 1e-10);
+            // z-x-z: e0 = cos θ/2 cos (φ+ψ)/2, e3 = cos θ/2 sin (φ+ψ)/2; both signs are the same attitude, continued from the start.
+            const double half = (point.phi + point.psi) / 2;
+            CHECK(std::abs(number(e["final"], "coordinates", "e0") - std::cos(point.theta / 2) * std::cos(half)) < 1e-10);
+            CHECK(std::abs(number(e["final"], "coordinates", "e3") - std::cos(point.theta / 2) * std::sin(half)) < 1e-10);
+            for (const double v : column(file, "vertical")) CHECK(std::abs(v - 0.5 * 4 * std::cos(1.0)) < 1e-12);
+        }
     }
 }
 
@@ -299,7 +338,7 @@ lean = "tilt"
         CHECK(std::abs(number(end, "coordinates", "y") - (number(angles, "coordinates", "y") - 0.5 * std::sin(theta) * std::cos(psi) + 0.5 * std::sin(0.3))) < 1e-9);
     }
     const auto proved = run({"agree", scene});
-    CHECK(proved.out.rfind("routh, kane, dalembert, nielsen: proved", 0) == 0);
+    CHECK(proved.out.rfind("routh, kane, dalembert, nielsen, schiehlen: proved", 0) == 0);
 }
 
 TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {
@@ -310,6 +349,14 @@ TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes"
         CHECK(result.err.find("the angles phi, theta, psi of frame 'F' are in gimbal lock") != std::string::npos);
         CHECK(result.err.find("give the frame a quaternion") != std::string::npos);
     }
+    std::string joint = textbook("heavy_top_joint");
+    joint = without(without(without(joint, "[speeds]"), "[outputs]"), "[[claim]]");
+    joint = replaced(joint, "coordinates = { e0 = \"cos(theta0/2)\", e1 = \"sin(theta0/2)\", e2 = 0, e3 = 0 }",
+                     "angles = \"zxz\"\ncoordinates = { phi = 0, theta = 0, psi = { initial = 0, rate = 4 } }");
+    const auto held = run({"simulate", temporary("held.toml", joint)});
+    CHECK(held.exit == 4);
+    CHECK(held.err.find("give joint 'tip' a quaternion: four coordinates, { e0 = 1, e1 = 0, e2 = 0, e3 = 0 }, in place of its three angles") !=
+          std::string::npos);
     const std::string passes = temporary("passes.toml", replaced(textbook("heavy_top_quaternion"), "theta0 = { value = 1.0", "theta0 = { value = 0.0"));
     const Json end = json_of({"simulate", passes, "--json"})["final"];  // it sleeps
     CHECK(std::abs(number(end, "coordinates", "e0") - std::cos(20.0)) < 1e-10);
@@ -351,4 +398,68 @@ TEST_CASE("space: what is wrong with a quaternion or a contact at the scene's va
     const auto torn = run({"derive", temporary("torn.toml", replaced(still, "[0, 1, \"x\"]", "[0, \"t\", \"x\"]"))});
     CHECK(torn.exit == 3);
     CHECK(torn.err.find("rolling 'r' cannot hold: along y the contact moves by itself") != std::string::npos);
+}
+
+TEST_CASE("space: the gallery's mechanisms in space keep their energy and their loops") {
+    for (const char* name : {"rssr", "six_joint_arm", "stewart"}) {
+        CAPTURE(name);
+        const Json motion = json_of({"simulate", source_path(std::string("scenes/gallery/") + name + ".toml"), "--json", "--duration", "1"});
+        CHECK(motion["energy_drift"].get<double>() < 1e-9);
+        if (!motion["constraint_drift"].is_null()) CHECK(motion["constraint_drift"].get<double>() < 1e-12);
+    }
+}
+
+// The crank's end, the rocker's foot and end: the coupler spans them with its length, wherever the crank is.
+TEST_CASE("space: the rocker of the spatial four-bar stands where the crank's angle puts it") {
+    const Json end = json_of({"simulate", source_path("scenes/gallery/rssr.toml"), "--json"})["final"];
+    const double alpha = number(end, "coordinates", "alpha"), beta = number(end, "coordinates", "beta");
+    const double a = 0.3, b = 1.2, c = 0.8, d = 1.0, h = 0.2;
+    // The rocker turns about -y: its end is (d + c cos beta, h, c sin beta).
+    const double x = d + c * std::cos(beta) - a * std::cos(alpha), y = h - a * std::sin(alpha), z = c * std::sin(beta);
+    CHECK(std::abs(std::sqrt(x * x + y * y + z * z) - b) < 1e-11);
+    CHECK(std::abs(alpha - 0.5) > 2 * M_PI);  // the crank goes round
+}
+
+TEST_CASE("space: the Furuta pendulum of bodies obeys its hand derivation, and its work is accounted for") {
+    const std::string scene = source_path("scenes/gallery/furuta_joints.toml");
+    CHECK(run({"check", scene}).out.rfind("proved", 0) == 0);
+    CHECK(json_of({"simulate", scene, "--json"})["work_balance"].get<double>() < 1e-10);
+}
+
+TEST_CASE("space: moments that no body has are refused or told, with the body, at the values of the run") {
+    const std::string text = "[parameters]\nJ = 1\n[coordinates]\nphi = 0\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", \"phi\"]]\n[[body]]\nname = \"B\"\n"
+                             "mass = 1\nframe = \"F\"\nposition = [0, 0]\ninertia = [1, 1, \"J\"]\n";
+    const auto with = [&](const std::string& inertia) { return temporary("moments.toml", replaced(text, "[1, 1, \"J\"]", inertia)); };
+    CHECK(run({"derive", with("[1, 1, \"2*J\"]")}).err.empty());
+    const auto wide = run({"derive", with("[1, 1, \"3*J\"]")});
+    CHECK(wide.exit == 0);
+    CHECK(wide.err.find("moments.toml:13:11: warning: the principal moments of inertia of body 'B', 1, 1 and 3, break the triangle inequality") !=
+          std::string::npos);
+    const auto negative = run({"derive", with("[1, 1, \"-J\"]")});
+    CHECK(negative.exit == 3);
+    CHECK(negative.err.find("the moment of inertia of body 'B' is -1; expected zero or more") != std::string::npos);
+    const auto tilted = run({"agree", with("{ xx = 1, yy = 1, zz = 1, xy = 2 }")});
+    CHECK(tilted.exit == 3);
+    CHECK(tilted.err.find("the principal moments of inertia of body 'B', -1, 1 and 3, are not all zero or more") != std::string::npos);
+    const auto later = run({"eval", with("[1, 1, \"J\"]"), "--at", "J=-0.5"});
+    CHECK(later.exit == 3);
+    CHECK(later.err.find("of body 'B', -0.5, 1 and 1, are not all") != std::string::npos);
+    // About a point half a metre away: the mass centre's share is more than what is given.
+    const auto about = run({"derive", with("[1, 0.1, 1]\nabout = \"P\"\n[[point]]\nname = \"P\"\nfrom = \"B\"\noffset = [0.5, 0]\naxes = \"F\"")});
+    CHECK(about.exit == 3);
+    CHECK(about.err.find("(about its mass centre; they are given about 'P'), -0.15, ") != std::string::npos);
+}
+
+TEST_CASE("space: a loop that cannot close is told with the joint, and how far apart its bodies stand") {
+    const std::string text = "[[body]]\nname = \"A\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"a\"\ntype = \"revolute\"\nparent = \"N\"\n"
+                             "child = \"A\"\ncoordinates = { q = 0 }\n[[joint]]\nname = \"b\"\ntype = \"revolute\"\nparent = \"A\"\nchild = \"N\"\n";
+    const auto apart = run({"derive", temporary("apart.toml", text + "parent_point = [0, 0, 1]\n")});
+    CHECK(apart.exit == 3);
+    CHECK(apart.err.find("joint 'b' cannot close: in its locked direction 3") != std::string::npos);
+    CHECK(apart.err.find("the bodies stand apart by -1, and no coordinate can change that") != std::string::npos);
+    // Coordinates move these, but never far enough.
+    const auto far = run({"derive", temporary("far.toml", text + "parent_point = [1, 0, 0]\nchild_point = [3, 0, 0]\n")});
+    CHECK(far.exit == 3);
+    CHECK(far.err.find("constraints 'b_1' and 'b_2' contradict each other") != std::string::npos);
+    CHECK(far.out.empty());
 }

@@ -38,9 +38,9 @@ std::string equations_of(const Mechanism& m) {
 }  // namespace
 
 TEST_CASE("kane: Euler's equations come out in the components of the angular velocity") {
-    CHECK(equations_of(textbook("free_body")).find("I1*w1' + (I3-I2)*w2*w3 = 0\n"
-                                                   "I2*w2' + (I1-I3)*w1*w3 = 0\n"
-                                                   "I3*w3' + (I2-I1)*w1*w2 = 0\n") == 0);
+    CHECK(equations_of(textbook("free_body")).find("I1*w1' - (I2-I3)*w2*w3 = 0\n"
+                                                   "I2*w2' - (I3-I1)*w3*w1 = 0\n"
+                                                   "I3*w3' - (I1-I2)*w1*w2 = 0\n") == 0);
 }
 
 TEST_CASE("kane: the sleigh's equations in v and w have no multiplier") {

@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <fstream>
 #include <sstream>
 
@@ -12,7 +14,9 @@
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
+#include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routh.hpp"
+#include "formalism/schiehlen.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
 
@@ -41,11 +45,12 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 
 Program lowered(const Mechanism& m, const Equations& equations) { return lower(m, equations, energy_of(m)); }
 
-/// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by Kane's and d'Alembert's.
+/// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by those that start from bodies.
 void same_motion(const std::string& joints, const std::string& frames) {
     const Mechanism a = from_text(joints), b = from_text(frames);
     REQUIRE(a.size() == b.size());
-    const Program p = lowered(a, lagrange(a)), r = lowered(b, lagrange(b)), k = lowered(a, kane(a)), d = lowered(a, dalembert(a));
+    const Program p = lowered(a, lagrange(a)), r = lowered(b, lagrange(b)), k = lowered(a, kane(a)), d = lowered(a, dalembert(a)),
+                  s = lowered(a, schiehlen(a)), w = lowered(a, roberson_wittenburg(a));
     const unsigned seed = 20040110;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
@@ -53,7 +58,7 @@ void same_motion(const std::string& joints, const std::string& frames) {
         const State<double> state = test::random_state(start_of(a), random);
         const std::vector<double> expected = group(r, state, "acceleration");
         // Rounding times the conditioning of M (below 10³ here).
-        for (const Program* program : {&p, &k, &d}) CHECK(distance(group(*program, state, "acceleration"), expected) < 1e-12);
+        for (const Program* program : {&p, &k, &d, &s, &w}) CHECK(distance(group(*program, state, "acceleration"), expected) < 1e-12);
         CHECK(distance(group(p, state, "energy"), group(r, state, "energy")) < 1e-13);
     }
 }
@@ -262,6 +267,48 @@ TEST_CASE("joints: a body placed by a joint of any type moves as one placed by f
         }
 }
 
+TEST_CASE("joints: a spherical joint by a quaternion turns the child against the parent by that quaternion, whichever it places") {
+    for (const bool from_parent : {true, false}) {
+        CAPTURE(from_parent);
+        std::string text = fmt::format("{}[[body]]\nname = \"A\"{}[[body]]\nname = \"B\"{}", base, masses, masses);
+        text += "[[joint]]\nname = \"first\"\ntype = \"revolute\"\nparent = \"N\"\nchild = \"A\"\naxis = [1, 2, 2]\ncoordinates = { q0 = 0.3 }\n";
+        text += fmt::format("[[joint]]\nname = \"ball\"\ntype = \"spherical\"\nparent = \"{0}\"\nchild = \"{1}\"\nparent_point = [0.3, 0, 0.1]\n"
+                            "child_point = [0, 0.2, 0]\ncoordinates = {{ a = 1, b = 0, c = 0, d = 0 }}\n[outputs]\n",
+                            from_parent ? "A" : "B", from_parent ? "B" : "A");
+        const char* axes[] = {"ex", "ey", "ez"};
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k)
+                text += fmt::format("R{}{} = \"dot({}({}), {}({}))\"\n", i, k, axes[i], from_parent ? "A" : "B", axes[k], from_parent ? "B" : "A");
+        const Mechanism m = from_text(text);
+        REQUIRE(m.constraints.size() == 1);
+        CHECK(m.constraints[0].multiplier.get_name() == "lambda_B");
+        const Program program = lowered(m, routh(m)), k = lowered(m, kane(m)), s = lowered(m, schiehlen(m)), w = lowered(m, roberson_wittenburg(m));
+        std::mt19937_64 random(20040110);
+        for (int i = 0; i < 5; ++i) {
+            State<double> state = test::random_state(start_of(m), random);  // q0, a, b, c, d
+            const Eigen::Quaterniond e(state.q[1], state.q[2], state.q[3], state.q[4]);
+            const Eigen::Matrix3d R = e.normalized().toRotationMatrix();
+            const std::vector<double> outputs = group(program, state, "output");
+            for (int r = 0; r < 9; ++r) CHECK(outputs[r] == doctest::Approx(R(r / 3, r % 3)).epsilon(1e-13));
+            for (const Program* other : {&k, &s, &w})
+                CHECK(distance(group(*other, state, "acceleration"), group(program, state, "acceleration")) < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("joints: a free joint whose quaternion is prescribed moves as the body turned by angles as prescribed") {
+    const std::string head = fmt::format("{}[[body]]\nname = \"B\"{}[[joint]]\nname = \"j\"\ntype = \"free\"\nparent = \"N\"\nchild = \"B\"\n"
+                                         "child_point = [0.1, 0.2, 0.3]\ncoordinates = {{ x = 0, y = 0, z = 0 }}\n",
+                                         base, masses);
+    const Mechanism a = from_text(head + "motion = { a = 'cos(t/2)', b = '0', c = '0', d = 'sin(t/2)' }\n"),
+                    b = from_text(head + "angles = 'xyz'\nmotion = { p = '0', q = '0', r = 't' }\n");
+    CHECK(a.constraints.empty());
+    REQUIRE(a.size() == 3);
+    std::mt19937_64 random(20040110);
+    const State<double> state = test::random_state(start_of(a), random);
+    CHECK(distance(group(lowered(a, lagrange(a)), state, "acceleration"), group(lowered(b, kane(b)), state, "acceleration")) < 1e-12);
+}
+
 TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
     for (const Locked& c : locked) {
         CAPTURE(c.type);
@@ -438,17 +485,46 @@ TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
         std::vector<double> expected;
         for (double a = 0; words >> a;) expected.push_back(a);
         const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
-        for (const Equations& equations : {lagrange(m), kane(m), dalembert(m)}) {
+        for (const Equations& equations : {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
             CAPTURE(equations.formalism);
             CHECK(distance(group(lowered(m, equations), start_of(m).state(), "acceleration"), expected) < 1e-12);
             ++compared;
         }
     }
-    CHECK(compared == 21);
+    CHECK(compared == 35);
+}
+
+// A hangs on the ground, C on A, B on C by a joint from B to C; D closes a loop from B to the ground; P is a particle on its own.
+TEST_CASE("joints: incidence and path matrix of the system graph are inverse to each other") {
+    std::string text = "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n";
+    for (const char* body : {"A", "B", "C"}) text += fmt::format("[[body]]\nname = \"{}\"{}", body, masses);
+    const auto joint = [](const char* name, const char* type, const char* parent, const char* child, const char* q) {
+        return fmt::format("[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n{}", name, type, parent, child,
+                           *q != 0 ? fmt::format("coordinates = {{ {} = 0 }}\n", q) : std::string());
+    };
+    const Mechanism m = from_text(text + joint("b", "revolute", "B", "C", "q1") + joint("d", "spherical", "N", "B", "") +
+                                  joint("c", "revolute", "A", "C", "q2") + joint("a", "prismatic", "N", "A", "q3"));
+    const SystemGraph g = system_graph(m);
+    REQUIRE(g.arcs.size() == 4);
+    CHECK(g.chords == std::vector<std::string>{"d: N -> B"});
+    // Bodies P, A, B, C; arcs P (its own), a: N -> A, c: A -> C, b: B -> C.
+    CHECK(g.S_0 == std::vector<int>{1, 1, 0, 0});
+    CHECK(g.S == std::vector<std::vector<int>>{{-1, 0, 0, 0}, {0, -1, 1, 0}, {0, 0, 0, 1}, {0, 0, -1, -1}});
+    CHECK(g.T == std::vector<std::vector<int>>{{-1, 0, 0, 0}, {0, -1, -1, -1}, {0, 0, -1, -1}, {0, 0, 1, 0}});
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            int unit = 0, ground = 0;
+            for (std::size_t a = 0; a < 4; ++a) {
+                unit += g.T[i][a] * g.S[a][k];
+                ground += g.S_0[a] * g.T[a][k];
+            }
+            CHECK(unit == (i == k ? 1 : 0));
+            CHECK(ground == -1);
+        }
 }
 
 TEST_CASE("joints: every formalism that applies gives the same equations of the gallery's mechanisms") {
-    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum"}) {
+    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum", "furuta_joints", "rssr"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
         const Derivations derivations = derive_all(m);

@@ -78,7 +78,13 @@ private:
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < speeds.size(); ++k) {
             const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
-            if (!(misfit <= allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k]))))
+            double row = 0, largest = 0;  // the terms may all be zero, but for what rounding leaves of the solution
+            for (Eigen::Index j = 0; j < n; ++j) {
+                row += std::abs(value[forms[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]]);
+                largest = std::max(largest, std::abs(start_.qdot[j]));
+            }
+            const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
+            if (!(misfit <= allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) + rounding))
                 throw ModelError(fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
                                              "constraints leave it off by {:.6g} at these coordinates",
                                              m_.speeds[k].u.get_name(), start_.speeds[k], misfit));

@@ -37,10 +37,7 @@ constexpr std::size_t most_states = 1200;
 class Checker {
 public:
     Checker(const Scene& scene, const Mechanism& m, const Equations& e)
-        : scene_(scene), m_(m), e_(e), pressed_(e), claims_(scene, m, e) {
-        for (const Mechanism::Unilateral& u : m.unilateral)
-            for (int i = 0; i < e.size(); ++i) pressed_.own[i] += u.gap.row[i] * u.gap.multiplier;
-    }
+        : scene_(scene), m_(m), e_(e), claims_(scene, m, e) {}
 
     Checked run() {
         read();
@@ -54,11 +51,14 @@ public:
             if (when_ == "impact" && !claims_.after_impact())
                 for (const std::size_t k : here) result_.claims[k].reason = claims_.impact_obstacle();
             else  // the rates after an impact are expressions by now, in what any state of motion gives
-                for (const bool pressed : {false, true}) {
+                while (!here.empty()) {
+                    const std::vector<std::size_t> spoken = undetermined_in(here.front());
                     std::vector<std::size_t> part = here;
-                    std::erase_if(part, [&](std::size_t k) { return speaks_of_contacts(k) != pressed; });
-                    law_ = pressed ? &pressed_ : &e_;
-                    if (!part.empty()) settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
+                    std::erase_if(part, [&](std::size_t k) { return undetermined_in(k) != spoken; });
+                    std::erase_if(here, [&](std::size_t k) { return undetermined_in(k) == spoken; });
+                    law_ = with_multipliers(spoken);
+                    spoken_ = spoken;
+                    settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
                 }
         }
         result_.complete = complete();
@@ -76,18 +76,30 @@ private:
         if (!mistakes.empty()) fail(scene_, mistakes);
     }
 
-    /// A claim with a contact's multiplier holds whatever that is; one without speaks of the motion while all gaps are open.
-    bool speaks_of_contacts(std::size_t k) const {
-        std::vector<GiNaC::symbol> symbols;
-        for (const Mechanism::Unilateral& u : m_.unilateral) symbols.push_back(u.gap.multiplier);
-        return m_.z->depends(forms_[k].residual, symbols);
+    /// Which of m_.undetermined() the claim names. With a contact's multiplier it holds whatever that is, without it speaks of the
+    /// motion while the gap is open; the same for a constraint that follows from others, without whose row the equations stand.
+    std::vector<std::size_t> undetermined_in(std::size_t claim) const {
+        std::vector<std::size_t> result;
+        const auto all = m_.undetermined();
+        for (std::size_t k = 0; k < all.size(); ++k)
+            if (m_.z->depends(forms_[claim].residual, {all[k]->multiplier})) result.push_back(k);
+        return result;
+    }
+
+    Equations with_multipliers(const std::vector<std::size_t>& undetermined) const {
+        Equations law = e_;
+        for (const std::size_t k : undetermined) {
+            const Mechanism::Constraint& c = *m_.undetermined()[k];
+            for (int i = 0; i < law.size(); ++i) law.own[i] += c.row[i] * c.multiplier;
+        }
+        return law;
     }
 
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<ExactStates> states;
         for (const int halves : {0, 1, 2}) {
-            states.emplace(m_, *law_, at, halves);
+            states.emplace(m_, law_, at, halves);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -164,7 +176,7 @@ private:
         }
         if (*zero) {
             c.verdict = Verdict::proved;
-            c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, *law_)) ||
+            c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
         }
@@ -208,9 +220,8 @@ private:
         for (const auto& [kind, primes] : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
             for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + primes, {kind, i});
         for (std::size_t k = 0; k < e_.lambda.size(); ++k) add(e_.lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
-        for (std::size_t k = 0; k < m_.unilateral.size(); ++k)
-            if (law_ == &pressed_)
-                add(m_.unilateral[k].gap.multiplier.get_name(), {Kind::unknown, static_cast<int>(e_.lambda.size() + k)});
+        for (const std::size_t k : spoken_)
+            add(m_.undetermined()[k]->multiplier.get_name(), {Kind::unknown, static_cast<int>(e_.lambda.size() + k)});
         for (const int o : open) add(claims_.open()[o].name, {claims_.open()[o].variable.kind, claims_.open()[o].variable.index});
         c.residual = text_of(residual);
         c.residual_value = residual.to_double();
@@ -242,7 +253,7 @@ private:
         }
         if (states.motions.where() != Motions::At::motion) return;
         if (forms_[k].open.empty() && when_ == "motion")
-            if (const auto nearest = nearest_equation(forms_[k].residual, m_, *law_)) {
+            if (const auto nearest = nearest_equation(forms_[k].residual, m_, law_)) {
                 c.nearest = nearest->equation;
                 c.difference = nearest->difference;
             }
@@ -260,7 +271,7 @@ private:
             const std::optional<int> root = node_of(p, value);
             return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
         };
-        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, *law_,
+        c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, law_,
                                {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim, std::vector<std::string> terms) {
                                     return absent(claim, std::move(terms), states);
                                 }});
@@ -287,7 +298,7 @@ private:
         std::vector<std::string> texts;
         std::vector<int> nodes;
         std::vector<Diagnostic> mistakes;
-        if (terms.empty()) terms = terms_of_mechanics(claim, m_, *law_);
+        if (terms.empty()) terms = terms_of_mechanics(claim, m_, law_);
         for (std::string& text : terms) {
             const Expression value = parse_expression(text, {}, mistakes);
             const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt;
@@ -587,8 +598,8 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    Equations pressed_;               // with the contacts' multipliers
-    const Equations* law_ = nullptr;  // of the claims in hand
+    Equations law_;                     // of the claims in hand
+    std::vector<std::size_t> spoken_;   // the multipliers of m_.undetermined() in it
     Claims claims_;
     std::vector<ClaimForm> forms_;
     std::string when_;

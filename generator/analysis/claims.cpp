@@ -56,7 +56,7 @@ void Claims::know_intermediates(const Scene& scene) {
 void Claims::open_name(const std::string& name, bool constant) {
     for (const Open& known : open_)
         if (known.name == name) return;
-    const int index = static_cast<int>(e_.lambda.size() + m_.unilateral.size() + open_.size());
+    const int index = static_cast<int>(e_.lambda.size() + m_.undetermined().size() + open_.size());
     const GiNaC::symbol symbol = m_.symbols->declare(name, SymbolInfo::Kind::other, index);
     open_.push_back({name, constant, symbol, {Variable::Kind::unknown, index}});
     formulas_.know(name, symbol);
@@ -127,9 +127,9 @@ std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) co
     std::vector<std::pair<GiNaC::symbol, int>> given;
     for (std::size_t k = 0; k < e_.lambda.size(); ++k)
         given.emplace_back(e_.lambda[k], program.variable({Variable::Kind::unknown, static_cast<int>(k)}));
-    for (std::size_t k = 0; k < m_.unilateral.size(); ++k)
-        given.emplace_back(m_.unilateral[k].gap.multiplier,
-                           program.variable({Variable::Kind::unknown, static_cast<int>(e_.lambda.size() + k)}));
+    int next_unknown = static_cast<int>(e_.lambda.size());
+    for (const Mechanism::Constraint* c : m_.undetermined())
+        given.emplace_back(c->multiplier, program.variable({Variable::Kind::unknown, next_unknown++}));
     for (const Open& o : open_) given.emplace_back(o.symbol, program.variable(o.variable));
     return lower_expressions(program, m_, list, given);
 }

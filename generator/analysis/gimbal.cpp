@@ -25,6 +25,16 @@ double evenness(const Program& program, const std::vector<int>& nodes, const Sta
     return sigma[0] > 0 ? sigma[2] / sigma[0] : 0;
 }
 
+std::string way_out(const Scene& scene, const Body& body) {
+    if (!body.joint) return "give the frame a quaternion, quaternion = [\"e0\", \"e1\", \"e2\", \"e3\"], in place of 'rotate'";
+    const Joint& joint = scene.joints[*body.joint];
+    if (!joint.angles.empty())
+        return fmt::format("give joint '{}' a quaternion: four coordinates, {{ e0 = 1, e1 = 0, e2 = 0, e3 = 0 }}, in place of its three "
+                           "angles, and no 'angles'",
+                           joint.name.text);
+    return "let one spherical joint turn the body, by a quaternion: four coordinates, scalar first, and no 'angles'";
+}
+
 }  // namespace
 
 std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, const State<double>& state) {
@@ -54,9 +64,8 @@ std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, c
         for (std::size_t i = 0; i < beside.q.size(); ++i) beside.q[i] += 0.3 + 0.1 * static_cast<double>(i);
         if (evenness(program, nodes, beside) < near) continue;
         return fmt::format("the angles {} of frame '{}' are in gimbal lock: two of them turn body '{}' about the same line, and the third "
-                           "cannot turn it about all others; give the frame a quaternion, quaternion = [\"e0\", \"e1\", \"e2\", \"e3\"], "
-                           "in place of 'rotate'",
-                           angles, body.frame.text, body.name.text);
+                           "cannot turn it about all others; {}",
+                           angles, body.frame.text, body.name.text, way_out(scene, body));
     }
     return std::nullopt;
 }

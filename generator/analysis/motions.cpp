@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <tuple>
 
 #include "analysis/common_zeros.hpp"
 #include "analysis/angle_sum.hpp"
@@ -18,24 +19,27 @@ namespace {
 /// How a variable occurs in an expression.
 struct Occurrence {
     bool plain = false, turned = false;  // outside sines and cosines; in them
+    bool rooted = false;                 // under a root: no polynomial in it goes to zero where the condition does
 };
 using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
 
 Occurrences occurrences(const Program& p, int root) {
     Occurrences result;
-    std::set<std::pair<int, bool>> seen;
-    std::vector<std::pair<int, bool>> stack{{root, false}};
+    std::set<std::tuple<int, bool, bool>> seen;
+    std::vector<std::tuple<int, bool, bool>> stack{{root, false, false}};
     while (!stack.empty()) {
-        const auto [id, turned] = stack.back();
+        const auto [id, turned, rooted] = stack.back();
         stack.pop_back();
-        if (!seen.emplace(id, turned).second) continue;
+        if (!seen.emplace(id, turned, rooted).second) continue;
         const Node& node = p[id];
         if (node.op == Op::variable) {
             Occurrence& o = result[{node.variable.kind, node.variable.index}];
             (turned ? o.turned : o.plain) = true;
+            o.rooted = o.rooted || rooted;
         }
         const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
-        for (const int arg : node.args) stack.emplace_back(arg, inside);
+        const bool under = rooted || node.op == Op::sqrt;
+        for (const int arg : node.args) stack.emplace_back(arg, inside, under);
     }
     return result;
 }
@@ -88,8 +92,9 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
     // A contact's multiplier is whatever its bodies press with: a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (std::size_t k = 0; k < m.unilateral.size(); ++k)
-        given.emplace_back(m.unilateral[k].gap.multiplier, program_.variable({Variable::Kind::unknown, m_ + static_cast<int>(k)}));
+    int next_unknown = m_;
+    for (const Mechanism::Constraint* c : m.undetermined())
+        given.emplace_back(c->multiplier, program_.variable({Variable::Kind::unknown, next_unknown++}));
     const std::vector<int> nodes = lower_expressions(program_, m, list, given);
     auto next = nodes.begin();
     const auto take = [&](int count) {
@@ -138,7 +143,11 @@ void Motions::order(std::vector<int> conditions) {
         // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns of the others.
         constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
         std::optional<std::pair<std::size_t, Step>> chosen;
-        for (const auto& [kind, any_multiple] : {std::pair{kinds[0], false}, {kinds[1], false}, {kinds[1], true}, {kinds[2], true}}) {
+        constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
+        for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {  // under a root only where nothing else is left
+            const bool roots = choice >= orders.size();
+            const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
+            const bool any_multiple = orders[choice % orders.size()].second;
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
                 for (const auto& [variable, how] : held[c]) {
                     if (variable.first != kind || taken.contains(variable)) continue;
@@ -148,7 +157,7 @@ void Motions::order(std::vector<int> conditions) {
                     const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
-                    if (elsewhere || only_parameters || (how.plain && how.turned)) continue;
+                    if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned)) continue;
                     const Variable unknown{variable.first, variable.second};
                     if (!any_multiple && is_sum_of_variables(program_, conditions[c]) && !angle_sum(program_, conditions[c], unknown)) continue;
                     chosen.emplace(c, Step{{conditions[c], unknown, how.turned}, std::nullopt});

@@ -15,7 +15,7 @@
 /// this kind has no states here, and `obstacle` says so.
 /// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
-/// `unknown` m + k is the multiplier of unilateral constraint k, random, in equations that hold it.
+/// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(), random, in equations that hold it.
 ///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and what holds on one need not hold on the others: of the
 /// roots of a polynomial of degree d one is drawn, so that a branch is met at 1/d of the seeds at least. Where a quadratic equation

@@ -17,6 +17,7 @@ int agree(const Request& request) {
     const Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
+    check_bodies(scene, mechanism, {});
     if (!mechanism.speeds.empty()) mechanism = without_constraints(mechanism, redundant_constraints(mechanism));
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     const Derivations all = derive_all(mechanism);

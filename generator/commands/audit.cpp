@@ -115,6 +115,7 @@ int audit(const Request& request) {
     const Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     const Mechanism mechanism = build(scene);
+    check_bodies(scene, mechanism, {});
     const Audit result = audit_of(mechanism);
     if (request.json)
         std::cout << json_of(result, mechanism).dump(2) << "\n";

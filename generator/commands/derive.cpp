@@ -74,19 +74,28 @@ std::string text_left(const Statement& s) {
     }
 }
 
+/// w_x, the component of an angular velocity, is ω_x in print.
+bool is_angular(const std::string& letter) { return letter.size() == 3 && letter[0] == 'w' && letter[1] == '_'; }
+
+std::string latex_letter(const std::string& letter) { return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter; }
+
+std::string mathml_letter(const std::string& letter) {
+    return is_angular(letter) ? "<msub><mi>ω</mi><mi>" + letter.substr(2) + "</mi></msub>" : "<mi>" + letter + "</mi>";
+}
+
 std::string latex_left(const Statement& s) {
     const std::string of = s.of.empty() ? "" : fmt::format("^{{\\text{{{}}}}}", escaped(s.of, false));
     switch (s.kind) {
         case Statement::Kind::partial:
-            return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", s.letter, latex(*s.by));
+            return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
         case Statement::Kind::force:
         case Statement::Kind::work: return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
-        default: return s.letter + of;
+        default: return latex_letter(s.letter) + of;
     }
 }
 
 std::string mathml_left(const Statement& s) {
-    const std::string letter = "<mi>" + s.letter + "</mi>";
+    const std::string letter = mathml_letter(s.letter);
     const std::string of = "<mtext>" + escaped(s.of, true) + "</mtext>";
     switch (s.kind) {
         case Statement::Kind::partial:
@@ -203,6 +212,7 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
                                            freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
                                {}}};
 
+    if (!shown.angular.empty()) blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
     std::vector<Statement> energies = shown.energies;
     const auto total = [&](const char* letter, const Phrase& value) {
         energies.push_back({Statement::Kind::energy, letter, "", {}, value});
@@ -297,6 +307,11 @@ int derive(const Request& request) {
         blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
         for (const auto& [name, value] : shown.definitions)
             blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+        for (const Section& section : shown.sections) {
+            if (!request.steps) break;
+            blocks.push_back({section.words, {}});
+            for (const Statement& s : section.statements) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+        }
     } else if (request.steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }

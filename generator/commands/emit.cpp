@@ -19,7 +19,7 @@ int emit_files(const Request& request) {
         derivatives = differentiated(choice.program, {.parameters = true, .power = true});
         if (!derivatives) throw ModelError("the derivatives of the right-hand side are too long to be written out; leave out --jacobian");
     }
-    const Source source = emit(derivatives ? derivatives->program : choice.program);
+    const Source source = emit(derivatives ? derivatives->program : choice.program, {.batch = request.batch});
     std::error_code failed;
     std::filesystem::create_directories(request.output, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
@@ -31,7 +31,12 @@ int emit_files(const Request& request) {
         result["files"] = {path};
         result["operations"] = source.operations.total();
         result["formulation"] = source.formulation;
-        if (choice.runner_up) result["runner_up_operations"] = *choice.runner_up;
+        result["chain"] = choice.cost.chain;
+        if (choice.runner_up) {
+            const RunnerUp& second = *choice.runner_up;
+            result["runner_up"] = {{"formulation", second.formulation}, {"operations", second.cost.operations}, {"chain", second.cost.chain}};
+            result["runner_up_operations"] = second.cost.operations;
+        }
         if (derivatives) {
             result["jacobian_operations"] = derivatives->operations.total();
             result["jacobian_route"] = derivatives->route;
@@ -45,6 +50,8 @@ int emit_files(const Request& request) {
                    source.operations.multiplications, source.operations.divisions, source.operations.functions);
         if (derivatives)
             fmt::print("the Jacobian takes {} operations ({})\n", derivatives->operations.total(), derivatives->route);
+        if (choice.runner_up)
+            fmt::print("next best: {}, {} operations\n", choice.runner_up->formulation, choice.runner_up->cost.operations);
         if (has_contacts)
             fmt::print("this is the motion while all gaps are open; simulate emits the other contact modes as it meets them\n");
     }

@@ -107,6 +107,7 @@ int impact(const Request& request) {
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     if (!request.by.empty()) formalism(request.by);  // any will do: the momenta are the same in all
     const Mechanism mechanism = build(scene);
+    check_bodies(scene, mechanism, {});
     const Impact hit = impact(mechanism);
     if (request.json) {
         std::cout << as_json(hit, mechanism).dump(2) << "\n";

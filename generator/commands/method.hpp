@@ -3,10 +3,11 @@
 
 /// Which method integrates a scene, and why.
 ///
-///     const MethodChoice choice = method_for(request, derived, start);
+///     const MethodChoice choice = method_for(request, derived, program, start);
 ///     choice.why;      // "the tolerance is 1e-09; if the system turns out stiff, radau goes on"
 ///
-/// `auto` looks at the structure (is the energy separable?), the length of the run in steps, and the tolerance:
+/// `auto` looks at the structure (is the energy separable? has the motion a power series?), the length of the run in steps,
+/// the tolerance, and the size of the equations:
 ///
 /// | asked for | chosen |
 /// | --- | --- |
@@ -14,9 +15,10 @@
 /// | a step | rk4 |
 /// | a tolerance above 1e-5 | dopri5 |
 /// | 1e-12 and above | dop853 |
+/// | below, the motion has a power series of at most 300 products an order | taylor |
 /// | below | verner98 |
 ///
-/// and the adaptive ones watch for stiffness while they run (stiffness.hpp), and give way to radau.
+/// and the explicit Runge-Kutta methods watch for stiffness while they run (stiffness.hpp), and give way to radau.
 
 #include "alembert/integrate.hpp"
 #include "commands/pipeline.hpp"
@@ -29,11 +31,11 @@ struct MethodChoice {
     std::string why = {};  ///< empty where the method was given
 };
 
-/// Throws ModelError for a name that is none, and for a method that the scene does not allow.
-MethodChoice method_for(const Request& request, const Derived& derived, const Start& start);
+/// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a method that
+/// the scene does not allow.
+std::optional<Method> given_method(const Request& request, const Derived& derived);
 
-/// Why verlet and kahanli8 cannot be taken; nothing where they can. They take for granted that q' = u, and M and u' = M⁻¹f in which no
-/// rate (and, for M, no coordinate) occurs. What occurs only to cancel counts as there.
-std::optional<std::string> not_separable(const Derived& derived);
+/// That, or the one that suits. `program` is what will run.
+MethodChoice method_for(const Request& request, const Derived& derived, const Program& program, const Start& start);
 
 }  // namespace alembert

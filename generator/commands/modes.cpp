@@ -6,6 +6,7 @@
 #include "alembert/compile.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
+#include "emit/taylor.hpp"
 #include "lower/differentiate.hpp"
 
 namespace alembert {
@@ -24,8 +25,8 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
 }  // namespace
 
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,
-             bool jacobian, OnModeStep on_step)
-    : request_(request), derived_(derived), start_(start), first_(first), work_(work), jacobian_(jacobian), on_step_(std::move(on_step)) {}
+             const MethodChoice& method, OnModeStep on_step)
+    : request_(request), derived_(derived), start_(start), first_(first), work_(work), method_(method), on_step_(std::move(on_step)) {}
 
 void Modes::take_free(Program program) { free_ = std::move(program); }
 
@@ -33,6 +34,27 @@ const LoadedMode& Modes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
     if (!mode) mode = made(closed);
     return *mode;
+}
+
+Rhs Modes::with_jacobian(LoadedMode& mode) {
+    if (!mode.when_stiff) {
+        mode.when_stiff = mode.contact.rhs;
+        double clock = process_seconds();
+        if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
+            const Source source = emit(derivatives->program);
+            seconds_.emit += process_seconds() - clock;
+            clock = process_seconds();
+            const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
+            mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
+            mode.jacobian_operations = derivatives->operations.total();
+            seconds_.compile += process_seconds() - clock;
+        }
+    }
+    return *mode.when_stiff;
+}
+
+CompileOptions Modes::options_of_compiler() const {
+    return {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}};
 }
 
 std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
@@ -52,12 +74,16 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
-    const std::optional<Differentiated> derivatives = jacobian_ ? affordable_derivatives(program, work_) : std::nullopt;
+    const std::optional<Differentiated> derivatives =
+        uses_jacobian(method_.method) ? affordable_derivatives(program, work_) : std::nullopt;
+    std::optional<Source> series;
+    if (needs_series(method_.method)) series = emit_taylor(program, work_ == Work::integrated);
     Source source = emit(derivatives ? derivatives->program : program);
     seconds_.emit += lap();
-    const Compiled compiled =
-        compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}});
+    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
     const Module module = load(compiled.object);
+    SeriesModule series_module;
+    if (series) series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
@@ -73,6 +99,8 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                                     .events = make_events(module, values, stops)},
                                                         .from_cache = compiled.from_cache});
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
+    if (series_module) mode->contact.rhs.series = make_series(series_module, values);
+    if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     LoadedMode* const self = mode.get();
     if (constrained) mode->contact.project = std::ref(self->projection);
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {

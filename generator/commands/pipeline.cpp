@@ -16,6 +16,7 @@
 #include "analysis/audit.hpp"
 #include "analysis/diagnose.hpp"
 #include "analysis/gimbal.hpp"
+#include "analysis/inertia_check.hpp"
 #include "analysis/redundancy.hpp"
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
@@ -66,11 +67,21 @@ void add_reactions(Mechanism& m) {
 
 }  // namespace
 
+void check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& overrides) {
+    if (scene.bodies.empty()) return;
+    std::vector<Diagnostic> errors, warnings;
+    for (Diagnostic& found : inertia_findings(scene, mechanism, start_of(mechanism, overrides).state()))
+        (found.severity == Severity::warning ? warnings : errors).push_back(std::move(found));
+    if (!warnings.empty()) std::cerr << describe(scene, warnings);
+    if (!errors.empty()) fail(scene, std::move(errors));
+}
+
 Derived derived(const Request& request) {
     const double start = process_seconds();
     Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
     Mechanism mechanism = build(scene);
+    check_bodies(scene, mechanism, overrides_of(request));
     const std::vector<int> redundant = redundant_constraints(mechanism);
     check_implied(mechanism, redundant);
     for (const int k : redundant) {
@@ -108,7 +119,15 @@ void need_rates(const Derived& d) {
 }
 
 Choice lowered(const Derived& d, const Request& request) {
-    return choose(d.mechanism, d.equations, {.fold = request.fold});
+    std::vector<Equations> all{d.equations};
+    // Where the user leaves the choice, the recursions compete.
+    if (request.by.empty() && d.equations.h.empty() && !d.equations.tree) {
+        try {
+            all.push_back(formalism("recursive").derive(d.mechanism));
+        } catch (const ModelError&) {  // it does not apply
+        }
+    }
+    return choose(d.mechanism, all, {.fold = request.fold});
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {

@@ -20,6 +20,10 @@ struct Derived {
     double seconds = 0;  ///< processor time
 };
 
+/// Prints a warning for each inertia that breaks the triangle inequality at the scene's values and these; throws SceneError
+/// for a mass or a principal moment that is negative there.
+void check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& overrides);
+
 /// Reads, builds and derives. Prints the scene's warnings to standard error. Throws what the stages throw;
 /// ModelError for a formalism that does not exist or does not apply.
 Derived derived(const Request& request);

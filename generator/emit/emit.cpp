@@ -39,8 +39,9 @@ std::string wrapped(const std::string& line) {
 
 class Emitter {
 public:
-    explicit Emitter(const Program& program)
+    Emitter(const Program& program, const EmitOptions& options)
         : p_(program),
+          options_(options),
           n_(static_cast<int>(program.coordinates.size())),
           s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
         for (const Quantity& q : p_.coordinates) {
@@ -82,6 +83,7 @@ public:
                                            cost.functions));
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
+        file.set("batch", options_.batch);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
@@ -101,6 +103,9 @@ public:
         file.set("reaction", p_.nodes_of("gamma").empty() ? ""
                              : own_speeds                 ? " + A^T lambda with A u' = gamma"
                                                           : " + A^T lambda with A q'' = gamma");
+        std::string elementary = mustache::mustache{std::string(template_elementary)}.render(file);
+        elementary.pop_back();  // the line's end is the template's
+        file.set("elementary", elementary);
         mustache::mustache shape{std::string(template_solver)};
         return {.file = ascii_identifier(p_.name) + ".cpp",
                 .text = shape.render(file),
@@ -292,6 +297,10 @@ private:
         const std::string solve = is_free ? fmt::format("Solve M {} = f with M = L D L^T", unknown)
                                           : fmt::format("Solve M {0} = f + A^T lambda, A {0} = gamma", unknown);
         all = joined(all, goals("acceleration", solve));
+        // Recursions make accelerations without M and f.
+        const std::vector<int> rhs = p_.right_hand_side(), list = p_.needed(rhs);
+        const std::set<int> needed(list.begin(), list.end());
+        std::erase_if(all, [&](const Goal& goal) { return !needed.contains(goal.node); });
         std::vector<std::string> first;
         for (int i = 0; i < n_ && !own_speeds; ++i) first.push_back(fmt::format("rate[{}] = {};", i, u_[i]));
         int i = 0;
@@ -464,6 +473,7 @@ private:
     }
 
     const Program& p_;
+    EmitOptions options_;
     int n_, s_;
     Names names_;
     std::vector<std::string> q_, u_, a_, par_;
@@ -473,10 +483,10 @@ private:
 
 }  // namespace
 
-Source emit(const Program& program) {
+Source emit(const Program& program, const EmitOptions& options) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
-    return Emitter(program).emit();
+    return Emitter(program, options).emit();
 }
 
 }  // namespace alembert

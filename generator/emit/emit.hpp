@@ -5,10 +5,11 @@
 ///
 ///     const Source source = emit(program);
 ///     source.file;   // "double_pendulum.cpp"
+///     emit(program, {.batch = true});   // with the same functions over eight systems at once
 ///
 /// Functions of the file: rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for what depends on
-/// parameters alone; the table at its end is lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program that has
-/// been differentiated (lower/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
+/// parameters alone; the tables at its end are those of lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program
+/// that has been differentiated (lower/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
 
 #include "lower/program.hpp"
 
@@ -20,7 +21,11 @@ struct Source {
     std::string formulation;
 };
 
+struct EmitOptions {
+    bool batch = false;  ///< alembert_pack too
+};
+
 /// Throws ModelError if the program has no accelerations (a singular system).
-Source emit(const Program& program);
+Source emit(const Program& program, const EmitOptions& options = {});
 
 }  // namespace alembert

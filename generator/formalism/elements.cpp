@@ -44,6 +44,18 @@ std::vector<ex> potential_without_forces(const Mechanism& m) {
     return m.z->pull_back(targets, m.q);
 }
 
+std::vector<ex> work_of_loads(const Mechanism& m, bool dissipative) {
+    std::vector<std::pair<ex, ex>> displaced, turned;
+    for (const Load& load : m.loads)
+        if (load.dissipative == dissipative)
+            for (const Load::Pair& pair : load.pairs)
+                (pair.position ? displaced : turned).emplace_back(pair.position.value_or(pair.velocity), pair.force);
+    const std::vector<ex> a = m.z->pull_back(displaced, m.q), b = m.z->pull_back(turned, m.qdot);
+    std::vector<ex> result;
+    for (int i = 0; i < m.size(); ++i) result.push_back(m.z->name(a[i] + b[i]));
+    return result;
+}
+
 std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
     std::array<ex, 6> I = body.rotation->inertia;
     if (!body.rotation->about) return I;

@@ -21,6 +21,9 @@ std::vector<PlacedForce> conservative_forces(const Mechanism& mechanism);
 /// −∂V/∂q of [energy] potential, which no force is known of.
 std::vector<GiNaC::ex> potential_without_forces(const Mechanism& mechanism);
 
+/// Q_i of the loads, by virtual displacements ∂r/∂q of what they act on; by ∂ω/∂q' where only a turning is known (torques).
+std::vector<GiNaC::ex> work_of_loads(const Mechanism& mechanism, bool dissipative);
+
 /// Elements xx yy zz xy yz zx about the mass centre: Steiner's theorem where the scene gives them about another point.
 std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates& z);
 

@@ -20,6 +20,8 @@
 
 namespace alembert {
 
+struct JointTree;
+
 struct Equations {
     std::string formalism;                ///< as in --by: "lagrange"
     std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates unless there is an h
@@ -43,6 +45,7 @@ struct Equations {
     };
     std::vector<Eliminated> eliminated = {};
     std::vector<GiNaC::ex> poles = {};    ///< where one of these vanishes h has no value
+    std::shared_ptr<const JointTree> tree = {};  ///< of the recursive formalism: what its programs are made from
 
     int size() const { return static_cast<int>(u.size()); }
     /// Positions in Mechanism::constraints of the rows of A.

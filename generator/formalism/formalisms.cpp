@@ -9,8 +9,11 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
 #include "formalism/nielsen.hpp"
+#include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
+#include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routhian.hpp"
+#include "formalism/schiehlen.hpp"
 
 namespace alembert {
 
@@ -22,7 +25,10 @@ const std::vector<Formalism>& formalisms() {
         {"kane", "Kane's equations", kane},
         {"dalembert", "the general equation of dynamics", dalembert},
         {"nielsen", "Nielsen's equations", nielsen},
+        {"schiehlen", "Schiehlen's equations: Newton-Euler, projected", schiehlen},
+        {"roberson-wittenburg", "Roberson and Wittenburg's equations", roberson_wittenburg},
         {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
+        {"recursive", "the recursive equations from body to body", recursive},
         {"routhian", "Routh's procedure, the momenta eliminated", routhian},
     };
     return all;

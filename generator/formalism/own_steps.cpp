@@ -3,6 +3,8 @@
 // (20) of example 1-1), as a product; a factor a cos x + b or a sin x + b that is linear in it gives its root.
 #include "formalism/own_steps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
 
@@ -11,7 +13,9 @@
 #include "formalism/hamilton.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/rest.hpp"
+#include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routhian.hpp"
+#include "formalism/schiehlen.hpp"
 #include "report/text.hpp"
 
 namespace alembert {
@@ -49,6 +53,52 @@ public:
                 section.statements.push_back({Statement::Kind::energy, "F*", of, {}, readable(*f)});
         }
         shown_.sections.push_back(std::move(section));
+    }
+
+    /// The system graph, at any size.
+    void graph() {
+        const SystemGraph g = system_graph(m_);
+        std::string arcs, bodies, chords;
+        for (const SystemGraph::Arc& arc : g.arcs) {
+            const auto name = [&](int body) { return body < 0 ? std::string("N") : g.bodies[body]; };
+            arcs += fmt::format("{}{}: {} -> {}", arcs.empty() ? "" : ", ", arc.name, name(arc.from), name(arc.to));
+        }
+        for (const std::string& body : g.bodies) bodies += (bodies.empty() ? "" : ", ") + body;
+        for (const std::string& chord : g.chords) chords += (chords.empty() ? " Chords, which close loops: " : ", ") + chord;
+        if (!chords.empty()) chords += ".";
+        const auto row = [](const std::vector<int>& entries) {
+            std::vector<Phrase> phrases;
+            for (const int entry : entries) phrases.push_back(phrases::number(entry));
+            return phrases::tuple(std::move(phrases));
+        };
+        Section S{.words = fmt::format("The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each body, a column "
+                                       "for each arc (1 where it begins, -1 where it ends):",
+                                       arcs, chords)};
+        S.statements.push_back({Statement::Kind::energy, "S", "N", {}, row(g.S_0)});
+        for (std::size_t i = 0; i < g.bodies.size(); ++i) S.statements.push_back({Statement::Kind::energy, "S", g.bodies[i], {}, row(g.S[i])});
+        Section T{.words = fmt::format("Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's path "
+                                       "and points to the ground, -1 where it points away):",
+                                       bodies)};
+        for (std::size_t a = 0; a < g.arcs.size(); ++a) T.statements.push_back({Statement::Kind::energy, "T", g.arcs[a].name, {}, row(g.T[a])});
+        shown_.sections.push_back(std::move(S));
+        shown_.sections.push_back(std::move(T));
+    }
+
+    void schiehlen() {
+        const std::vector<BodyMotion> motions = global_motions(m_);
+        for (std::size_t b = 0; b < motions.size(); ++b) {
+            Section section{.words = "Global Jacobians of " + m_.masses[b].label + ", J_T = dr/dq along N and J_R = dw/dq' along its axes, and the accelerations at q'' = 0:"};
+            const auto add_rows = [&](const std::string& letter, const std::vector<Vector3>& J) {
+                for (int j = 0; j < m_.size(); ++j)
+                    for (int k = 0; k < 3; ++k) add_partial(section, letter + "_" + "xyz"[k], m_.q[j], J[j][k]);
+            };
+            add_rows("r", motions[b].J_T);
+            if (m_.masses[b].rotation) add_rows("s", motions[b].J_R);
+            for (int k = 0; k < 3; ++k)
+                if (const auto f = normal(motions[b].a_bar[k]); f && f->size() > 0)
+                    section.statements.push_back({Statement::Kind::energy, std::string("a_") + "xyz"[k], "", {}, readable(*f)});
+            shown_.sections.push_back(std::move(section));
+        }
     }
 
     void lagrange1() {
@@ -213,8 +263,10 @@ private:
 
 void show_own_steps(Derivation& shown, const Mechanism& mechanism, const Equations& equations) {
     shown.title = formalism(equations.formalism).title;
-    if (!shown.definitions.empty()) return;
     Showing showing(shown, mechanism, equations);
+    if (equations.formalism == "roberson-wittenburg") showing.graph();
+    if (!shown.definitions.empty()) return;
+    if (equations.formalism == "schiehlen") showing.schiehlen();
     if (equations.formalism == "kane") showing.kane();
     if (equations.formalism == "lagrange1") showing.lagrange1();
     if (equations.formalism == "dalembert") showing.dalembert();

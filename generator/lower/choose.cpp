@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "lower/choose.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "formalism/joint_tree.hpp"
 #include "lower/share.hpp"
 #include "report/readable.hpp"
 
@@ -10,6 +15,8 @@ using GiNaC::ex;
 
 namespace {
 
+constexpr std::size_t most_composite = 20;  // joints; beyond, the matrix costs more to lower than it can win
+constexpr double readability = 1.1;  // what another form must win against the textbook's
 constexpr double largest_tree = 50000;  // nodes; beyond, expanding costs more than it can win
 
 /// All of `values` in readable form, or none.
@@ -75,8 +82,6 @@ Energy readable_energy(const Mechanism& m, const Energy& energy) {
     return result;
 }
 
-int operations(const Program& program) { return program.count(program.right_hand_side()).total(); }
-
 }  // namespace
 
 std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t budget) {
@@ -86,18 +91,61 @@ std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t bud
     return expression(readable(*normal));
 }
 
-Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions& options) {
-    const Energy energy = energy_of(m);
-    Equations intermediate = equations;
-    intermediate.formalism += ", intermediate symbols";
-    Choice choice{.program = shared(lower(m, intermediate, energy, options)), .runner_up = {}};
-    if (const std::optional<Equations> textbook = textbook_equations(m, equations)) {
-        Program program = shared(lower(m, *textbook, readable_energy(m, energy), options));
-        const int ours = operations(program), other = operations(choice.program);
-        if (program.singular || ours <= other) std::swap(program, choice.program);
-        choice.runner_up = std::max(ours, other);
+namespace {
+
+/// The forms that these equations can take, each lowered.
+void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+    const std::size_t before = programs.size();
+    if (!equations.tree || !m.constraints.empty()) {
+        Equations intermediate = equations;
+        intermediate.formalism += ", intermediate symbols";
+        programs.push_back(shared(lower(m, intermediate, energy, options)));
     }
+    if (const std::optional<Equations> textbook = textbook_equations(m, equations))
+        programs.push_back(shared(lower(m, *textbook, readable_energy(m, energy), options)));
+    if (!equations.tree) return;
+    const bool parallel = has_parallel_axes(*equations.tree);
+    for (const bool articulated : {false, true})
+        for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
+            const RecursionForm form{axes, articulated};
+            if (axes == LinkAxes::still && !parallel) continue;
+            // LDLᵀ grows with the cube; articulated bodies make no multipliers.
+            if (articulated ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
+            Equations recursive = equations;
+            recursive.formalism += ", " + form.text();
+            LowerOptions by = options;
+            by.recursion = form;
+            try {
+                programs.push_back(shared(lower(m, recursive, energy, by)));
+            } catch (const std::domain_error&) {
+                // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
+            }
+        }
+    if (programs.size() == before) programs.push_back(shared(lower(m, equations, energy, options)));
+}
+
+}  // namespace
+
+Choice choose(const Mechanism& m, const std::vector<Equations>& equations, const LowerOptions& options) {
+    const Energy energy = energy_of(m);
+    std::vector<Program> programs;
+    for (const Equations& e : equations) add_forms(programs, m, e, energy, options);
+    std::vector<Cost> costs;
+    for (const Program& program : programs) costs.push_back(cost_of(program));
+    std::vector<std::size_t> order(programs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto rank = [&](std::size_t k) {
+        const bool is_textbook = programs[k].formulation.ends_with("textbook form");  // as good, and better to read
+        return std::make_pair(programs[k].singular && !is_textbook, costs[k].time() * (is_textbook ? 1 : readability));
+    };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    Choice choice{.program = programs[order[0]], .cost = costs[order[0]], .runner_up = {}};
+    if (order.size() > 1) choice.runner_up = RunnerUp{programs[order[1]].formulation, costs[order[1]]};
     return choice;
+}
+
+Choice choose(const Mechanism& m, const Equations& equations, const LowerOptions& options) {
+    return choose(m, std::vector<Equations>{equations}, options);
 }
 
 }  // namespace alembert

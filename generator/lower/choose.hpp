@@ -1,23 +1,36 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The program with the fewest operations out of the forms that the equations can take.
+/// The fastest program out of the forms that the equations can take.
 ///
-/// Two forms: the textbook's (Fourier normal form, grouped and factored), which is short for a few bodies and has
-/// 2^k terms for k angles, and the one with intermediate symbols, which grows like a polynomial. Both are lowered
-/// where the first exists, and counted.
+///     const Choice choice = choose(mechanism, {lagrange(mechanism), recursive(mechanism)});
+///
+/// The textbook's form (Fourier normal form, grouped and factored) is short for a few bodies and has 2^k terms for k angles; the one
+/// with intermediate symbols grows like a polynomial; recursive equations have composite bodies and articulated bodies, each along
+/// axes that turn with the links or along parallel ones. All that exist are lowered; operations and the longest chain of them
+/// decide. Another form must win a tenth against the textbook's, which can be read.
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "lower/cost.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
 
-struct Choice {
-    Program program;                   ///< `formulation` says which form it is
-    std::optional<int> runner_up;      ///< operations a right-hand side of the other form
+struct RunnerUp {
+    std::string formulation;
+    Cost cost;
 };
 
+struct Choice {
+    Program program;                    ///< `formulation` says which form it is
+    Cost cost = {};
+    std::optional<RunnerUp> runner_up;  ///< the second best
+};
+
+Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations, const LowerOptions& options = {});
 Choice choose(const Mechanism& mechanism, const Equations& equations, const LowerOptions& options = {});
 
 /// `e` in readable form, without intermediate symbols; nothing where that would be larger than `budget` terms.

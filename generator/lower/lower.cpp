@@ -8,6 +8,7 @@
 
 #include "formalism/kinematics.hpp"
 #include "lower/interpret.hpp"
+#include "lower/recursion.hpp"
 #include "lower/solve.hpp"
 #include "symbolic/functions.hpp"
 
@@ -273,9 +274,10 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     define_rates(lowering, program, m, equations, udot);
 
     std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.jacobi};
+    const bool recursive = options.recursion && equations.tree;
     for (int i = 0; i < n; ++i) {
-        for (int j = 0; j <= i; ++j) wanted.push_back(equations.M(i, j));
-        wanted.push_back(equations.forcing(i));
+        for (int j = 0; j <= i && !recursive; ++j) wanted.push_back(equations.M(i, j));
+        wanted.push_back(recursive ? equations.tree->forces[i] : equations.forcing(i));
     }
     const std::vector<int> kept = equations.kept(m);
     for (std::size_t k = 0; k < equations.A.size(); ++k) {
@@ -314,10 +316,12 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.set_sources(sources);
     };
     std::vector<int> mass, forcing;
+    RecursionNodes by_tree;
+    if (recursive) by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, [&](const ex& e) { return lowering(e); });
     for (int i = 0; i < n; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
-            std::vector<Program::Term> terms{{1, lowering(equations.M(i, j))}};
+            std::vector<Program::Term> terms{{1, recursive ? by_tree.mass[i * (i + 1) / 2 + j] : lowering(equations.M(i, j))}};
             for (const auto& [c, row, gamma] : norms)
                 terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
             mass.push_back(program.sum(0, terms));
@@ -325,7 +329,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         }
     for (int i = 0; i < n; ++i) {
         blame_row(i);
-        std::vector<Program::Term> terms{{1, lowering(equations.forcing(i))}};
+        std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : lowering(equations.forcing(i))}};
         for (const auto& [c, row, gamma] : norms)
             terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
         forcing.push_back(program.sum(0, terms));
@@ -355,7 +359,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.roots.push_back({"position", constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
         program.roots.push_back({"velocity", constraint.name, program.sum(0, velocity)});
     }
-    if (const auto solution = solve_symmetric(program, mass, forcing, n)) {
+    if (const auto solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration : solve_symmetric(program, mass, forcing, n)) {
         for (int i = 0; i < n; ++i) program.roots.push_back({"acceleration", fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));

@@ -14,12 +14,14 @@
 
 #include "formalism/equations.hpp"
 #include "lower/program.hpp"
+#include "lower/recursion_form.hpp"
 #include "model/energy.hpp"
 
 namespace alembert {
 
 struct LowerOptions {
     bool fold = false;  ///< parameters become constants, at the scene's values
+    std::optional<RecursionForm> recursion = {};  ///< of equations with a tree: M, f and q'' by this instead of by their expressions
 };
 
 /// Throws ModelError where something cannot be lowered (a name that has no value).

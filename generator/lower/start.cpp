@@ -9,84 +9,102 @@
 
 namespace alembert {
 
-namespace {
+Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names, std::string option)
+    : m_(mechanism), option_(std::move(option)) {
+    plain_.q.resize(m_.q.size());
+    plain_.qdot.resize(m_.q.size());
+    if (!m_.speeds.empty() && m_.speeds[0].start) plain_.speeds.resize(m_.speeds.size());
+    for (const Mechanism::Parameter& p : m_.parameters)
+        if (p.independent) plain_.parameters.push_back(GiNaC::ex_to<GiNaC::numeric>(p.value).to_double());
+    for (const std::string& name : names) spots_.push_back(spot_of(name));
 
-double& place_of(const std::string& name, Start& start, const Mechanism& m) {
-    if (name == "t") return start.t;
+    const auto want = [&](const GiNaC::ex& e) { nodes_.push_back(lower_expression(program_, m_, e)); };
+    for (int i = 0; i < m_.size(); ++i) want(m_.q_start[i]);
+    for (int i = 0; i < m_.size(); ++i) want(m_.qdot_start[i]);
+    for (std::size_t k = 0; k < plain_.speeds.size(); ++k) want(*m_.speeds[k].start);
+    for (const auto* e : {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.sample})
+        if (*e) want(**e);
+}
+
+Starts::Spot Starts::spot_of(const std::string& name) const {
+    if (name == "t") return {name, Part::t, 0};
     std::vector<std::string> known{"t"};
     std::size_t position = 0;
-    for (const Mechanism::Parameter& p : m.parameters) {
+    for (const Mechanism::Parameter& p : m_.parameters) {
         if (p.symbol.get_name() == name) {
-            if (p.independent) return start.parameters[position];
-            throw ModelError(fmt::format("--at {}=…: '{}' is defined by other parameters; set those", name, name));
+            if (p.independent) return {name, Part::parameter, position};
+            throw ModelError(fmt::format("{} {}=…: '{}' is defined by other parameters; set those", option_, name, name));
         }
         position += p.independent ? 1 : 0;
         known.push_back(p.symbol.get_name());
     }
-    for (int i = 0; i < m.size(); ++i) {
-        if (m.q[i].get_name() == name) return start.q[i];
-        if (m.q[i].get_name() + "'" == name) {
-            if (start.speeds.empty()) return start.qdot[i];
-            throw ModelError(fmt::format("--at {}=…: the rates follow from the speeds here; set '{}'", name, m.speeds[0].u.get_name()));
+    for (std::size_t i = 0; i < m_.q.size(); ++i) {
+        if (m_.q[i].get_name() == name) return {name, Part::q, i};
+        if (m_.q[i].get_name() + "'" == name) {
+            if (plain_.speeds.empty()) return {name, Part::qdot, i};
+            throw ModelError(fmt::format("{} {}=…: the rates follow from the speeds here; set '{}'", option_, name, m_.speeds[0].u.get_name()));
         }
-        known.push_back(m.q[i].get_name());
-        known.push_back(m.q[i].get_name() + "'");
+        known.push_back(m_.q[i].get_name());
+        known.push_back(m_.q[i].get_name() + "'");
     }
-    for (std::size_t k = 0; k < m.speeds.size(); ++k) {
-        known.push_back(m.speeds[k].u.get_name());
+    for (std::size_t k = 0; k < m_.speeds.size(); ++k) {
+        known.push_back(m_.speeds[k].u.get_name());
         if (known.back() != name) continue;
-        if (!start.speeds.empty()) return start.speeds[k];
-        throw ModelError(fmt::format("--at {}=…: the scene gives rates, and '{}' follows from them; set those", name, name));
+        if (!plain_.speeds.empty()) return {name, Part::speed, k};
+        throw ModelError(fmt::format("{} {}=…: the scene gives rates, and '{}' follows from them; set those", option_, name, name));
     }
     const std::string meant = nearest(name, known);
-    throw ModelError(fmt::format("--at {}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
+    throw ModelError(fmt::format("{} {}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", option_, name, name,
                                  meant.empty() ? "" : "; did you mean '" + meant + "'?"));
 }
 
-}  // namespace
+double& Starts::place(const Spot& spot, Start& start) {
+    switch (spot.part) {
+        case Part::parameter: return start.parameters[spot.index];
+        case Part::q: return start.q[spot.index];
+        case Part::qdot: return start.qdot[spot.index];
+        case Part::speed: return start.speeds[spot.index];
+        default: return start.t;
+    }
+}
 
-Start start_of(const Mechanism& m, const Overrides& overrides) {
-    Start start;
-    start.q.resize(m.q.size());
-    start.qdot.resize(m.q.size());
-    if (!m.speeds.empty() && m.speeds[0].start) start.speeds.resize(m.speeds.size());
-    for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent) start.parameters.push_back(GiNaC::ex_to<GiNaC::numeric>(p.value).to_double());
-
+Start Starts::at(const std::vector<double>& values) const {
+    Start start = plain_;
     const auto replace = [&](bool parameters) {
-        for (const auto& [name, value] : overrides) {
-            if (!std::isfinite(value)) throw ModelError(fmt::format("--at {}={}: expected a finite number", name, value));
-            double& place = place_of(name, start, m);
-            const bool is_parameter = !start.parameters.empty() && &place >= start.parameters.data() &&
-                                      &place < start.parameters.data() + start.parameters.size();
-            if (is_parameter == parameters) place = value;
+        for (std::size_t k = 0; k < spots_.size(); ++k) {
+            if (!std::isfinite(values[k]))
+                throw ModelError(fmt::format("{} {}={}: expected a finite number", option_, spots_[k].name, values[k]));
+            if ((spots_[k].part == Part::parameter) == parameters) place(spots_[k], start) = values[k];
         }
     };
     replace(true);
-
-    Program program;
-    std::vector<std::pair<double*, int>> wanted;
-    const auto want = [&](double& to, const GiNaC::ex& e) { wanted.emplace_back(&to, lower_expression(program, m, e)); };
-    for (int i = 0; i < m.size(); ++i) {
-        want(start.q[i], m.q_start[i]);
-        want(start.qdot[i], m.qdot_start[i]);
-    }
-    for (std::size_t k = 0; k < start.speeds.size(); ++k) want(start.speeds[k], *m.speeds[k].start);
-    if (m.run.start) want(start.t, *m.run.start);
-    if (m.run.duration) want(start.duration, *m.run.duration);
-    if (m.run.tolerance) want(start.tolerance, *m.run.tolerance);
-    if (m.run.step) want(start.step, *m.run.step);
-    if (m.run.sample) want(start.sample, *m.run.sample);
-    const std::vector<double> values = interpret<double>(program, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
-    for (const auto& [to, node] : wanted) *to = values[node];
+    const std::vector<double> value = interpret<double>(program_, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
+    std::size_t next = 0;
+    for (std::vector<double>* part : {&start.q, &start.qdot, &start.speeds})
+        for (double& x : *part) x = value[nodes_[next++]];
+    if (m_.run.start) start.t = value[nodes_[next++]];
+    if (m_.run.duration) start.duration = value[nodes_[next++]];
+    if (m_.run.tolerance) start.tolerance = value[nodes_[next++]];
+    if (m_.run.step) start.step = value[nodes_[next++]];
+    if (m_.run.sample) start.sample = value[nodes_[next++]];
     replace(false);
-    for (int i = 0; i < m.size(); ++i)
+    for (int i = 0; i < m_.size(); ++i)
         if (!std::isfinite(start.q[i]) || !std::isfinite(start.qdot[i]))
-            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m.q[i].get_name()));
+            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name()));
     for (std::size_t k = 0; k < start.speeds.size(); ++k)
         if (!std::isfinite(start.speeds[k]))
-            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m.speeds[k].u.get_name()));
+            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m_.speeds[k].u.get_name()));
     return start;
+}
+
+Start start_of(const Mechanism& m, const Overrides& overrides) {
+    std::vector<std::string> names;
+    std::vector<double> values;
+    for (const auto& [name, value] : overrides) {
+        names.push_back(name);
+        values.push_back(value);
+    }
+    return Starts(m, names).at(values);
 }
 
 State<double> state_of(const Start& start, const Mechanism& m, const Equations& equations) {

@@ -4,6 +4,9 @@
 /// Numbers for a mechanism: the scene's own, with some of them replaced.
 ///
 ///     const Start start = start_of(mechanism, {{"theta1", 0.3}, {"theta1'", 1.0}, {"l1", 2.0}});
+///
+///     const Starts starts(mechanism, {"theta1", "l1"}, "--vary");      // the same names again and again
+///     for (double angle : angles) starts.at({angle, 2.0});
 
 #include <string>
 #include <utility>
@@ -29,6 +32,33 @@ using Overrides = std::vector<std::pair<std::string, double>>;
 
 /// The state as a program of these equations counts it: (q, q'), or (q, u).
 State<double> state_of(const Start& start, const Mechanism& mechanism, const Equations& equations);
+
+/// The names are found and the initial values lowered once, for many numbers. What it is given must outlive it.
+class Starts {
+public:
+    /// `option` stands in messages. Throws as start_of, for names.
+    Starts(const Mechanism& mechanism, const std::vector<std::string>& names, std::string option = "--at");
+
+    /// A value for each name. Throws as start_of, for values.
+    Start at(const std::vector<double>& values) const;
+
+private:
+    enum class Part { t, parameter, q, qdot, speed };
+    struct Spot {
+        std::string name;
+        Part part;
+        std::size_t index;
+    };
+    Spot spot_of(const std::string& name) const;
+    static double& place(const Spot& spot, Start& start);
+
+    const Mechanism& m_;
+    std::string option_;
+    Start plain_;                 ///< the scene's own parameters, and room for the rest
+    std::vector<Spot> spots_;
+    Program program_;
+    std::vector<int> nodes_;      ///< q, q', speeds, then what the scene says of the run
+};
 
 /// Initial values that depend on parameters follow the replaced ones. A name is a parameter's, a coordinate's, a
 /// rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the nearest known name, for a parameter that

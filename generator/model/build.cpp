@@ -12,6 +12,7 @@
 #include "model/parameter_values.hpp"
 #include "model/places.hpp"
 #include "model/translate.hpp"
+#include "scene/quaternions.hpp"
 
 namespace alembert {
 
@@ -48,6 +49,7 @@ public:
         values_.emplace(m_);
         check_values();
         add_masses();
+        add_joints();
         add_links();
         add_forces();
         add_impulses();
@@ -57,6 +59,7 @@ public:
         add_outputs();
         add_run();
         if (!mistakes_.empty()) fail(scene_, mistakes_);
+        m_.skeleton = places_.skeleton();
         return std::move(m_);
     }
 
@@ -211,11 +214,27 @@ private:
             });
     }
 
+    /// The system graph.
+    void add_joints() {
+        const auto index = [&](const std::string& body) {
+            const auto found = std::find_if(m_.masses.begin(), m_.masses.end(),
+                                            [&](const MassElement& e) { return e.label == "body " + body; });
+            return found == m_.masses.end() ? -1 : static_cast<int>(found - m_.masses.begin());
+        };
+        for (const Joint& joint : scene_.joints)
+            attempt([&] {
+                SourceScope source(*m_.z, "joint " + joint.name.text);
+                m_.joints.push_back(arc_of(joint, places_));
+                m_.joints.back().parent = index(joint.parent.body.text);
+                m_.joints.back().child = index(joint.child.body.text);
+            });
+    }
+
     // ½ m v², and −m g·r
     void add_translation(const std::string& label, const std::string& point, const ex& mass) {
         const Vector3 v = places_.velocity(point);
         m_.kinetic.push_back({label, m_.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
-        m_.masses.push_back({.label = label, .mass = mass, .position = places_.position(point), .velocity = v});
+        m_.masses.push_back({.label = label, .mass = mass, .position = places_.position(point), .velocity = v, .point = places_.point(point)});
         if (!scene_.gravity) return;
         const Vector3 g = places_.vector(*scene_.gravity), r = places_.position(point);
         m_.gravity = g;
@@ -262,6 +281,8 @@ private:
             rotation.about = r;
         }
         m_.masses.back().rotation = rotation;
+        m_.masses.back().frame = orientation.frame;
+        if (b.about) m_.masses.back().about = places_.point(b.about->text);
         m_.kinetic.push_back({"rotation of body " + b.name.text, m_.z->name(energy)});
     }
 
@@ -418,8 +439,7 @@ private:
         for (std::size_t k = 0; k < scene_.constraints.size(); ++k)
             attempt([&] { add_constraint(scene_.constraints[k], static_cast<int>(k)); });
         int index = static_cast<int>(scene_.constraints.size());
-        for (const Frame& frame : scene_.frames)
-            if (!frame.quaternion.empty()) attempt([&] { add_norm(frame, index++); });
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_)) attempt([&] { add_norm(quaternion, index++); });
         for (const RollingRule& rule : scene_.rolling) {
             attempt([&] { add_rolling(rule, index); });
             index += 3;
@@ -430,11 +450,11 @@ private:
     }
 
     // e·e − 1 = 0
-    void add_norm(const Frame& frame, int index) {
-        SourceScope source(*m_.z, "frame " + frame.name.text);
+    void add_norm(const FrameQuaternion& quaternion, int index) {
+        SourceScope source(*m_.z, "frame " + quaternion.of.text);
         ex value = -1, start = 0;
         bool moves = false;
-        for (const Name& name : frame.quaternion) {
+        for (const Name& name : quaternion.e) {
             const std::size_t i = coordinate_index(name.text, m_);
             value += m_.q[i] * m_.q[i];
             start += m_.q_start[i] * m_.q_start[i];
@@ -442,17 +462,17 @@ private:
         }
         const double square = values_->number(m_.z->expand(start));
         if (!moves && !(std::abs(square - 1) <= 1e-9))
-            throw SceneMistake{{frame.quaternion[0].place,
+            throw SceneMistake{{quaternion.e[0].place,
                                 fmt::format("the sum of squares of the quaternion of frame '{}' is {:.12g} at the start; expected 1: "
                                             "divide each initial value by {:.12g}, or give them as guesses",
-                                            frame.name.text, square, std::sqrt(square))}};
-        const std::string multiplier = multiplier_of(frame).text;
-        m_.constraints.push_back(constraint_of({.name = frame.name.text,
+                                            quaternion.of.text, square, std::sqrt(square))}};
+        const std::string multiplier = multiplier_of(quaternion).text;
+        m_.constraints.push_back(constraint_of({.name = quaternion.of.text,
                                                 .holonomic = true,
                                                 .value = value,
                                                 .multiplier = m_.symbols->declare(multiplier, Kind::other, index),
-                                                .place = frame.name.place,
-                                                .at = frame.quaternion[0].place},
+                                                .place = quaternion.of.place,
+                                                .at = quaternion.e[0].place},
                                                m_));
         m_.constraints.back().norm = true;
         translator_.know(multiplier, m_.constraints.back().multiplier);

@@ -15,11 +15,13 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m)
     for (const Mechanism::Speed& s : m.speeds) know(s.u.get_name(), s.form);
     for (const GiNaC::symbol& acceleration : m.qddot) has_no_derivative(acceleration);
     for (const Mechanism::Input& input : m.inputs) has_no_derivative(input.derivative[2]);
-    for (const Mechanism::Constraint& c : m.constraints) has_no_derivative(c.multiplier);
-    for (const Mechanism::Unilateral& u : m.unilateral) has_no_derivative(u.gap.multiplier);
-    for (const Mechanism::Constraint& c : m.constraints) know(c.multiplier.get_name(), c.multiplier);
+    std::vector<const Mechanism::Constraint*> held = m.undetermined();
+    for (const Mechanism::Constraint& c : m.constraints) held.push_back(&c);
+    for (const Mechanism::Constraint* c : held) {
+        has_no_derivative(c->multiplier);
+        know(c->multiplier.get_name(), c->multiplier);
+    }
     for (const std::string& name : m.identities) know("lambda_" + name, 0);
-    for (const Mechanism::Unilateral& u : m.unilateral) know(u.gap.multiplier.get_name(), u.gap.multiplier);
     const std::vector<GiNaC::ex> p = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
     for (int i = 0; i < m.size(); ++i) {
         const std::string name = "p_" + m.q[i].get_name();

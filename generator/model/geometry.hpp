@@ -39,6 +39,8 @@ public:
     /// w_NB_B
     const Vector3& angular_velocity() const { return steps_.back().w_NB_B; }
 
+    int frame = 0;  ///< which one of Skeleton::frames this is
+
 private:
     struct Step {
         Vector3 axis;

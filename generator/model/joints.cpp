@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/placing.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -10,9 +12,11 @@ using Type = Joint::Type;
 
 namespace {
 
+/// About an axis, or by a quaternion.
 struct Turn {
     Vector3 axis;
-    ex angle;
+    ex angle = 0;
+    std::optional<std::array<ex, 4>> quaternion = {};
 };
 
 Vector3 unit(int k) {
@@ -31,8 +35,12 @@ Motion motion_of(const Joint& joint, Places& places) {
     std::vector<ex> q;
     for (const Name& name : joint.coordinates) q.push_back(places.value(name));
     Intermediates& z = places.z();
-    const auto angles = [&](std::size_t first) {
+    const auto turns_in_space = [&](std::size_t first) {
         Motion motion;
+        if (joint.angles.empty()) {
+            motion.turns.push_back({.axis = {}, .quaternion = std::array<ex, 4>{q[first], q[first + 1], q[first + 2], q[first + 3]}});
+            return motion;
+        }
         for (std::size_t k = 0; k < 3; ++k) motion.turns.push_back({unit(joint.angles.at(k) - 'x'), q[first + k]});
         return motion;
     };
@@ -50,9 +58,9 @@ Motion motion_of(const Joint& joint, Places& places) {
         }
         case Type::universal: return {.turns = {{unit(0), q[0]}, {unit(1), q[1]}}};
         case Type::planar: return {.turns = {{unit(2), q[2]}}, .shift = {q[0], q[1], 0}};
-        case Type::spherical: return angles(0);
+        case Type::spherical: return turns_in_space(0);
         case Type::free: {
-            Motion motion = angles(3);
+            Motion motion = turns_in_space(3);
             motion.shift = {q[0], q[1], q[2]};
             return motion;
         }
@@ -68,12 +76,15 @@ std::vector<Turn> turns_of(const std::vector<Rotation>& rotations, Places& place
 
 std::vector<Turn> backwards(std::vector<Turn> turns) {
     std::reverse(turns.begin(), turns.end());
-    for (Turn& turn : turns) turn.angle = -turn.angle;
+    for (Turn& turn : turns) {
+        turn.angle = -turn.angle;
+        for (std::size_t k = 1; turn.quaternion && k < 4; ++k) (*turn.quaternion)[k] = -(*turn.quaternion)[k];
+    }
     return turns;
 }
 
 Orientation turned(Orientation o, const std::vector<Turn>& turns, Places& places) {
-    for (const Turn& turn : turns) o = places.turned(o, turn.axis, turn.angle);
+    for (const Turn& turn : turns) o = turn.quaternion ? places.turned(o, *turn.quaternion) : places.turned(o, turn.axis, turn.angle);
     return o;
 }
 
@@ -128,6 +139,44 @@ Vector3 position_by(const Joint& joint, Places& places) {
     const Vector3 shift = axes_of(joint.parent, places).to_inertial(motion_of(joint, places).shift, z);
     const Vector3 point = add(point_of(from, places), scale(forwards ? 1 : -1, shift, z), z);
     return minus(point, places.orientation(to.body.text).to_inertial(places.vector(to.point), z), z);
+}
+
+JointArc arc_of(const Joint& joint, Places& places) {
+    Intermediates& z = places.z();
+    JointArc arc{.name = joint.name.text,
+                 .type = joint_types()[static_cast<std::size_t>(joint.type)],
+                 .role = !joint.places_child    ? JointArc::Role::closes_loop
+                         : *joint.places_child ? JointArc::Role::places_child
+                                               : JointArc::Role::places_parent};
+    if (arc.role == JointArc::Role::closes_loop) return arc;
+    const bool forwards = *joint.places_child;
+    const Motion motion = motion_of(joint, places);
+    const Orientation inner = axes_of(forwards ? joint.parent : joint.child, places), parent = axes_of(joint.parent, places),
+                      relative = turned(Orientation(), forwards ? motion.turns : backwards(motion.turns), places);
+    arc.turning = relative.to_inertial(relative.angular_velocity(), z);
+    // Not as differences of positions, which lose digits far from O.
+    const auto arm = [&](const Joint::Side& side) {
+        return places.orientation(side.body.text).to_inertial(places.vector(side.point), z);
+    };
+    const Vector3 there = add(arm(joint.parent), parent.to_inertial(motion.shift, z), z), back = arm(joint.child);
+    arc.to_pivot = forwards ? there : back;
+    arc.from_pivot = scale(-1, forwards ? back : there, z);
+    for (int k = 0; k < 3; ++k) {
+        arc.axes[k] = inner.axis(k);
+        arc.slide_axes[k] = parent.axis(k);
+        arc.sliding[k] = places.rate(motion.shift[k]);
+    }
+    return arc;
+}
+
+int point_by(const Joint& joint, Places& places) {
+    const bool forwards = *joint.places_child;
+    const Joint::Side &from = forwards ? joint.parent : joint.child, &to = forwards ? joint.child : joint.parent;
+    const auto body_point = [&](const std::string& body) { return body == "N" ? 0 : places.point(body); };
+    int point = places.step(body_point(from.body.text), places.orientation(from.body.text).frame, places.vector(from.point));
+    const Vector3 shift = scale(forwards ? 1 : -1, motion_of(joint, places).shift, places.z());
+    point = places.step(point, axes_of(joint.parent, places).frame, shift);
+    return places.step(point, places.orientation(to.body.text).frame, scale(-1, places.vector(to.point), places.z()));
 }
 
 std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {

@@ -25,6 +25,11 @@ namespace alembert {
 /// Of the body that the joint places.
 Orientation orientation_by(const Joint& joint, Places& places);
 Vector3 position_by(const Joint& joint, Places& places);
+/// The same as steps of the skeleton.
+int point_by(const Joint& joint, Places& places);
+
+/// As an arc or a chord of the system graph; bodies are left at the ground.
+JointArc arc_of(const Joint& joint, Places& places);
 
 struct ClosingRow {
     bool holonomic;

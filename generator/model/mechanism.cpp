@@ -29,6 +29,13 @@ void append(Intermediates::Direction& direction, const std::vector<GiNaC::symbol
 
 }  // namespace
 
+std::vector<const Mechanism::Constraint*> Mechanism::undetermined() const {
+    std::vector<const Constraint*> result;
+    for (const Unilateral& u : unilateral) result.push_back(&u.gap);
+    for (const Constraint& c : redundant) result.push_back(&c);
+    return result;
+}
+
 std::vector<GiNaC::symbol> Mechanism::moving() const {
     std::vector<GiNaC::symbol> symbols = q;
     symbols.push_back(t);

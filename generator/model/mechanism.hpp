@@ -16,11 +16,9 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "symbolic/intermediates.hpp"
+#include "model/skeleton.hpp"
 
 namespace alembert {
-
-using Vector3 = std::array<GiNaC::ex, 3>;
 
 /// One body's share of T, one spring's of V …
 struct Part {
@@ -52,6 +50,24 @@ struct MassElement {
         std::optional<Vector3> about = {};   ///< mass centre minus the point of the body that `inertia` is about, along N
     };
     std::optional<Rotation> rotation = {};
+    int frame = 0, point = 0, about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
+};
+
+/// A joint of the system graph. Where it places a body (an arc of the tree) it says how the outer of its two bodies moves
+/// against the inner one, which is nearer to the ground; one that closes a loop (a chord) says whom it joins.
+struct JointArc {
+    std::string name, type;
+    int parent = -1, child = -1;             ///< positions in Mechanism::masses; −1 is the ground
+    enum class Role { places_child, places_parent, closes_loop } role;
+    std::array<Vector3, 3> axes = {};        ///< the joint's axes in the inner body, along N
+    Vector3 turning = {};                    ///< ω of the outer body against the inner one, along `axes`
+    Vector3 to_pivot = {};                   ///< from the inner mass centre (from O) to the joint's point of the child, along N
+    Vector3 from_pivot = {};                 ///< on to the outer mass centre (to O)
+    std::array<Vector3, 3> slide_axes = {};  ///< the joint's axes in the parent, along N
+    Vector3 sliding = {};                    ///< rate of the child's point against the parent's, along `slide_axes`
+
+    int inner() const { return role == Role::places_parent ? child : parent; }
+    int outer() const { return role == Role::places_parent ? parent : child; }
 };
 
 /// A spring as forces: between two points, or along an expression.
@@ -129,6 +145,8 @@ struct Mechanism {
     std::vector<Load> impulses;           ///< ∫load dt of what acts at the start in no time; not among `loads`
     std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
     std::vector<SpringElement> springs;
+    std::vector<JointArc> joints;         ///< in the order of the scene
+    Skeleton skeleton;                    ///< how frames and points hang together
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
@@ -146,6 +164,9 @@ struct Mechanism {
 
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
+
+    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from others.
+    std::vector<const Constraint*> undetermined() const;
 
     /// What changes with time, but for the rates: coordinates, t, inputs.
     std::vector<GiNaC::symbol> moving() const;

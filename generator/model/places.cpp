@@ -33,20 +33,35 @@ Orientation Places::turn(const Frame& frame) {
     SourceScope source(*m_.z, "frame " + frame.name.text);
     Orientation o = orientation(frame.parent.text);
     if (!frame.quaternion.empty()) {
-        std::array<ex, 4> e, rate;
-        for (int k = 0; k < 4; ++k) {
-            const std::size_t i = coordinate_index(frame.quaternion[k].text, m_);
-            e[k] = m_.q[i];
-            rate[k] = m_.qdot[i];
-        }
-        return o.turned(e, rate, *m_.z);
+        std::array<ex, 4> e;
+        for (std::size_t k = 0; k < 4; ++k) e[k] = value(frame.quaternion[k]);
+        return turned(o, e);
     }
     for (const Rotation& r : frame.rotations) o = turned(o, unit_axis(r), value(r.angle));
     return o;
 }
 
 Orientation Places::turned(const Orientation& o, const Vector3& axis, const ex& angle) {
-    return o.turned(axis, angle, rate(angle), *m_.z);
+    Orientation result = o.turned(axis, angle, rate(angle), *m_.z);
+    result.frame = turn_step({.parent = o.frame, .axis = axis, .angle = angle});
+    return result;
+}
+
+int Places::turn_step(Skeleton::Turn turn) {
+    skeleton_.frames.push_back(std::move(turn));
+    return static_cast<int>(skeleton_.frames.size()) - 1;
+}
+
+int Places::step(int from, int frame, const Vector3& offset) {
+    if (offset[0].is_zero() && offset[1].is_zero() && offset[2].is_zero()) return from;
+    skeleton_.points.push_back({from, frame, offset});
+    return static_cast<int>(skeleton_.points.size()) - 1;
+}
+
+Orientation Places::turned(const Orientation& o, const std::array<ex, 4>& e) {
+    Orientation result = o.turned(e, {rate(e[0]), rate(e[1]), rate(e[2]), rate(e[3])}, *m_.z);
+    result.frame = turn_step({.parent = o.frame, .by_quaternion = true});
+    return result;
 }
 
 ex Places::value(const Name& name) {
@@ -98,11 +113,13 @@ Vector3 Places::position(const std::string& name) {
     if (const auto found = positions_.find(name); found != positions_.end()) return found->second;
     if (const Joint* joint = joint_of(name)) {
         SourceScope source(*m_.z, "joint " + joint->name.text);
+        points_[name] = point_by(*joint, *this);
         return positions_[name] = position_by(*joint, *this);
     }
     const Position* where = find(name);
     if (where == nullptr) throw std::out_of_range("point '" + name + "'");
     SourceScope source(*m_.z, "point " + name);
+    points_[name] = step(point(where->from.text), orientation(where->axes.text).frame, vector(where->offset));
     return positions_[name] = add(position(where->from.text), along(where->offset, where->axes), *m_.z);
 }
 

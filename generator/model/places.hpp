@@ -33,6 +33,7 @@ public:
     /// The direction of a rotation's axis.
     Vector3 unit_axis(const Rotation& rotation);
     Orientation turned(const Orientation& o, const Vector3& axis, const GiNaC::ex& angle);
+    Orientation turned(const Orientation& o, const std::array<GiNaC::ex, 4>& quaternion);
     /// The mass centre; of N the origin.
     Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
 
@@ -43,8 +44,14 @@ public:
     double number(const GiNaC::ex& e) const;
     Intermediates& z() { return *m_.z; }
 
+    /// What has been asked for so far, as steps; `point` of a name.
+    const Skeleton& skeleton() const { return skeleton_; }
+    int point(const std::string& name) { return position(name), name == "O" ? 0 : points_.at(name); }
+    int step(int from, int frame, const Vector3& offset);
+
 private:
     Orientation turn(const Frame& frame);
+    int turn_step(Skeleton::Turn turn);
     const Joint* joint_of(const std::string& body) const;
     const Position* find(const std::string& point) const;
 
@@ -53,6 +60,8 @@ private:
     Translator& translator_;
     std::map<std::string, Orientation> orientations_;
     std::map<std::string, Vector3> positions_, velocities_;
+    std::map<std::string, int> points_;
+    Skeleton skeleton_;
 };
 
 }  // namespace alembert

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lower/lower.hpp"
+#include "report/euler_form.hpp"
 #include "report/intermediate_form.hpp"
 
 namespace alembert {
@@ -31,6 +32,7 @@ public:
             if (const auto f = normal(pole))
                 result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
         if (!readable_equations() || !energies()) return with_definitions();
+        angular_velocities();
         forces();
         derivatives();
         constraints();
@@ -63,6 +65,7 @@ private:
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right));
         }
+        if (!e_.h.empty()) write_as_euler(result_.equations, result_.rows);
         for (std::size_t i = 0; i < e_.h.size(); ++i) {
             if (e_.h[i].is_equal(m_.qdot[i])) continue;
             const auto rate = normal(e_.h[i]);
@@ -94,6 +97,15 @@ private:
         statement.value = readable(*f);
         to.push_back(std::move(statement));
         return true;
+    }
+
+    /// ω along the axes of each body that turns in space.
+    void angular_velocities() {
+        for (const MassElement& body : m_.masses) {
+            if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero())) continue;
+            for (int k = 0; k < 3; ++k)
+                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], body.label, {}, {}}, body.rotation->w_NB_B[k]);
+        }
     }
 
     bool energies() {

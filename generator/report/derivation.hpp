@@ -42,6 +42,7 @@ struct Derivation {
     int degrees_of_freedom = 0;
     std::vector<Phrase> coordinates;
     std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size
+    std::vector<Statement> angular;        ///< angular velocities along the axes of bodies that turn in space
     std::vector<Statement> energies;       ///< T and V of each body and spring
     Phrase kinetic, potential;
     std::optional<Phrase> lagrangian;      ///< where the scene gives it

@@ -125,7 +125,7 @@ std::string write_call(const Phrase& phrase, const std::string& exponent) {
     if (phrase.name == "sqrt") return fmt::format("\\sqrt{{{}}}", write(phrase.args[0]));
     if (phrase.name == "exp") return fmt::format("\\mathrm{{e}}^{{{}}}", write(phrase.args[0]));
     if (phrase.name == "abs") return fmt::format("\\left|{}\\right|", write(phrase.args[0]));
-    const std::string name = function_latex(phrase.name) + exponent;
+    const std::string name = phrase.name.empty() ? "" : function_latex(phrase.name) + exponent;
     const Phrase& arg = phrase.args[0];
     const bool bare =
         takes_exponent(phrase.name) && arg.kind == Kind::symbol && arg.info.kind != SymbolInfo::Kind::input;

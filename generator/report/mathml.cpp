@@ -124,6 +124,7 @@ std::string write_call(const Phrase& phrase, const std::string& name) {
     std::string args;
     for (const Phrase& each : phrase.args)
         args += fmt::format("{}{}", args.empty() ? "" : "<mo>,</mo>", write(each));
+    if (phrase.name.empty()) return parenthesized(args);
     return row(name + applied + (bare ? args : parenthesized(args)));
 }
 

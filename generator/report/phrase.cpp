@@ -81,6 +81,8 @@ Phrase power(Phrase base, Phrase exponent) {
     return node(Kind::power, {std::move(base), std::move(exponent)});
 }
 
+Phrase tuple(std::vector<Phrase> elements) { return node(Kind::call, std::move(elements)); }
+
 Phrase call(std::string name, std::vector<Phrase> args) {
     Phrase result = node(Kind::call, std::move(args));
     result.name = std::move(name);

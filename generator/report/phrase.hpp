@@ -53,6 +53,7 @@ Phrase quotient(Phrase numerator, Phrase denominator);
 Phrase power(Phrase base, const Rational& exponent);
 Phrase power(Phrase base, Phrase exponent);
 Phrase call(std::string name, std::vector<Phrase> args);
+Phrase tuple(std::vector<Phrase> elements);  ///< (1, 0, -1): a call without a name
 Phrase negative(Phrase arg);  ///< drops a double negation
 
 }  // namespace phrases

@@ -5,6 +5,7 @@
 
 #include "scene/names.hpp"
 #include "scene/quantity.hpp"
+#include "scene/quaternions.hpp"
 #include "scene/references.hpp"
 #include "scene/text.hpp"
 
@@ -90,10 +91,11 @@ private:
     void check_geometry() {
         const Legal angle{.subject = "an angle", .order = 0, .input_order = 0, .time = true};
         const Legal axis{.subject = "an axis"};
-        std::unordered_map<std::string, const Frame*> quaternions;  // by coordinate
+        std::unordered_map<std::string, std::string> taken;  // coordinate → frame
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_))
+            for (const Name& name : quaternion.e) check_quaternion(name, quaternion.of.text, taken);
         for (const Frame& frame : scene_.frames) {
             quantities_.check_frame(frame.parent);
-            for (const Name& name : frame.quaternion) check_quaternion(name, frame, quaternions);
             for (const Rotation& rotation : frame.rotations) {
                 quantities_.check(rotation.angle, angle);
                 check(rotation.axis, axis);
@@ -123,12 +125,12 @@ private:
         }
     }
 
-    void check_quaternion(const Name& name, const Frame& frame, std::unordered_map<std::string, const Frame*>& taken) {
+    void check_quaternion(const Name& name, const std::string& frame, std::unordered_map<std::string, std::string>& taken) {
         check_coordinate(name);
-        const auto [first, is_new] = taken.emplace(name.text, &frame);
+        const auto [first, is_new] = taken.emplace(name.text, frame);
         if (!is_new)
             complain(name.place, fmt::format("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
-                                             in_quotes(name.text), in_quotes(first->second->name.text)));
+                                             in_quotes(name.text), in_quotes(first->second)));
     }
 
     void check(const Position& position) {
@@ -250,8 +252,7 @@ private:
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
             check_constraint_name(rule.name, known);
         }
-        for (const Frame& frame : scene_.frames)
-            if (!frame.quaternion.empty()) check_constraint_name(frame.name, known);
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_)) check_constraint_name(quaternion.of, known);
         for (const RollingRule& rule : scene_.rolling) {
             check_body(rule.body, false);
             check_body(rule.on, true);

@@ -7,6 +7,7 @@
 
 #include "scene/functions.hpp"
 #include "scene/placing.hpp"
+#include "scene/quaternions.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -85,8 +86,6 @@ std::array<Name, 3> multipliers_of(const RollingRule& rule) {
     return {Name{stem + "_x", rule.name.place}, Name{stem + "_y", rule.name.place}, Name{stem + "_z", rule.name.place}};
 }
 
-Name multiplier_of(const Frame& frame) { return {"lambda_" + frame.name.text, frame.name.place}; }
-
 std::string described(Kind kind) {
     switch (kind) {
         case Kind::coordinate:
@@ -122,8 +121,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
-    for (const Frame& frame : scene.frames)
-        if (!frame.quaternion.empty()) multipliers.push_back(multiplier_of(frame));
+    for (const FrameQuaternion& quaternion : quaternions_of(scene)) multipliers.push_back(multiplier_of(quaternion));
     for (const RollingRule& rule : scene.rolling)
         for (Name& multiplier : multipliers_of(rule)) multipliers.push_back(std::move(multiplier));
     for (const UnilateralRule& rule : scene.unilateral)

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "scene/quaternions.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -117,9 +118,20 @@ private:
                                         in_quotes((*joint.places_child ? joint.child : joint.parent).body.text), given,
                                         given == 1 ? "" : "s", needed, meaning(joint)));
         else if (turns_in_space && joint.angles.empty())
-            complain(place, fmt::format("a quaternion as coordinates of joint {} is not supported yet; give three angles and "
-                                        "their axes, angles = \"zxz\"",
-                                        name));
+            check_quaternion(joint);
+    }
+
+    void check_quaternion(const Joint& joint) {
+        const auto is_free = [&](const Name& name) {
+            return std::any_of(scene_.coordinates.begin(), scene_.coordinates.end(),
+                               [&](const Coordinate& c) { return c.name.text == name.text; });
+        };
+        const std::vector<Name> e = quaternion_of(joint);
+        const auto given = std::find_if_not(e.begin(), e.end(), is_free);
+        if (given == e.end() || std::none_of(e.begin(), e.end(), is_free)) return;
+        complain(given->place, fmt::format("the motion of joint {} prescribes {} alone of its quaternion; prescribe all four or none, or "
+                                           "give three angles, angles = \"zxz\"",
+                                           in_quotes(joint.name.text), in_quotes(given->text)));
     }
 
     std::string placed_by(const Joint& joint) const {

@@ -200,9 +200,6 @@ struct RollingRule {
 /// "lambda_wheel_x" …: the multipliers of a rolling's rows along the axes of N.
 std::array<Name, 3> multipliers_of(const RollingRule& rule);
 
-/// The multiplier of e·e − 1 = 0, of a frame with a quaternion.
-Name multiplier_of(const Frame& frame);
-
 struct Output {
     Name name;
     Expression value;

@@ -69,6 +69,21 @@ struct alembert_derivative_table {
     void (*parameter_jacobian)(double t, const double* state, const double* par, double* values);  ///< null if not asked for
 };
 
+/// What `alembert_pack()` of a file emitted with `--batch` returns: the functions of the same name above for `lanes`
+/// systems at once. Each number of theirs becomes `lanes` of them side by side, one of each system (its own time and
+/// parameters too): q₁ is at state[lanes] … state[2·lanes − 1]. Arrays begin at multiples of 64 bytes. What happens in one
+/// lane does not change another by a bit.
+struct alembert_pack_table {
+    int abi;
+    int lanes;
+    void (*prepare)(double* par);
+    void (*rhs)(const double* t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(const double* t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(const double* t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(const double* t, const double* state, const double* rate, const double* par, double* out);
+};
+
 }  // extern "C"
 
 namespace alembert {

@@ -20,6 +20,7 @@
 #include "alembert/run.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
+#include "alembert/taylor.hpp"
 #include "alembert/verner.hpp"
 
 namespace alembert {
@@ -38,6 +39,8 @@ void check(bool good, const std::string& message) {
     if (!good) throw std::invalid_argument(message);
 }
 
+}  // namespace
+
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
     const auto number = [](const char* key, double value, bool good, const char* wanted) {
         check(std::isfinite(value) && good, fmt::format("{} = {}: {}", key, value, wanted));
@@ -52,6 +55,9 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("longest_step", options.longest_step, options.longest_step >= 0,
            "a finite number, zero or more, is needed");
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
+    check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
+          fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand side has not got",
+                      name(options.method)));
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
           fmt::format("{} has a fixed step: give it, for example step = {:g}", name(options.method),
@@ -61,6 +67,8 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     check(options.duration == 0 || options.duration / sample_interval(options) < most_rows,
           fmt::format("sample = {}: more than {:g} rows", options.sample, most_rows));
 }
+
+namespace {
 
 template <class AnyStep>
 Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {
@@ -73,6 +81,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     Options rest = options;
     rest.method = *options.when_stiff;
     rest.when_stiff = {};
+    rest.rhs_when_stiff = {};
     rest.start = first.times.back();
     rest.duration = end - rest.start;
     rest.step = 0;
@@ -80,7 +89,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     rest.grid = options.grid.value_or(options.start);
     rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
     const std::vector<double> state(first.final_state().begin(), first.final_state().end());
-    Trajectory second = integrate(rhs, state, rest, events);
+    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
     const double rows = (rest.start - *rest.grid) / interval;
     if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && second.rows() > 1) {
         first.times.pop_back();
@@ -124,7 +133,8 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::radau, "radau", false, run<Stepper<RadauOfAnyOrder>>},
                                    {Method::radau5, "radau5", false, run<Stepper<Radau5>>},
                                    {Method::radau9, "radau9", false, run<Stepper<Radau9>>},
-                                   {Method::radau13, "radau13", false, run<Stepper<Radau13>>}};
+                                   {Method::radau13, "radau13", false, run<Stepper<Radau13>>},
+                                   {Method::taylor, "taylor", false, run<Stepper<Taylor>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
@@ -146,6 +156,12 @@ bool has_fixed_step(Method method) {
     return entry(method).fixed_step;
 }
 
+std::vector<Method> all_methods() {
+    std::vector<Method> list;
+    for (const MethodEntry& one : methods) list.push_back(one.method);
+    return list;
+}
+
 std::string method_names() {
     std::string names;
     for (const MethodEntry& one : methods)
@@ -154,7 +170,11 @@ std::string method_names() {
 }
 
 bool uses_jacobian(Method method) {
-    return method >= Method::radau || method == Method::bdf || method == Method::gauss;
+    return (method >= Method::radau && method <= Method::radau13) || method == Method::bdf || method == Method::gauss;
+}
+
+bool needs_series(Method method) {
+    return method == Method::taylor;
 }
 
 bool needs_separable(Method method) {

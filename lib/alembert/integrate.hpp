@@ -16,6 +16,7 @@
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
+/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉, 22 at 1e-18 | adaptive, or fixed with `step` | its order | it grows with the order: to hλ = -8 at order 16 |
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
@@ -47,7 +48,7 @@
 
 namespace alembert {
 
-enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau, radau5, radau9, radau13 };
+enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau, radau5, radau9, radau13, taylor };
 
 /// "dop853" and so on.
 std::string_view name(Method method);
@@ -57,6 +58,10 @@ bool has_fixed_step(Method method);
 bool uses_jacobian(Method method);
 /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
 bool needs_separable(Method method);
+/// Only for right-hand sides with Rhs::series.
+bool needs_series(Method method);
+/// In the order above.
+std::vector<Method> all_methods();
 /// "euler, rk2, ... or verner98", for messages.
 std::string method_names();
 
@@ -68,17 +73,21 @@ struct Options {
     double start = 0;
     double duration = 0;      ///< from the start; 0 gives one row
     double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;          ///< of methods with a fixed step; first step of the others, 0: found automatically
+    double step = 0;          ///< of methods with a fixed step, and of taylor where given; first step of the others, 0: found automatically
     double longest_step = 0;  ///< adaptive methods; 0: no bound
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
     /// Where the steps of an explicit method are found to be held down by stiffness (stiffness.hpp), the run goes on with this one.
     std::optional<Method> when_stiff = {};
+    std::function<Rhs()> rhs_when_stiff = {};  ///< the same system, with its Jacobian; asked for then; empty: the same Rhs
     OnStep on_step = {};       ///< may be empty
     /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
     std::function<void(double t, double* state)> project = {};
 };
+
+/// What `integrate` begins with.
+void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options);
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,
                      const Events& events = {});

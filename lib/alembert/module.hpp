@@ -17,18 +17,33 @@
 
 namespace alembert {
 
+/// An emitted and compiled file; it leaves the process with the last copy. Opening throws CompileError.
+class ObjectFile {
+public:
+    explicit ObjectFile(const std::filesystem::path& path);
+    /// What the file exports as `name`, an `extern "C"` function; null where it has none.
+    void* find(const char* name) const;
+    const std::shared_ptr<void>& handle() const { return handle_; }
+
+private:
+    std::shared_ptr<void> handle_;
+};
+
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }
     /// Null where the file was emitted without.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
+    /// Null where the file was emitted without `--batch`.
+    const alembert_pack_table* pack() const { return pack_; }
 
 private:
     friend Module load(const std::filesystem::path& object);
-    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives)
-        : table_(std::move(table)), derivatives_(derivatives) {}
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives, const alembert_pack_table* pack)
+        : table_(std::move(table)), derivatives_(derivatives), pack_(pack) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
     const alembert_derivative_table* derivatives_;        ///< in it
+    const alembert_pack_table* pack_;                     ///< in it
 };
 
 Module load(const std::filesystem::path& object);

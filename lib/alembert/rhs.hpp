@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "alembert/module.hpp"
+#include "alembert/series.hpp"
 
 namespace alembert {
 
@@ -35,6 +36,7 @@ struct Rhs {
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
+    Series series = {};       ///< of the motion, for the method taylor; may be missing
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
@@ -59,7 +61,8 @@ Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {
             .call = [](const void* context, double t, const double* state,
                        double* rate) { static_cast<const Both*>(context)->first(t, state, rate); },
             .jacobian = [](const void* context, double t, const double* state,
-                           double* values) { static_cast<const Both*>(context)->second(t, state, values); }};
+                           double* values) { static_cast<const Both*>(context)->second(t, state, values); },
+            .series = {}};
 }
 
 /// Any function f(t, const double* state, double* rate).
@@ -76,7 +79,8 @@ Rhs make_rhs(int dimension, Function function, int extra = 0) {
             .names = {},
             .context = std::make_shared<const Function>(std::move(function)),
             .call = call,
-            .jacobian = nullptr};
+            .jacobian = nullptr,
+            .series = {}};
 }
 
 }  // namespace alembert

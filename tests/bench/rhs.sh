@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # rhs.sh [--alone] [--json FILE] [BUILD]: the time of one emitted right-hand side, in floors (n calls of glibc's sincos), for chains
-# of 2 to 32 rods with joint torques, the double pendulum and the four-bar; BUILD is the folder of the build (build/release).
+# of 2 to 32 rods with joint torques, the arms arm7 and arm7g, the double pendulum and the four-bar; BUILD is the folder of the build (build/release).
 # --json writes a list of {system, floor_ns, ours_ns, ours_pack_ns, formulation, operations, error, compile_s, rivals}.
 # --alone leaves rivals out; none is built yet. rhs.cpp says how time is taken.
 set -eu
@@ -28,12 +28,16 @@ systems=()
 add() { # SCENE
     local name
     name=$(basename "$1" .toml)
-    "$alembert" emit --json "$1" -o "$folder" >"$folder/$name.json"
+    "$alembert" emit --batch --json "$1" -o "$folder" >"$folder/$name.json"
     systems+=("$folder/$name.json" "$folder/$name.cpp")
 }
 for n in 2 4 8 16 32; do
     python3 -B "$root/scenes/benchmark/chain.py" "$n" --torques >"$folder/pend$n.toml"
     add "$folder/pend$n.toml"
+done
+for arm in arm7 arm7g; do
+    python3 -B "$root/scenes/benchmark/torques.py" "$root/scenes/benchmark/trees/$arm.toml" >"$folder/$arm.toml"
+    add "$folder/$arm.toml"
 done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"

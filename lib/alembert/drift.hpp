@@ -1,10 +1,11 @@
-// SPDX-License-Identifier: GPL-2.0-or-later
+// SPDX-License-Identifier: MIT
 #pragma once
 
 /// How far E, E − W and T₂ − T₀ + V stray from their values at the start, over all accepted steps of a run.
 ///
 ///     Drift drift(n, s, with_work);
 ///     drift(table, par, t, state, rate);       // at the start and after each step
+///     drift.add({.kinetic = T, .total = E, .jacobi = h}, work);        // the same with the energies in hand
 ///     drift.balance();
 ///
 /// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that a moving frame takes
@@ -26,8 +27,15 @@ public:
 
     void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t, std::span<const double> state,
                     std::span<const double> rate) {
-        const Energies e = energies(table, par, t, state.data(), rate.data());
-        const double work = (with_work_ ? state[size_] : 0) + jumps_;
+        add(energies(table, par, t, state.data(), rate.data()), with_work_ ? state[size_] : 0);
+    }
+
+    struct Energies {
+        double kinetic, total, jacobi;
+    };
+
+    void add(const Energies& e, double quadrature) {
+        const double work = quadrature + jumps_;
         if (first_) {
             energy_start_ = e.total;
             jacobi_start_ = e.jacobi;
@@ -58,10 +66,6 @@ public:
     double jacobi() const { return jacobi_ / scale(jacobi_start_); }
 
 private:
-    struct Energies {
-        double kinetic, total, jacobi;
-    };
-
     static Energies energies(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* state,
                              const double* rate) {
         double energy[4], jacobi = 0;

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "formalism/joint_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "formalism/elements.hpp"
+#include "model/parameter_values.hpp"
+#include "report/readable.hpp"
+#include "report/text.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using NamedVector = Triple<Named>;
+using Rotation3 = Matrix<Named>;
+
+namespace {
+
+Rotation3 unity() { return {NamedVector{1, 0, 0}, NamedVector{0, 1, 0}, NamedVector{0, 0, 1}}; }
+
+bool is_unity(const Rotation3& R) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!R[i][j].e.is_equal(i == j ? 1 : 0)) return false;
+    return true;
+}
+
+bool same_axis(const Vector3& a, const Vector3& b) { return a[0].is_equal(b[0]) && a[1].is_equal(b[1]) && a[2].is_equal(b[2]); }
+
+/// Where a point is: in a link's own axes, and those of a frame beside them.
+struct Seat {
+    int link = -1;
+    Rotation3 to_link = unity();  ///< components along the frame's axes → along the link's
+    NamedVector at{0, 0, 0};
+};
+
+class Finder {
+public:
+    explicit Finder(const Mechanism& m) : m_(m), z_(*m.z) { tree_.coordinates = m.size(); }
+
+    JointTree find() {
+        for (int k = 0; k < 3; ++k) tree_.gravity[k] = named(m_.gravity[k]);
+        for (const MassElement& body : m_.masses) {
+            label_ = body.label;
+            add(body);
+        }
+        return std::move(tree_);
+    }
+
+private:
+    Named named(const ex& e) { return {e, z_}; }
+    NamedVector named(const Vector3& v) { return {named(v[0]), named(v[1]), named(v[2])}; }
+    bool moves(const ex& e) const { return m_.z->depends(e, m_.moving()); }
+
+    [[noreturn]] void refuse(const std::string& why) const { throw ModelError("the recursive formalism goes from body to body along joints: " + why); }
+
+    std::string shown(const ex& e) const {
+        if (z_.tree_size(e) > 300) return "…";
+        const auto f = fourier(z_.expand(e), *m_.symbols, 20);
+        return f ? text(readable(*f)) : "…";
+    }
+
+    /// Rodrigues' formula.
+    Rotation3 turn(const Vector3& a, const ex& angle) {
+        const ex c = z_.name(cos(angle)), s = z_.name(sin(angle));
+        Rotation3 R = unity();
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const ex tilde = i == k ? ex(0) : ((k - i + 3) % 3 == 1 ? -a[3 - i - k] : a[3 - i - k]);
+                R[i][k] = named(a[i].is_equal(1) && i == k ? ex(1) : (i == k ? c : ex(0)) + (1 - c) * a[i] * a[k] + s * tilde);
+            }
+        return R;
+    }
+
+    /// LinkAxes whose z is `a`, by columns.
+    Rotation3 axes_along(const Vector3& a) {
+        for (int k = 0; k < 3; ++k) {
+            if (!a[k].is_equal(1)) continue;
+            Rotation3 C{NamedVector{0, 0, 0}, NamedVector{0, 0, 0}, NamedVector{0, 0, 0}};
+            for (int column = 0; column < 3; ++column) C[(k + 1 + column) % 3][column] = 1;
+            return C;
+        }
+        const ParameterValues values(m_);
+        int across = 0;  // the letter that the axis is farthest from
+        for (int k = 1; k < 3; ++k)
+            if (std::abs(values.number(z_.expand(a[k]))) < std::abs(values.number(z_.expand(a[across])))) across = k;
+        NamedVector z = named(a), x{0, 0, 0};
+        x[across] = 1;
+        x = x - z[across] * z;
+        const Named length = named(sqrt(z_.name(1 - a[across] * a[across])));
+        for (Named& component : x) component = component / length;
+        return transposed(Rotation3{x, cross(z, x), z});
+    }
+
+    struct Fixed {
+        int frame;  ///< the moving one that this one is fixed in; 0 for N
+        Rotation3 R;  ///< components along this one → along that
+    };
+    const Fixed& fixed(int f) {
+        if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
+        const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
+        if (turn_step.by_quaternion)
+            refuse(fmt::format("{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or --by routh or kane", label_));
+        if (f == 0 || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
+        const Fixed above = fixed(turn_step.parent);
+        return fixed_[f] = {above.frame, above.R * turn(turn_step.axis, turn_step.angle)};
+    }
+    /// The next moving frame above.
+    int above(int frame) { return fixed(m_.skeleton.frames[frame].parent).frame; }
+
+    std::vector<int> ancestors(int frame) {
+        std::vector<int> list{frame};
+        while (list.back() != 0) list.push_back(above(list.back()));
+        return list;
+    }
+
+    /// The position, its rate, and what is not due to q''; refuses what is not linear in the coordinates.
+    void set_motion(TreeJoint& joint, const ex& position, const std::string& what) {
+        const ex plain = z_.expand(position);
+        ex rest = plain;
+        joint.position = z_.name(position);
+        GiNaC::exvector rate;
+        for (int i = 0; i < m_.size(); ++i) {
+            const ex slope = plain.has(m_.q[i]) ? plain.diff(m_.q[i]) : ex(0);
+            if (!GiNaC::is_a<GiNaC::numeric>(slope) || !slope.info(GiNaC::info_flags::rational))
+                refuse(fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use --by lagrange or kane", label_, what, shown(position)));
+            joint.row.push_back(GiNaC::ex_to<GiNaC::numeric>(slope));
+            rest -= slope * m_.q[i];
+            rate.push_back(slope * m_.qdot[i]);
+        }
+        const ex first = m_.explicit_time_derivative({z_.name(rest.expand())})[0];
+        rate.push_back(first);
+        joint.rate = z_.name(GiNaC::add(std::move(rate)));
+        joint.drift = m_.explicit_time_derivative({first})[0];
+    }
+
+    /// A turn about `axis` after `seat`; `R` from the frame in which the axis stands to that of the seat.
+    Seat turned(const Seat& seat, const Rotation3& R, const Vector3& axis, const ex& angle) {
+        Vector3 a = axis;
+        ex by = angle;
+        if (a[0].is_equal(-1) || a[1].is_equal(-1) || a[2].is_equal(-1)) {
+            for (ex& component : a) component = -component;
+            by = -by;
+        }
+        const Rotation3 C = axes_along(a);
+        TreeJoint joint;
+        joint.link.parent = seat.link;
+        joint.link.R = seat.to_link * (R * C);
+        joint.link.p = seat.at;
+        joint.parallel = seat.link >= 0 && is_unity(joint.link.R);
+        set_motion(joint, by, "turns");
+        tree_.joints.push_back(std::move(joint));
+        return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
+    }
+
+    /// The turns that lead from one frame to another that does not come after it: up to the first common frame, then down.
+    Seat turned_across(Seat seat, int from, int to) {
+        struct Move {
+            Vector3 axis;
+            ex angle;  ///< nothing of it: a rotation R
+            std::optional<Rotation3> R;
+        };
+        std::vector<Move> moves;
+        const auto push = [&](Move move) {
+            if (move.R && is_unity(*move.R)) return;
+            if (!move.R && !moves.empty() && !moves.back().R && same_axis(move.axis, moves.back().axis)) {
+                moves.back().angle = z_.name(moves.back().angle + move.angle);
+                if (moves.back().angle.is_zero()) moves.pop_back();
+                return;
+            }
+            if (move.R && !moves.empty() && moves.back().R) {
+                moves.back().R = *moves.back().R * *move.R;
+                if (is_unity(*moves.back().R)) moves.pop_back();
+                return;
+            }
+            moves.push_back(std::move(move));
+        };
+        const std::vector<int> up = ancestors(from), down = ancestors(to);
+        const auto common = std::find_first_of(up.begin(), up.end(), down.begin(), down.end());
+        const auto step = [&](int frame) -> const Skeleton::Turn& { return m_.skeleton.frames[frame]; };
+        for (auto f = up.begin(); f != common; ++f) {
+            push({step(*f).axis, -step(*f).angle, std::nullopt});
+            push({{}, 0, transposed(fixed(step(*f).parent).R)});
+        }
+        for (auto f = std::find(down.begin(), down.end(), *common); f != down.begin();) {
+            --f;
+            push({{}, 0, fixed(step(*f).parent).R});
+            push({step(*f).axis, step(*f).angle, std::nullopt});
+        }
+        Rotation3 R = unity();
+        for (const Move& move : moves) {
+            if (move.R) {
+                R = R * *move.R;
+                continue;
+            }
+            seat = turned(seat, R, move.axis, move.angle);
+            R = unity();
+        }
+        seat.to_link = seat.to_link * R;
+        return seat;
+    }
+
+    /// The point itself, by the step that leads to it, and the moving frame that this is along.
+    std::pair<int, Seat> own_seat(int point) {
+        if (point == 0) return {0, Seat{}};
+        const Skeleton::Step& step = m_.skeleton.points[point];
+        const Fixed along = fixed(step.frame);
+        if (const auto found = seats_.find({along.frame, point}); found != seats_.end()) return {along.frame, found->second};
+        Seat seat = seat_of(along.frame, step.from);
+        NamedVector constant{0, 0, 0};
+        std::vector<std::pair<NamedVector, ex>> slides;  // direction along the frame's axes, position
+        std::array<ex, 3> rest;
+        for (int k = 0; k < 3; ++k) rest[k] = moves(step.offset[k]) ? z_.expand(step.offset[k]) : step.offset[k];
+        for (int i = 0; i < m_.size(); ++i) {
+            NamedVector direction{0, 0, 0};
+            bool any = false;
+            for (int k = 0; k < 3; ++k) {
+                if (!moves(step.offset[k]) || !rest[k].has(m_.q[i])) continue;
+                const ex slope = rest[k].diff(m_.q[i]);
+                if (moves(slope)) refuse(fmt::format("{} is on a point shifted by '{}', which is not linear in the coordinates; place it by frames or joints, or use --by lagrange or kane", label_, shown(step.offset[k])));
+                direction[k] = named(slope);
+                rest[k] = (rest[k] - slope * m_.q[i]).expand();
+                any = true;
+            }
+            if (any) slides.emplace_back(direction, m_.q[i]);
+        }
+        for (int k = 0; k < 3; ++k) {
+            if (!moves(rest[k])) {
+                constant[k] = named(rest[k]);
+                continue;
+            }
+            NamedVector direction{0, 0, 0};
+            direction[k] = 1;
+            slides.emplace_back(direction, z_.name(rest[k]));
+        }
+        const auto into_link = [&](const NamedVector& v) { return seat.to_link * (along.R * v); };
+        seat.at = seat.at + into_link(constant);
+        for (const auto& [direction, position] : slides) {
+            TreeJoint joint;
+            joint.link.parent = seat.link;
+            joint.link.slides = true;
+            joint.link.p = seat.at;
+            joint.link.slide = into_link(direction);
+            joint.parallel = seat.link >= 0;
+            set_motion(joint, position, "is shifted");
+            tree_.joints.push_back(std::move(joint));
+            seat.link = static_cast<int>(tree_.joints.size()) - 1;
+            seat.at = {0, 0, 0};
+        }
+        seats_[{along.frame, point}] = seat;
+        return {along.frame, seat};
+    }
+
+    /// The point as it moves with the frame.
+    Seat seat_of(int frame, int point) {
+        if (const auto found = seats_.find({frame, point}); found != seats_.end()) return found->second;
+        const auto [own, seat] = own_seat(point);
+        if (own == frame) return seat;
+        const std::vector<int> line = ancestors(frame);
+        Seat result;
+        if (std::find(line.begin(), line.end(), own) != line.end()) {
+            const int before = above(frame);
+            const Skeleton::Turn& step = m_.skeleton.frames[frame];
+            result = turned(seat_of(before, point), fixed(step.parent).R, step.axis, step.angle);
+        } else {
+            result = turned_across(seat, own, frame);
+        }
+        return seats_[{frame, point}] = result;
+    }
+
+    void add(const MassElement& body) {
+        const Fixed along = fixed(body.rotation ? body.frame : 0);
+        const Seat seat = body.rotation ? seat_of(along.frame, body.point) : own_seat(body.point).second;
+        if (seat.link < 0) return;  // fixed to the ground
+        RigidBody<Named> added;
+        const Named m = named(body.mass);
+        if (body.rotation) {
+            const std::array<ex, 6> I = central_inertia(body, z_);
+            const ex half = GiNaC::numeric(1, 2);
+            for (int k = 0; k < 3; ++k) added.second[k] = named(half * (I[(k + 1) % 3] + I[(k + 2) % 3] - I[k]));
+            for (int k = 3; k < 6; ++k) added.second[k] = named(-I[k]);
+            added.second = congruent(seat.to_link * along.R, added.second);
+        }
+        added.mass = m;
+        added = shifted(added, seat.at);
+        RigidBody<Named>& whole = tree_.joints[seat.link].link.body;
+        whole = whole + added;
+    }
+
+    const Mechanism& m_;
+    Intermediates& z_;
+    JointTree tree_;
+    std::string label_;
+    std::map<int, Fixed> fixed_;
+    std::map<std::pair<int, int>, Seat> seats_;
+};
+
+}  // namespace
+
+JointTree joint_tree(const Mechanism& m) { return Finder(m).find(); }
+
+std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
+    std::vector<Dress> result(tree.joints.size());
+    if (axes == LinkAxes::own) return result;
+    std::vector<char> turns(result.size(), 1);  // the link turns against the ground
+    for (std::size_t j = 0; j < result.size(); ++j) {
+        const TreeLink<Named>& link = tree.joints[j].link;
+        const bool rooted = link.parent < 0 || turns[static_cast<std::size_t>(link.parent)] == 0;
+        result[j].still = !link.slides;
+        if (rooted) {
+            turns[j] = link.slides ? 0 : 1;
+            result[j].absolute = !link.slides;
+            continue;
+        }
+        const Dress& parent = result[link.parent];
+        const TreeJoint& above = tree.joints[link.parent];
+        result[j].continues = tree.joints[j].parallel && parent.still;
+        if (!result[j].continues) continue;
+        result[j].still = true;
+        const int base = above.link.slides ? parent.base : link.parent;
+        const bool counted = above.link.slides ? parent.base >= 0 : parent.absolute;
+        result[j].base = counted ? base : -1;
+        result[j].absolute = !link.slides && counted;
+    }
+    // An axis that no parallel one follows keeps its own axes.
+    std::vector<char> followed(result.size(), 0);
+    for (std::size_t j = 0; j < result.size(); ++j)
+        if (result[j].continues) followed[static_cast<std::size_t>(tree.joints[j].link.parent)] = 1;
+    for (std::size_t j = 0; j < result.size(); ++j)
+        if (!result[j].continues && followed[j] == 0) result[j].still = false;
+    return result;
+}
+
+bool has_parallel_axes(const JointTree& tree) {
+    const std::vector<Dress> how = dress(tree, LinkAxes::still);
+    return std::any_of(how.begin(), how.end(), [](const Dress& d) { return d.continues; });
+}
+
+std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes) {
+    const std::vector<Dress> how = dress(tree, axes);
+    std::vector<std::vector<GiNaC::numeric>> rows;
+    for (std::size_t j = 0; j < tree.joints.size(); ++j) {
+        rows.push_back(tree.joints[j].row);
+        if (!how[j].absolute || how[j].base < 0) continue;
+        for (std::size_t i = 0; i < rows[j].size(); ++i) rows[j][i] += rows[static_cast<std::size_t>(how[j].base)][i];
+    }
+    return rows;
+}
+
+}  // namespace alembert

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A mechanism as a tree of links with one joint each, found in how its frames and points hang together.
+///
+///     const JointTree tree = joint_tree(mechanism);
+///     const BodyTree<Named> still = dressed<Named>(tree, LinkAxes::still, value);
+///
+/// A link is whatever keeps its place against a frame that turns or a point that is shifted; each turn whose angle moves and each
+/// coordinate in an offset is a joint. Joints' rates are w = S q' + w₀ with rational S: a frame that is turned against N, on a body that
+/// itself turns, has w = θ₂' − θ₁'. Where axes that stay parallel follow each other from the ground on, the angles and rates from
+/// the ground may be taken instead (`LinkAxes::still`).
+
+#include <functional>
+
+#include "formalism/link_axes.hpp"
+#include "formalism/named.hpp"
+#include "formalism/recursion.hpp"
+#include "model/mechanism.hpp"
+
+namespace alembert {
+
+struct TreeJoint {
+    TreeLink<Named> link;                         ///< without what depends on the state
+    GiNaC::ex position, rate, drift;          ///< angle or shift, w, w' at q'' = 0
+    std::vector<GiNaC::numeric> row;          ///< of S
+    bool parallel = false;                    ///< its axes are those of the parent, but for a turn about z
+};
+
+struct JointTree {
+    std::vector<TreeJoint> joints;
+    Triple<Named> gravity;
+    int coordinates = 0;
+    std::vector<GiNaC::ex> forces = {};       ///< generalized forces but for gravity and inertia, where the formalism has set them
+};
+
+/// Throws ModelError for a scene that is no such tree: what is missing, and where.
+JointTree joint_tree(const Mechanism& mechanism);
+
+/// S as it belongs to `axes`: row by joint.
+std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes);
+
+/// Which links count from the ground, and along whose axes components are taken.
+struct Dress {
+    bool still = false, continues = false, absolute = false;
+    int base = -1;  ///< the link whose turns add up to this one's, where axes continue; −1: none
+};
+std::vector<Dress> dress(const JointTree& tree, LinkAxes axes);
+/// Is there a chain of parallel axes?
+bool has_parallel_axes(const JointTree& tree);
+
+/// Over another scalar: `value` takes an expression there.
+template <typename S>
+BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z, const std::function<S(const GiNaC::ex&)>& value) {
+    const std::vector<Dress> how = dress(joints, axes);
+    const auto vector = [&](const Triple<Named>& v) { return Triple<S>{value(v[0].e), value(v[1].e), value(v[2].e)}; };
+    BodyTree<S> tree{.links = {}, .gravity = vector(joints.gravity)};
+    std::vector<GiNaC::ex> angle, rate, drift;
+    for (std::size_t j = 0; j < joints.joints.size(); ++j) {
+        const TreeJoint& joint = joints.joints[j];
+        const TreeLink<Named>& l = joint.link;
+        TreeLink<S> link{.parent = l.parent, .slides = l.slides, .p = vector(l.p), .slide = vector(l.slide)};
+        for (int i = 0; i < 3; ++i) link.R[i] = vector(l.R[i]);
+        link.body.mass = value(l.body.mass.e);
+        link.body.first = vector(l.body.first);
+        for (int i = 0; i < 6; ++i) link.body.second[i] = value(l.body.second[i].e);
+        link.still = how[j].still;
+        link.continues = how[j].continues;
+        link.absolute = how[j].absolute;
+        const int base = how[j].continues ? l.parent : -1;
+        angle.push_back(l.slides ? GiNaC::ex(0) : joint.position);
+        rate.push_back(joint.rate);
+        drift.push_back(joint.drift);
+        if (base >= 0) angle[j] = z.name(angle[base] + angle[j]);
+        if (how[j].absolute && how[j].base >= 0) {
+            rate[j] = z.name(rate[how[j].base] + rate[j]);
+            drift[j] = z.name(drift[how[j].base] + drift[j]);
+        }
+        if (!l.slides || link.still) {
+            link.angle = value(angle[j]);
+            link.cosine = value(z.name(cos(angle[j])));
+            link.sine = value(z.name(sin(angle[j])));
+        }
+        if (l.slides) link.shift = value(joint.position);
+        link.rate = value(rate[j]);
+        link.drift = value(drift[j]);
+        tree.links.push_back(link);
+    }
+    return tree;
+}
+
+}  // namespace alembert

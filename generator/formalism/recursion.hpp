@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Recursions from body to body along a tree, written once over the scalar (see spatial.hpp):
+///
+///     const BodyTree<double> tree = regrouped(bare_tree);
+///     const Bias<double> bias(tree);                                    // Newton-Euler, outwards, at w' = 0
+///     const auto n = joint_loads(tree, bias.wrenches);                  // … and inwards: M w' + n = Q
+///     const auto M = composite_bodies(tree);                            // rows by joint, lower triangle
+///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);     // M w' = Q − n in a number of operations linear in bodies
+///
+/// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 to 7; Walker & Orin 1982; Luh, Walker & Paul 1980.)
+/// A joint has one rate w: turns about the z axis of its link, or shifts along `slide`. Joints with more freedom are several,
+/// with links without mass between them. All vectors are physical ones, accelerations those of points, so that it does not matter
+/// along which axes components are taken: along axes that turn with the link or, for a chain of parallel axes, along axes that
+/// do not (`still`), where a transform is a shift alone and the chain's angles add up.
+/// The gravity field is an acceleration −g of the ground.
+///
+/// A body is its mass m, first moment h = m c and second moments P = ∫ r rᵀ dm about the link's origin, so that
+///     f = m a + Ω h,   n = h × a + vee(Ω P),   Ω = ε̃ + ω̃ ω̃,   vee(X) = (X₃₂ − X₂₃, X₁₃ − X₃₁, X₂₁ − X₁₂),
+/// and a shift by r takes h to h + m r and P to P + r kᵀ + k rᵀ, k = h + m r/2.
+
+#include <type_traits>
+#include <vector>
+
+#include "formalism/spatial.hpp"
+
+namespace alembert {
+
+template <typename S>
+struct RigidBody {
+    S mass = S(0);
+    Triple<S> first = no_vector<S>();
+    Symmetric<S> second = no_matrix<S>();
+    S polar = S(0);  ///< xx + yy of `second`, which no turn about z changes
+};
+
+template <typename S>
+struct TreeLink {
+    int parent = -1;                       ///< −1: the ground
+    bool slides = false;
+    Matrix<S> R{Triple<S>{S(1), S(0), S(0)}, Triple<S>{S(0), S(1), S(0)}, Triple<S>{S(0), S(0), S(1)}};
+    Triple<S> p = no_vector<S>();          ///< R, p: axes and origin in the parent's own axes where the joint is at 0; constant
+    Triple<S> slide = no_vector<S>();      ///< of a sliding link, in its own axes; constant
+    RigidBody<S> body{};                   ///< along the link's own axes; constant
+
+    S angle = S(0), cosine = S(1), sine = S(0);  ///< of the joint's angle; of the sum of angles where the axes are still
+    S shift = S(0), rate = S(0);           ///< of the joint, in units of `slide`; w
+    S drift = S(0);                        ///< w' at q'' = 0
+    bool still = false;                    ///< components are along axes that do not turn with the link,
+    bool continues = false;                ///< … which are the parent's
+    bool absolute = false;                 ///< w counts from the ground: nothing of a turn about z is passed between neighbours
+};
+
+template <typename S>
+struct Wrench {
+    Triple<S> n = no_vector<S>(), f = no_vector<S>();  ///< about the link's origin
+};
+
+template <typename S>
+struct BodyTree {
+    std::vector<TreeLink<S>> links;            ///< parents first
+    Triple<S> gravity = no_vector<S>();    ///< in the ground's axes
+
+    int size() const { return static_cast<int>(links.size()); }
+    bool parent_is_still(const TreeLink<S>& link) const { return link.parent >= 0 && links[link.parent].still; }
+
+    /// Components along the link's axes → along its parent's.
+    template <typename V>
+    V outward_to_parent(const TreeLink<S>& link, V v) const {
+        if (!link.still && !link.slides) v = turned_about_z(link.cosine, link.sine, v);
+        if (link.continues) return v;
+        if constexpr (std::is_same_v<V, Triple<S>>)
+            v = link.R * v;
+        else
+            v = congruent(link.R, v);
+        if (parent_is_still(link)) v = turned_about_z(links[link.parent].cosine, links[link.parent].sine, v);
+        return v;
+    }
+    Triple<S> from_parent(const TreeLink<S>& link, Triple<S> v) const {
+        if (!link.continues) {
+            if (parent_is_still(link)) v = turned_back(links[link.parent].cosine, links[link.parent].sine, v);
+            v = transposed(link.R) * v;
+        }
+        return link.still || link.slides ? v : turned_back(link.cosine, link.sine, v);
+    }
+    /// From the parent's origin to the link's, along the parent's axes.
+    Triple<S> arm(const TreeLink<S>& link) const {
+        const Triple<S> r = link.slides ? link.p + link.R * (link.shift * link.slide) : link.p;
+        return parent_is_still(link) ? turned_about_z(links[link.parent].cosine, links[link.parent].sine, r) : r;
+    }
+    /// What stands in the link's own axes, along those that components are along.
+    template <typename V>
+    V along_axes(const TreeLink<S>& link, const V& v) const {
+        return link.still ? turned_about_z(link.cosine, link.sine, v) : v;
+    }
+    Triple<S> direction(const TreeLink<S>& link) const { return along_axes(link, link.slide); }
+    RigidBody<S> body(const TreeLink<S>& link) const {
+        RigidBody<S> b = link.body;
+        b.polar = b.second[0] + b.second[1];
+        b.first = along_axes(link, b.first);
+        b.second = along_axes(link, b.second);
+        return b;
+    }
+};
+
+template <typename S>
+RigidBody<S> shifted(RigidBody<S> b, const Triple<S>& r) {
+    const Triple<S> mr = b.mass * r, k = b.first + (S(1) / S(2)) * mr;
+    for (int i = 0; i < 3; ++i) {
+        const S both = r[i] * k[i];
+        b.second[i] = b.second[i] + (both + both);
+        const int j = (i + 1) % 3;
+        b.second[place(i, j)] = b.second[place(i, j)] + (r[i] * k[j] + k[i] * r[j]);
+    }
+    const S inplane = r[0] * k[0] + r[1] * k[1];
+    b.polar = b.polar + (inplane + inplane);
+    b.first = b.first + mr;
+    return b;
+}
+
+template <typename S>
+RigidBody<S> operator+(const RigidBody<S>& a, const RigidBody<S>& b) {
+    return {a.mass + b.mass, a.first + b.first, a.second + b.second, a.polar + b.polar};
+}
+
+/// The same motion from fewer numbers: mass on the axis of a turning joint may as well belong to the parent, and of a sliding
+/// body all second moments, since turning (sliding) does not move it against the parent (Gautier & Khalil, IEEE Trans. Robotics and
+/// Automation 6 (1990) 368: base parameters). What is left is xx yy xy yz zx of P, and h across the axis.
+template <typename S>
+BodyTree<S> regrouped(BodyTree<S> tree) {
+    for (int j = tree.size() - 1; j >= 0; --j) {
+        TreeLink<S>& link = tree.links[j];
+        RigidBody<S> moved;
+        if (link.slides) {
+            moved.second = link.body.second;
+            link.body.second = no_matrix<S>();
+        } else {
+            moved.mass = link.body.mass;
+            moved.first[2] = link.body.first[2];
+            moved.second[2] = link.body.second[2];
+            link.body.mass = link.body.first[2] = link.body.second[2] = S(0);
+        }
+        if (link.parent < 0) continue;
+        moved.first = link.R * moved.first;
+        moved.second = congruent(link.R, moved.second);
+        if (!link.slides) moved = shifted(moved, link.p);
+        RigidBody<S>& parent = tree.links[link.parent].body;
+        parent = parent + moved;
+    }
+    return tree;
+}
+
+/// What every body needs at w' = 0: ω, ε, a outwards, then force and moment about the link's origin.
+///     ω_j = ω_i + w z,   ε_j = ε_i + ω_i × w z + w'₀ z,   a_j = a_i + Ω_i r;   sliding: a_j + 2 ω × w s + w'₀ s
+template <typename S>
+struct Bias {
+    explicit Bias(const BodyTree<S>& tree) {
+        std::vector<Triple<S>> w, e, a;
+        std::vector<Matrix<S>> turning;  // Ω
+        for (const TreeLink<S>& link : tree.links) {
+            Triple<S> omega = no_vector<S>(), epsilon = no_vector<S>(), acceleration = -tree.gravity;
+            if (link.parent >= 0) {
+                omega = tree.from_parent(link, w[link.parent]);
+                epsilon = tree.from_parent(link, e[link.parent]);
+                acceleration = a[link.parent] + turning[link.parent] * tree.arm(link);
+            }
+            acceleration = tree.from_parent(link, acceleration);
+            if (link.slides) {
+                const Triple<S> s = tree.direction(link), ws = link.rate * s;
+                acceleration = acceleration + cross(omega + omega, ws) + link.drift * s;
+            } else if (link.absolute) {
+                omega[2] = link.rate;
+                epsilon[2] = link.drift;
+            } else {
+                epsilon = {epsilon[0] + omega[1] * link.rate, epsilon[1] - omega[0] * link.rate, epsilon[2] + link.drift};
+                omega[2] = omega[2] + link.rate;
+            }
+            const S xx = omega[0] * omega[0], yy = omega[1] * omega[1], zz = omega[2] * omega[2];
+            const S xy = omega[0] * omega[1], yz = omega[1] * omega[2], zx = omega[2] * omega[0];
+            turning.push_back({Triple<S>{-(yy + zz), xy - epsilon[2], zx + epsilon[1]}, Triple<S>{xy + epsilon[2], -(zz + xx), yz - epsilon[0]},
+                               Triple<S>{zx - epsilon[1], yz + epsilon[0], -(xx + yy)}});
+            w.push_back(omega);
+            e.push_back(epsilon);
+            a.push_back(acceleration);
+            const RigidBody<S> b = tree.body(link);
+            const Matrix<S>& O = turning.back();
+            const Symmetric<S>& P = b.second;
+            Wrench<S> force{.n = cross(b.first, acceleration), .f = b.mass * acceleration + O * b.first};
+            for (int i = 0; i < 3; ++i) {  // X_kj − X_jk of X = Ω P, k and j after i
+                const int j = (i + 1) % 3, k = (i + 2) % 3;
+                force.n[i] = force.n[i] + (O[k][j] * P[j] - O[j][k] * P[k] + (O[k][k] - O[j][j]) * P[place(j, k)]) +
+                             (O[k][i] * P[place(i, j)] - O[j][i] * P[place(i, k)]);
+            }
+            wrenches.push_back(force);
+        }
+    }
+    std::vector<Wrench<S>> wrenches;  ///< that each body needs by itself
+};
+
+/// A wrench on the link, about its origin, as one on the parent.
+template <typename S>
+Wrench<S> passed(const BodyTree<S>& tree, const TreeLink<S>& link, const Wrench<S>& on) {
+    Wrench<S> result{.n = tree.outward_to_parent(link, on.n), .f = tree.outward_to_parent(link, on.f)};
+    const Triple<S> lever = cross(tree.arm(link), result.f);
+    if (link.absolute) result.n[2] = S(0);
+    result.n = result.n + lever;
+    return result;
+}
+
+template <typename S>
+S along_joint(const BodyTree<S>& tree, const TreeLink<S>& link, const Wrench<S>& w) {
+    return link.slides ? dot(tree.direction(link), w.f) : w.n[2];
+}
+
+/// The loads that the joints have to bring for these wrenches on the bodies.
+template <typename S>
+std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches) {
+    std::vector<S> loads(wrenches.size(), S(0));
+    for (int j = tree.size() - 1; j >= 0; --j) {
+        const TreeLink<S>& link = tree.links[j];
+        loads[j] = along_joint(tree, link, wrenches[j]);
+        if (link.parent < 0) continue;
+        const Wrench<S> on = passed(tree, link, wrenches[j]);
+        Wrench<S>& parent = wrenches[link.parent];
+        parent = {parent.n + on.n, parent.f + on.f};
+    }
+    return loads;
+}
+
+/// M of M w' + n = Q: entry (j, i) for every i on the way from j to the ground, zeros elsewhere.
+template <typename S>
+std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
+    std::vector<RigidBody<S>> whole;
+    for (const TreeLink<S>& link : tree.links) whole.push_back(tree.body(link));
+    std::vector<std::vector<S>> M;
+    for (int j = 0; j < tree.size(); ++j) M.emplace_back(j + 1, S(0));
+    for (int j = tree.size() - 1; j >= 0; --j) {
+        const TreeLink<S>* link = &tree.links[j];
+        const RigidBody<S>& b = whole[j];
+        Wrench<S> on;
+        if (link->slides) {
+            const Triple<S> s = tree.direction(*link);
+            on = {cross(b.first, s), b.mass * s};
+        } else {
+            on = {{-b.second[5], -b.second[4], link->still ? b.polar : b.second[0] + b.second[1]}, {-b.first[1], b.first[0], S(0)}};
+        }
+        M[j][j] = along_joint(tree, *link, on);
+        for (int i = j; link->parent >= 0; link = &tree.links[i]) {
+            on = passed(tree, *link, on);
+            i = link->parent;
+            M[j][i] = along_joint(tree, tree.links[i], on);
+        }
+        link = &tree.links[j];
+        if (link->parent < 0) continue;
+        RigidBody<S> up{.mass = b.mass, .first = tree.outward_to_parent(*link, b.first), .second = tree.outward_to_parent(*link, b.second), .polar = b.polar};
+        if (!link->continues) up.polar = up.second[0] + up.second[1];
+        if (link->absolute) up = {.mass = b.mass};  // turning the parent does not turn this
+        const Triple<S> r = tree.arm(*link);
+        up = shifted(up, r);
+        RigidBody<S>& parent = whole[link->parent];
+        parent = parent + up;
+    }
+    return M;
+}
+
+/// What a body and all that hangs on it resist with: n = A ε + B a, f = Bᵀ ε + C a.
+template <typename S>
+struct Articulated {
+    Symmetric<S> A = no_matrix<S>(), C = no_matrix<S>();
+    Matrix<S> B{no_vector<S>(), no_vector<S>(), no_vector<S>()};
+};
+
+template <typename S>
+Articulated<S> articulated(const RigidBody<S>& b) {
+    const Symmetric<S>& P = b.second;
+    const Triple<S>& h = b.first;
+    return {.A = {P[1] + P[2], P[2] + P[0], b.polar, -P[3], -P[4], -P[5]},
+            .C = {b.mass, b.mass, b.mass, S(0), S(0), S(0)},
+            .B = {Triple<S>{S(0), -h[2], h[1]}, Triple<S>{h[2], S(0), -h[0]}, Triple<S>{-h[1], h[0], S(0)}}};
+}
+
+/// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U, I − U Uᵀ/D and the wrench with U (Q − s·wrench)/D pass to the
+/// parent; outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes Q and no inertia about its axis: these are
+/// set, not computed.
+template <typename S>
+std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches, const std::vector<S>& Q) {
+    const int n = tree.size();
+    std::vector<Articulated<S>> I;
+    for (const TreeLink<S>& link : tree.links) I.push_back(articulated(tree.body(link)));
+    std::vector<Wrench<S>> U(n);   // U/D
+    std::vector<S> free(n, S(0));  // (Q − s·wrench)/D
+    std::vector<Triple<S>> arms(n, no_vector<S>());
+    for (int j = n - 1; j >= 0; --j) {
+        const TreeLink<S>& link = tree.links[j];
+        Articulated<S>& own = I[j];
+        Wrench<S>& w = wrenches[j];
+        Wrench<S> column;
+        if (link.slides) {
+            const Triple<S> s = tree.direction(link);
+            column = {own.B * s, own.C * s};
+        } else {
+            column = {{own.A[5], own.A[4], own.A[2]}, own.B[2]};
+        }
+        const S u = Q[j] - along_joint(tree, link, w);
+        const S inverse = S(1) / along_joint(tree, link, column);
+        free[j] = u * inverse;
+        U[j] = {inverse * column.n, inverse * column.f};
+        if (link.parent < 0) continue;
+        // x y/D: in a chain of parallel axes the product does not wait for the division; elsewhere there are too many.
+        const auto over = [&](const S& x, const S& x_D, const S& y) { return link.still ? (x * y) * inverse : x_D * y; };
+        for (int i = 0; i < 3; ++i) {
+            for (int k = i; k < 3; ++k) {
+                S& a = own.A[place(i, k)];
+                a = a - over(column.n[i], U[j].n[i], column.n[k]);
+                S& c = own.C[place(i, k)];
+                c = c - over(column.f[i], U[j].f[i], column.f[k]);
+            }
+            for (int k = 0; k < 3; ++k) own.B[i][k] = own.B[i][k] - over(column.n[i], U[j].n[i], column.f[k]);
+        }
+        w = {w.n + u * U[j].n, w.f + u * U[j].f};
+        if (!link.slides) {
+            own.A[2] = own.A[4] = own.A[5] = own.B[2][0] = own.B[2][1] = own.B[2][2] = S(0);
+            w.n[2] = Q[j];
+        }
+        const Wrench<S> on = passed(tree, link, w);
+        Wrench<S>& parent_wrench = wrenches[link.parent];
+        parent_wrench = {parent_wrench.n + on.n, parent_wrench.f + on.f};
+        // Tᵀ I T of the shift by r: B + r̃ C, A + r̃ Bᵀ − (B + r̃ C) r̃
+        Symmetric<S> A = tree.outward_to_parent(link, own.A), C = tree.outward_to_parent(link, own.C);
+        Matrix<S> B = tree.outward_to_parent(link, own.B);
+        const Triple<S> r = arms[j] = tree.arm(link);
+        const Matrix<S> first = tilde_times(r, transposed(B));
+        const Matrix<S> rC = tilde_times(r, full(C));
+        for (int i = 0; i < 3; ++i) B[i] = B[i] + rC[i];
+        const Matrix<S> second = tilde_times(r, transposed(B));  // −((B + r̃ C) r̃)ᵀ
+        Articulated<S>& parent = I[link.parent];
+        for (int i = 0; i < 3; ++i)
+            for (int k = i; k < 3; ++k) {
+                S& a = parent.A[place(i, k)];
+                a = a + A[place(i, k)] + (first[i][k] + second[k][i]);
+            }
+        parent.C = parent.C + C;
+        for (int i = 0; i < 3; ++i) parent.B[i] = parent.B[i] + B[i];
+    }
+    std::vector<Triple<S>> e, a;
+    std::vector<S> result;
+    for (int j = 0; j < n; ++j) {
+        const TreeLink<S>& link = tree.links[j];
+        Triple<S> epsilon = no_vector<S>(), acceleration = no_vector<S>();
+        if (link.parent >= 0) {
+            epsilon = tree.from_parent(link, e[link.parent]);
+            acceleration = tree.from_parent(link, a[link.parent] + cross(e[link.parent], arms[j]));
+        }
+        if (link.slides) {
+            const S rate = free[j] - (dot(U[j].n, epsilon) + dot(U[j].f, acceleration));
+            acceleration = acceleration + rate * tree.direction(link);
+            result.push_back(rate);
+        } else {  // U_z/D = 1: what comes out is the whole of ε_z
+            const S whole = free[j] - (U[j].n[0] * epsilon[0] + U[j].n[1] * epsilon[1] + dot(U[j].f, acceleration));
+            result.push_back(link.absolute ? whole : whole - epsilon[2]);
+            epsilon[2] = whole;
+        }
+        e.push_back(epsilon);
+        a.push_back(acceleration);
+    }
+    return result;
+}
+
+}  // namespace alembert

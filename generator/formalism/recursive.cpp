@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// With w = S q' + w₀:  M = Sᵀ M_w S,   f = Q − Sᵀ n,   n the loads that the joints bring at q'' = 0.
+#include "formalism/recursive.hpp"
+
+#include "formalism/elements.hpp"
+#include "formalism/joint_tree.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+Equations recursive(const Mechanism& m) {
+    check_masses_known(m, "The recursive equations");
+    JointTree joints = joint_tree(m);
+    Intermediates& z = *m.z;
+    const BodyTree<Named> tree = dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
+    const std::vector<std::vector<Named>> M = composite_bodies(tree);
+    const std::vector<Named> loads = joint_loads(tree, Bias<Named>(tree).wrenches);
+
+    Equations equations = equations_without_terms("recursive", m);
+    const int n = m.size();
+    std::vector<GiNaC::exvector> mass(static_cast<std::size_t>(n) * n), own(n);
+    const auto row = [&](std::size_t j) -> const std::vector<GiNaC::numeric>& { return joints.joints[j].row; };
+    const auto each = [&](std::size_t j, const auto& visit) {
+        for (int a = 0; a < n; ++a)
+            if (!row(j)[a].is_zero()) visit(a, row(j)[a]);
+    };
+    for (std::size_t j = 0; j < M.size(); ++j) {
+        each(j, [&](int a, const GiNaC::numeric& s) { own[a].push_back(-s * loads[j].e); });
+        for (std::size_t i = 0; i <= j; ++i) {
+            if (M[j][i].e.is_zero()) continue;
+            each(j, [&](int a, const GiNaC::numeric& s) {
+                each(i, [&](int b, const GiNaC::numeric& t) {
+                    mass[a * n + b].push_back(s * t * M[j][i].e);
+                    if (i != j) mass[b * n + a].push_back(s * t * M[j][i].e);
+                });
+            });
+        }
+    }
+    // Gravity is an acceleration of the ground here; all other potentials are forces.
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Part& part : m.potential)
+        if (!part.label.starts_with("gravity on ")) targets.emplace_back(part.value, -1);
+    joints.forces = z.pull_back(targets, m.q);
+    equations.dissipative = m.generalized_forces(true);
+    equations.applied = m.generalized_forces(false);
+    for (int a = 0; a < n; ++a) {
+        own[a].push_back(joints.forces[a]);
+        equations.own.push_back(z.name(GiNaC::add(std::move(own[a]))));
+        for (int b = 0; b < n; ++b) equations.M(a, b) = z.name(GiNaC::add(std::move(mass[a * n + b])));
+    }
+    for (int a = 0; a < n; ++a) joints.forces[a] = z.name(joints.forces[a] + equations.dissipative[a] + equations.applied[a]);
+    equations.tree = std::make_shared<const JointTree>(std::move(joints));
+    attach_constraints(m, equations);
+    return equations;
+}
+
+}  // namespace alembert

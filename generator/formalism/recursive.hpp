@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Recursive equations: composite bodies for M, Newton-Euler for what is left (Featherstone 2008, chapters 5 and 6).
+///
+/// `Equations::tree` comes with them: lowering may take it to make the same accelerations by articulated bodies, or along axes
+/// that do not turn. Constraints, closed loops among them, have their multipliers as in Routh's equations.
+
+#include "formalism/equations.hpp"
+
+namespace alembert {
+
+/// Throws ModelError for a scene that is no tree of links with joints (see joint_tree.hpp), with what is missing.
+Equations recursive(const Mechanism& mechanism);
+
+}  // namespace alembert

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
+///
+///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still, true}, lowering);
+
+#include <functional>
+#include <optional>
+
+#include "formalism/joint_tree.hpp"
+#include "lower/program.hpp"
+#include "lower/recursion_form.hpp"
+
+namespace alembert {
+
+struct RecursionNodes {
+    std::vector<int> mass, forcing;                       ///< in coordinates; mass: lower triangle by rows
+    std::optional<std::vector<int>> acceleration = {};    ///< q''; nothing where the joints' rates do not determine the coordinates'
+};
+
+/// `lowering` gives the node of an expression. Sources of nodes are left as they are.
+RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form,
+                         const std::function<int(const GiNaC::ex&)>& lowering);
+
+}  // namespace alembert

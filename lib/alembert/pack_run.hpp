@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Eight members of an ensemble side by side, from their starts to their ends; who is done makes room for the next. This is
+/// the inside of `integrate` for ensembles (ensemble.hpp): call that.
+///
+///     PackRun<dop853_tableau>(ensemble, options, source).go();
+///
+/// Each lane has the step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not
+/// finite, a step that underflows, the budget) is given back with `again`: run by itself, it will say what it was.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "alembert/drift.hpp"
+#include "alembert/ensemble.hpp"
+#include "alembert/pack_step.hpp"
+#include "alembert/rhs.hpp"
+#include "alembert/step_size.hpp"
+
+namespace alembert {
+
+/// One member, as both ways of running it see it.
+struct Member {
+    std::size_t index = 0;
+    std::vector<double> state, parameters;
+    double start = 0, duration = 0;
+};
+
+/// Where members come from and go to; called by several threads at once.
+struct MemberSource {
+    std::function<std::optional<Member>()> next;
+    std::function<void(const Member&, const Outcome&, const std::vector<double>& state)> done;
+    std::function<void(const Member&)> again;
+    std::function<void()> breathe;  ///< after each round of steps
+};
+
+template <const auto& tableau>
+class PackRun {
+    using Step = PackStep<tableau>;
+
+    struct Lane {
+        Member member;
+        double h = 0, end = 0;
+        long count = 0;  ///< of fixed steps
+        StepSize control{1};
+        Drift drift{0, 0, false};
+        Outcome outcome;
+    };
+
+public:
+    PackRun(const Ensemble& ensemble, const Options& options, const MemberSource& source)
+        : ensemble_(ensemble),
+          options_(options),
+          source_(source),
+          extra_(ensemble.work == Work::integrated ? 1 : 0),
+          dimension_(ensemble.module.table().coordinates + ensemble.module.table().speeds + extra_),
+          step_(ensemble.module, dimension_, extra_),
+          lane_(lanes),
+          rate_(static_cast<std::size_t>(dimension_)) {}
+
+    /// `width` lanes are used, at most eight.
+    void go(int width) && {
+        for (int i = 0; i < width; ++i) refill(i);
+        while (busy_ != 0) {
+            for (int i = 0; i < lanes; ++i)
+                while (is_busy(i) && !aim(i)) give_back(i);
+            if (busy_ == 0) break;
+            step_.attempt();
+            const unsigned good = accepted();
+            if (good != 0) {
+                step_.finish();
+                settle(accepted());
+            } else {
+                settle(0);
+            }
+            source_.breathe();
+        }
+    }
+
+private:
+    bool is_busy(int i) const { return (busy_ >> i & 1U) != 0; }
+
+    unsigned accepted() const {
+        unsigned good = 0;
+        const double allowed = Step::has_fixed_step ? std::numeric_limits<double>::max() : options_.tolerance;
+        for (int i = 0; i < lanes; ++i)
+            if (is_busy(i) && step_.misfit[i] <= allowed) good |= 1U << i;
+        return good;
+    }
+
+    /// The end of the lane's next step; false where it may not take one.
+    bool aim(int i) {
+        Lane& lane = lane_[i];
+        const double t = step_.time[i];
+        if (lane.outcome.evaluations + Step::most_evaluations > options_.budget) return false;
+        if constexpr (Step::has_fixed_step) {
+            const long k = lane.outcome.steps + 1;
+            step_.end[i] = k == lane.count ? lane.end : lane.member.start + static_cast<double>(k) * options_.step;
+        } else {
+            lane.h = std::min(lane.h, longest(lane.member));
+            if (lane.h < 16 * std::numeric_limits<double>::epsilon() * std::abs(t) || t + lane.h == t) return false;
+            step_.end[i] = t + 1.01 * lane.h < lane.end ? t + lane.h : lane.end;
+        }
+        return true;
+    }
+
+    double longest(const Member& member) const { return options_.longest_step > 0 ? options_.longest_step : member.duration; }
+
+    /// What was learnt from an attempted step, lane by lane.
+    void settle(unsigned good) {
+        double length[lanes];
+        for (int i = 0; i < lanes; ++i) length[i] = step_.end[i] - step_.time[i];
+        if (good != 0) {
+            step_.advance(good);
+            step_.energies(energy_);
+        }
+        for (int i = 0; i < lanes; ++i) {
+            if (!is_busy(i)) continue;
+            Lane& lane = lane_[i];
+            const bool is_good = (good >> i & 1U) != 0;
+            // As step.hpp counts: the last stage only where a step is finished, unless the estimate needs it.
+            lane.outcome.evaluations += tableau.stages - (is_good || needs_last_stage() ? 0 : 1);
+            if (!is_good && Step::has_fixed_step) {
+                give_back(i);
+                continue;
+            }
+            if constexpr (!Step::has_fixed_step) {
+                const double ratio = step_.misfit[i] / options_.tolerance;
+                lane.h = is_good ? lane.control.after_accepted(length[i], ratio) : lane.control.after_rejected(length[i], ratio);
+            }
+            ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
+            if (!is_good) continue;
+            note_energy(i);
+            if (step_.time[i] == lane.end) complete(i);
+        }
+    }
+
+    static constexpr bool needs_last_stage() {
+        for (const auto& row : tableau.e)
+            if (row[tableau.stages] != 0) return true;
+        return false;
+    }
+
+    void note_energy(int i) {
+        lane_[i].drift.add({energy_[0][i], energy_[2][i], energy_[4][i]}, extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
+    }
+
+    void complete(int i) {
+        Lane& lane = lane_[i];
+        std::vector<double> state;
+        for (int k = 0; k < dimension_; ++k) state.push_back(step_.state(k, i));
+        lane.outcome.time = step_.time[i];
+        lane.outcome.energy_drift = lane.drift.energy();
+        lane.outcome.work_balance = lane.drift.balance();
+        source_.done(lane.member, lane.outcome, state);
+        refill(i);
+    }
+
+    void give_back(int i) {
+        source_.again(lane_[i].member);
+        refill(i);
+    }
+
+    /// The next member that can begin; none: the lane stands still.
+    void refill(int i) {
+        busy_ &= ~(1U << i);
+        step_.end[i] = step_.time[i];
+        while (std::optional<Member> member = source_.next()) {
+            Lane& lane = lane_[i];
+            lane = {.member = *std::move(member), .control = StepSize(std::max(1, Step::estimate_order)), .drift = Drift(0, 0, false), .outcome = {}};
+            if (!begin(i, lane)) {
+                source_.again(lane.member);
+                continue;
+            }
+            busy_ |= 1U << i;
+            return;
+        }
+    }
+
+    bool begin(int i, Lane& lane) {
+        const Member& member = lane.member;
+        const alembert_solver_table& table = ensemble_.module.table();
+        const Rhs rhs = make_rhs(ensemble_.module, member.parameters, ensemble_.work);
+        std::vector<double> state = member.state;
+        state.resize(static_cast<std::size_t>(dimension_), 0.0);
+        rhs(member.start, state.data(), rate_.data());
+        for (int k = 0; k < dimension_ - extra_; ++k)
+            if (!std::isfinite(rate_[k])) return false;
+        lane.end = member.start + member.duration;
+        if (member.duration == 0) return false;
+        lane.outcome.evaluations = 1;
+        if constexpr (Step::has_fixed_step) {
+            lane.count = std::max(1L, std::lround(std::ceil(member.duration / options_.step * (1 - 1e-12))));
+        } else {
+            lane.h = options_.step;
+            if (lane.h == 0) {
+                lane.h = starting_step(rhs, member.start, state.data(), rate_.data(), options_.tolerance, Step::estimate_order, longest(member));
+                ++lane.outcome.evaluations;
+            }
+        }
+        const std::vector<double> par = prepared(ensemble_.module, member.parameters);
+        step_.put(i, member.start, state.data(), rate_.data(), par);
+        double energy[4], jacobi = 0;
+        table.energy(member.start, state.data(), rate_.data(), par.data(), energy, &jacobi);
+        lane.drift.add({energy[0], energy[2], jacobi}, 0);
+        return true;
+    }
+
+    const Ensemble& ensemble_;
+    const Options& options_;
+    const MemberSource& source_;
+    int extra_, dimension_;
+    Step step_;
+    std::vector<Lane> lane_;
+    std::vector<double> rate_;
+    Lanes energy_[5];
+    unsigned busy_ = 0;  ///< bit i: lane i has a member
+};
+
+}  // namespace alembert

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// `linearize` as a user runs it, and the bicycle in motion against its first approximation.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <Eigen/Dense>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string bicycle = source_path("scenes/gallery/bicycle.toml");
+
+Json json_of(const std::vector<std::string>& args) {
+    const auto result = run(args);
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+Eigen::MatrixXd matrix(const Json& rows) {
+    Eigen::MatrixXd result(rows.size(), rows.empty() ? 0 : rows[0].size());
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+        for (Eigen::Index j = 0; j < result.cols(); ++j) result(i, j) = rows[i][j].get<double>();
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("linearize: JSON has the matrices, the states and the eigenvalues") {
+    const Json near = json_of({"linearize", bicycle, "--json", "--at", "kick=0", "--at", "v=5"});
+    for (const char* key : {"M", "C", "G", "K", "N", "A", "B"}) CHECK(near["matrices"].contains(key));
+    const Eigen::MatrixXd C = matrix(near["matrices"]["C"]), G = matrix(near["matrices"]["G"]), K = matrix(near["matrices"]["K"]),
+                          N = matrix(near["matrices"]["N"]), A = matrix(near["matrices"]["A"]);
+    CHECK(C == C.transpose());
+    CHECK(G == -G.transpose());
+    CHECK(K == K.transpose());
+    CHECK(N == -N.transpose());
+    CHECK(near["states"].size() == static_cast<std::size_t>(A.rows()));
+    CHECK(near["eigenvalues"].size() == static_cast<std::size_t>(A.rows()));
+    CHECK(near["motion"] == "steady");
+    std::complex<double> sum = 0;
+    for (const Json& value : near["eigenvalues"]) sum += std::complex<double>(value[0], value[1]);
+    CHECK(std::abs(sum - A.trace()) < 1e-13);
+}
+
+TEST_CASE("linearize: a state that is not steady exits with 3 and says what is left") {
+    const auto result = run({"linearize", bicycle});
+    CHECK(result.exit == 3);
+    CHECK(result.out.empty());
+    CHECK(result.err.find("lean' = 0.5, and lean is not cyclic") != std::string::npos);
+    CHECK(run({"linearize", bicycle, "--at", "nonsense=1"}).exit == 3);
+}
+
+// With the mass centre on the blade: v' = 0, J phi'' = 0.
+TEST_CASE("linearize: a blade that runs on a circle is steady in speeds that the program finds") {
+    const Json near = json_of({"linearize", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--at", "a=0"});
+    CHECK(near["formalism"] == "kane");
+    CHECK(near["moving"] == Json{"x", "phi"});
+    CHECK(near["states"] == Json{"u1", "phi'"});
+    CHECK(matrix(near["matrices"]["A"]).isZero(0));
+    CHECK(matrix(near["matrices"]["M"])(1, 1) == 1);
+}
+
+TEST_CASE("bicycle: energy and constraints are kept, and the speed settles") {
+    const Json run = json_of({"simulate", bicycle, "--json", "--duration", "20"});
+    CHECK(run["energy_drift"].get<double>() < 1e-10);
+    CHECK(run["constraint_drift"].get<double>() < 1e-10);
+    // All energy of the kick that does not come back into the lean has become forward motion: weave and capsize are stable at 4.6 m/s.
+    const Json& rates = run["final"]["rates"];
+    CHECK(std::abs(rates["lean"].get<double>()) < 1e-3);
+    CHECK(-0.3 * rates["rear"].get<double>() > 4.6);
+}
+
+// x(t) = exp(A t) x(0) + O(kick²).
+TEST_CASE("bicycle: after a small kick it moves as the eigenvalues say") {
+    std::ifstream stream(bicycle);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    std::string scene = text.str();
+    const std::string kick = "kick = { value = 0.5,";
+    REQUIRE(scene.find(kick) != std::string::npos);
+    scene.replace(scene.find(kick), kick.size(), "kick = { value = 1e-5,");
+    const Json end = json_of({"simulate", temporary("bicycle.toml", scene), "--json", "--duration", "2", "--tolerance", "1e-13"})["final"];
+    const Json near = json_of({"linearize", bicycle, "--json", "--at", "kick=0"});
+    const Eigen::MatrixXd A = matrix(near["matrices"]["A"]);
+    const auto state = [&](const std::string& name) {
+        for (std::size_t i = 0; i < near["states"].size(); ++i)
+            if (near["states"][i] == name) return static_cast<Eigen::Index>(i);
+        FAIL(name);
+        return Eigen::Index{0};
+    };
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(A.rows());
+    x[state("lean'")] = 1;
+    const int steps = 4000;  // of the Taylor series of exp, to order 6: off by (|A| h)^7
+    for (int k = 0; k < steps; ++k) {
+        Eigen::VectorXd term = x;
+        for (int n = 1; n <= 6; ++n) x += term = A * term * (2.0 / steps / n);
+    }
+    for (const char* name : {"lean", "steer"}) {
+        CHECK(std::abs(end["coordinates"][name].get<double>() / 1e-5 - x[state(name)]) < 1e-6);
+        CHECK(std::abs(end["rates"][name].get<double>() / 1e-5 - x[state(name + std::string("'"))]) < 1e-5);
+    }
+    CHECK(std::abs(x[state("lean")]) > 1e-3);
+}

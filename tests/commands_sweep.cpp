@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// `sweep`: each row is what `simulate` gives from that state; what cannot run says so in its row.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A spring whose mass starts at x = k/10: with the parameter the start follows.
+const char* const spring = R"toml(
+[parameters]
+m = 1
+k = 4
+[coordinates]
+x = { initial = "k/10", rate = 0 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", 0]
+[[spring]]
+along = "x"
+stiffness = "k"
+[simulation]
+duration = 3
+tolerance = 1e-12
+)toml";
+
+Json sweep(std::vector<std::string> words, int exit = 0) {
+    words.insert(words.begin(), "sweep");
+    words.push_back("--json");
+    const auto result = run(words);
+    CAPTURE(result.err);
+    REQUIRE(result.exit == exit);
+    return Json::parse(result.out);
+}
+
+}  // namespace
+
+TEST_CASE("sweep: each row is what simulate gives from that state") {
+    const std::string scene = source_path("scenes/benchmark/double_pendulum_regular.toml");
+    const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary", "theta2'=-0.5:0.5:2", "--duration", "3"});
+    REQUIRE(table["rows"].size() == 12);
+    for (const std::size_t k : {0UL, 5UL, 10UL}) {
+        const Json& row = table["rows"][k];
+        const Json at = [&] {
+            std::vector<std::string> words{"eval", scene, "--json"};
+            for (const auto& [name, value] : row["varied"].items()) {
+                words.emplace_back("--at");
+                words.push_back(name + "=" + value.dump());
+            }
+            const auto result = run(words);
+            REQUIRE(result.exit == 0);
+            return Json::parse(result.out);
+        }();
+        // The energy of the row's start is kept until its end: both states belong to the same parameters.
+        std::vector<std::string> words{"eval", scene, "--json", "--at", "l1=" + row["varied"]["l1"].dump()};
+        for (const char* name : {"theta1", "theta2"}) {
+            words.insert(words.end(), {"--at", std::string(name) + "=" + row["final"]["coordinates"][name].dump()});
+            words.insert(words.end(), {"--at", std::string(name) + "'=" + row["final"]["rates"][name].dump()});
+        }
+        const auto end = run(words);
+        REQUIRE(end.exit == 0);
+        CHECK(std::abs(Json::parse(end.out)["energy"].get<double>() - at["energy"].get<double>()) < 1e-10);
+        CHECK(row["energy_drift"].get<double>() < 1e-10);
+        CHECK(row["status"] == "done");
+    }
+    const auto plain = run({"simulate", scene, "--json", "--duration", "3"});
+    const Json whole = Json::parse(plain.out), same = sweep({scene, "--vary", "t=0:0:1", "--duration", "3"})["rows"][0];
+    for (const char* part : {"coordinates", "rates"})
+        for (const char* name : {"theta1", "theta2"})
+            CHECK(std::abs(same["final"][part][name].get<double>() - whole["final"][part][name].get<double>()) < 1e-12);
+    CHECK(same["steps"] == whole["steps"]);
+}
+
+TEST_CASE("sweep: initial values follow the parameters that they depend on, and the motion is the closed form") {
+    const Json table = sweep({temporary("spring.toml", spring), "--vary", "k=1:9:5"});
+    for (const Json& row : table["rows"]) {
+        const double k = row["varied"]["k"], w = std::sqrt(k);
+        CHECK(std::abs(row["final"]["coordinates"]["x"].get<double>() - k / 10 * std::cos(3 * w)) < 1e-10);
+        CHECK(std::abs(row["final"]["rates"]["x"].get<double>() + k / 10 * w * std::sin(3 * w)) < 1e-10);
+    }
+    CHECK(table["side_by_side"] == 8);
+}
+
+TEST_CASE("sweep: the table has a header and a row for each point, the same for any number of threads") {
+    const std::string scene = temporary("spring.toml", spring);
+    const auto one = run({"sweep", scene, "--vary", "k=1:9:17", "--vary", "x'=0:1:3", "--threads", "1"});
+    const auto many = run({"sweep", scene, "--vary", "k=1:9:17", "--vary", "x'=0:1:3", "--threads", "4"});
+    CHECK(one.exit == 0);
+    CHECK(one.out == many.out);
+    CHECK(one.out.starts_with("k,x',final_t,final_x,final_x',energy_drift,steps,rejected,evaluations,status\n1,0,3,"));
+    CHECK(std::count(one.out.begin(), one.out.end(), '\n') == 52);
+    const std::string file = temporary("table.csv", "");
+    CHECK(run({"sweep", scene, "--vary", "k=1:9:17", "--vary", "x'=0:1:3", "-o", file}).exit == 0);
+    std::ifstream in(file);
+    CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == one.out);
+}
+
+TEST_CASE("sweep: rows with constraints and from guesses are those of simulate; a start that cannot be had is told in its row") {
+    const std::string scene = source_path("scenes/textbook/cartesian_pendulum.toml");
+    const Json table = sweep({scene, "--vary", "g=5:9.81:2", "--duration", "1"});
+    CHECK(table["side_by_side"] == 1);
+    const auto whole = run({"simulate", scene, "--json", "--duration", "1"});
+    const Json expected = Json::parse(whole.out)["final"], found = table["rows"][1]["final"];
+    for (const auto& [name, value] : expected["coordinates"].items())
+        CHECK(std::abs(found["coordinates"][name].get<double>() - value.get<double>()) < 1e-9);
+
+    const Json broken = sweep({scene, "--vary", "l=1:-100:2", "--duration", "1"}, 4);
+    CHECK(broken["failed"].get<int>() >= 1);
+}
+
+TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
+    const std::string scene = temporary("spring.toml", spring);
+    for (const auto& [vary, words] : std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},
+                                                                                     {"k=0:1", "is no range"},
+                                                                                     {"k", "no NAME="},
+                                                                                     {"k=0:1:0", "nothing to do"},
+                                                                                     {"k=0:1:-3", "nothing to do"},
+                                                                                     {"k=0:inf:3", "no finite number"},
+                                                                                     {"k=0:1:2.5", "no whole number"},
+                                                                                     {"k=0:1:99999999", "more than 1000000"}}) {
+        const auto result = run({"sweep", scene, "--vary", vary});
+        CHECK(result.exit == 3);
+        CHECK(result.err.find(words) != std::string::npos);
+    }
+    CHECK(run({"sweep", scene, "--vary", "k=1:2:3", "--vary", "k=1:2:3"}).err.find("varied twice") != std::string::npos);
+    CHECK(run({"sweep", source_path("scenes/textbook/bouncing_ball.toml"), "--vary", "g=9:10:2"}).exit == 3);
+}
