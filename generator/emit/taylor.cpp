@@ -308,6 +308,9 @@ private:
                 parts[part].push_back(id);
                 for (std::size_t k = 0; k < mine.size(); ++k) taken[part].insert({k, mine[k]});
             }
+            for (std::size_t part = 1; part < parts.size(); ++part)
+                for (std::size_t before = 0; before < part; ++before)
+                    if (follow(parts[before], parts[part])) break;
             for (const std::vector<int>& part : parts) {
                 const bool is_linear = products_[part[0]].empty();  // worth a pack only as an argument of one
                 if (part.size() >= least_lanes && !is_linear) add_pack(part);
@@ -320,6 +323,25 @@ private:
             if (packs_[p].column.empty()) arrange(static_cast<int>(p));
         for (Pack& pack : packs_)
             if (!pack.is_copy) find_weights(pack);
+    }
+
+    /// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false: there is no
+    /// such order. What both take from the lanes of a third pack then stands in one order for both.
+    bool follow(const std::vector<int>& leader, std::vector<int>& part) const {
+        if (leader.size() != part.size()) return false;
+        const std::size_t count = positions(leader[0]).size();
+        if (positions(part[0]).size() != count) return false;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::map<int, int> with;
+            for (const int id : part) with[positions(id)[k]] = id;
+            std::vector<int> ordered;
+            for (const int id : leader)
+                if (const auto found = with.find(positions(id)[k]); found != with.end() && can_be_packed(found->first)) ordered.push_back(found->second);
+            if (with.size() != part.size() || ordered.size() != part.size()) continue;
+            part = ordered;
+            return true;
+        }
+        return false;
     }
 
     int add_pack(const std::vector<int>& nodes) {
