@@ -129,6 +129,7 @@ private:
         Weight weight;
         int a, b;
         bool a_rate = false, b_rate = false;
+        bool weighed = false;  ///< the sum of a power, Σ (α(k−j) − j) a_{k−j} z_j
     };
 
     /// What is multiplied in one lane of the columns `left` and `right`.
@@ -346,6 +347,9 @@ private:
         for (std::size_t p = 0; p < packs_.size(); ++p)
             if (packs_[p].column.empty()) arrange(static_cast<int>(p));
         for (Pack& pack : packs_)
+            if (const SeriesNode& x = node(pack.nodes[0]); x.kind == Kind::power && !pack.is_copy && !pack.by_lanes && x.exponent.constant < 0)
+                for (const int id : pack.nodes) products_[id] = {{{1, -1}, node(id).a, id, false, false, true}};
+        for (Pack& pack : packs_)
             if (!pack.is_copy) find_weights(pack);
     }
 
@@ -527,6 +531,15 @@ private:
 
     // Order 0.
 
+    /// Small halves without `pow`.
+    std::string power_at_zero(const Weight& exponent, const std::string& base) {
+        const Rational size = cln::abs(exponent.number);
+        if (exponent.constant >= 0 || !cln::equal(cln::denominator(size), 2) || size > 4) return fmt::format("pow({}, {})", base, joined({piece(exponent, "")}));
+        std::string text = fmt::format("sqrt({})", base);
+        for (Rational rest = size; rest > 1; rest = rest - 1) text = base + " * " + text;
+        return cln::minusp(exponent.number) ? fmt::format("Real(1) / ({})", text) : text;
+    }
+
     std::string value_at_zero(int id, const View& v) {
         const SeriesNode& x = node(id);
         const auto first = [&](int arg) { return v.first(arg); };
@@ -539,7 +552,7 @@ private:
         switch (x.kind) {
             case Kind::quotient: return bracketed(joined(pieces)) + " / " + first(x.w);
             case Kind::root: return call("sqrt");
-            case Kind::power: return fmt::format("pow({}, {})", first(x.a), joined({piece(x.exponent, "")}));
+            case Kind::power: return power_at_zero(x.exponent, first(x.a));
             case Kind::sine: return call("sin");
             case Kind::cosine: return call("cos");
             case Kind::hyperbolic_sine: return call("sinh");
@@ -578,9 +591,12 @@ private:
                     if (!std::all_of(packs_[pack].nodes.begin(), packs_[pack].nodes.end(), ready)) continue;
                     add_copies(lines, packs_[pack], true);
                     const View v = view(packs_[pack]);
-                    if (node(id).kind == Kind::root)
-                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = sqrt({}[l]);", packs_[pack].padded(), packs_[pack].column,
-                                                    packs_[source_of(packs_[pack], node(packs_[pack].nodes[0]).a)].column));
+                    if (node(id).kind == Kind::root || node(id).kind == Kind::power) {
+                        const SeriesNode& leader = node(packs_[pack].nodes[0]);
+                        const std::string base = packs_[source_of(packs_[pack], leader.a)].column + "[l]";
+                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = {};", packs_[pack].padded(), packs_[pack].column,
+                                                    leader.kind == Kind::root ? "sqrt(" + base + ")" : power_at_zero(leader.exponent, base)));
+                    }
                     else
                         lines.push_back(over_lanes(packs_[pack], packs_[pack].column + " + l", value_at_zero(packs_[pack].nodes[0], v)));
                     for (const int lane : packs_[pack].nodes) done[lane] = 1;
@@ -613,7 +629,7 @@ private:
     bool is_vector_at_zero(const Pack& pack) const {
         const SeriesNode& x = node(pack.nodes[0]);
         const auto plain = [&](int id) { return node(id).constants.empty(); };
-        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root) &&
+        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root || x.kind == Kind::power) &&
                std::all_of(pack.nodes.begin(), pack.nodes.end(), plain);
     }
 
@@ -824,7 +840,10 @@ private:
                     const Pack& source = packs_[source_of(pack, arg)];
                     return rate ? source.rates : source.column;
                 };
-                if (x.a == x.b && x.a_rate == x.b_rate)
+                if (x.weighed)
+                    lines.push_back(fmt::format("weighed<{}>({}, {}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, false), array(x.b, false),
+                                                joined({piece(node(pack.nodes[0]).exponent, "")})));
+                else if (x.a == x.b && x.a_rate == x.b_rate)
                     lines.push_back(fmt::format("squared<{}>({}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate)));
                 else
                     lines.push_back(fmt::format("convolved<{}>({}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate), array(x.b, x.b_rate)));
