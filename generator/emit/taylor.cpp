@@ -47,6 +47,8 @@ std::string exact_text(const Rational& value) {
 }
 
 constexpr std::size_t least_lanes = 4;   // of a pack
+// Measured on chains, planets and a governor; 1 is what a step takes beside its series.
+constexpr double operation_cost = 0.0008, product_cost = 0.0055;
 constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
@@ -104,6 +106,8 @@ public:
         number("most_order", static_cast<std::size_t>(most_order));
         number("most_order_quad", static_cast<std::size_t>(most_order_quad));
         number("k", constants_.size());
+        file.set("order_cost", fmt::format("{:.3g}", operation_cost * static_cast<double>(operations_at_an_order())));
+        file.set("product_cost", fmt::format("{:.3g}", product_cost * products_eight_wide()));
         number("columns_count", static_cast<std::size_t>(columns_count_));
         number("single_count", static_cast<std::size_t>(single_count_));
         std::string values;
@@ -159,6 +163,31 @@ private:
     struct Place {
         int pack = -1, lane = 0;
     };
+
+    /// Operations in the lines of one order, on numbers or on eight lanes.
+    std::size_t operations_at_an_order() {
+        std::size_t count = 0;
+        for (const Lines& part : {given(), chain(), storing()})
+            for (const std::string& line : part) {
+                std::size_t here = 0, blocks = 1;
+                for (const char* sign : {" * ", " + ", " - ", " = "})
+                    for (std::size_t at = line.find(sign); at != std::string::npos; at = line.find(sign, at + 1)) ++here;
+                if (const std::size_t lanes = line.find("l < "); lanes != std::string::npos) blocks = std::stoul(line.substr(lanes + 4)) / 8;
+                count += here * blocks;
+            }
+        return count;
+    }
+
+    /// Multiplications of eight lanes in all sums of products, over the square of the order.
+    double products_eight_wide() const {
+        double count = 0.5 * static_cast<double>(lanes_padded() / 8);
+        for (const Pack& pack : packs_) {
+            if (pack.is_copy) continue;
+            for (const Product& x : products_[pack.nodes[0]])
+                count += (x.a == x.b && x.a_rate == x.b_rate ? 0.25 : 0.5) * static_cast<double>(pack.padded() / 8);
+        }
+        return count;
+    }
 
     int width() const { return n_ + s_ + (with_work_ ? 1 : 0); }
     const SeriesNode& node(int id) const { return r_.nodes[id]; }
