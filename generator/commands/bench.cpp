@@ -175,7 +175,7 @@ SeriesModule series_of(const Program& program, bool with_work, const Request& re
 }  // namespace
 
 int bench(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.unilateral.empty())
         throw ModelError("bench measures smooth motions; scenes with unilateral constraints are not supported yet");
     const Energy energy = energy_of(d.mechanism);

@@ -41,7 +41,10 @@ MethodChoice automatic(const Request& request, const Derived& d, const Program& 
     if (tolerance < 1e-12)
         if (const auto products = products_of_series(program, d); products && *products <= most_products)
             return {.method = Method::taylor,
-                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at each order)", tolerance, *products)};
+                    .when_stiff = Method::radau,
+                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at each order); if the system turns out "
+                                       "stiff, radau goes on",
+                                       tolerance, *products)};
     const Method method = tolerance > 1e-5 ? Method::dopri5 : tolerance >= 1e-12 ? Method::dop853 : Method::verner98;
     return {.method = method,
             .when_stiff = Method::radau,

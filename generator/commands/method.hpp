@@ -18,7 +18,7 @@
 /// | below, the motion has a power series of at most 300 products an order | taylor |
 /// | below | verner98 |
 ///
-/// and the explicit Runge-Kutta methods watch for stiffness while they run (stiffness.hpp), and give way to radau.
+/// and those that choose their steps watch for stiffness while they run (stiffness.hpp), and give way to radau.
 
 #include "alembert/integrate.hpp"
 #include "commands/pipeline.hpp"

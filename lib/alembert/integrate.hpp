@@ -16,7 +16,7 @@
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
-/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉ or, where that is faster, more; at most 32 | adaptive, or fixed with `step` | its order | it grows with the order: to hλ = -8 at order 16 |
+/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉ or, where that is faster, more; at most 32 | adaptive, or fixed with `step` | its order | to about hλ = -1.3 - 0.37 order |
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |

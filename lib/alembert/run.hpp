@@ -47,7 +47,7 @@ public:
           tolerance_(tolerance_within_rounding(options.tolerance)),
           step_(rhs, options.start, initial, tolerance_),
           watch_(events, rhs),
-          stiffness_(options.method),
+          stiffness_(stable_interval()),
           row_(initial.size()),
           event_rate_(initial.size()) {
         result_.dimension = rhs.dimension;
@@ -98,6 +98,11 @@ private:
     static double tolerance_within_rounding(double tolerance) {
         if constexpr (requires(AnyStep s) { s.first_length(); }) return tolerance;
         return std::max(tolerance, 2 * std::numeric_limits<double>::epsilon());
+    }
+
+    double stable_interval() const {
+        if constexpr (requires { step_.stable_interval(); }) return step_.stable_interval();
+        return StiffnessWatch::stable_interval(options_.method);
     }
 
     bool takes_fixed_steps() const {

@@ -21,7 +21,8 @@ namespace alembert {
 
 class StiffnessWatch {
 public:
-    explicit StiffnessWatch(Method method) : border_(0.7 * stable_interval(method)) {}
+    explicit StiffnessWatch(Method method) : StiffnessWatch(stable_interval(method)) {}
+    explicit StiffnessWatch(double stable_interval) : border_(0.7 * stable_interval) {}
 
     /// −hλ up to which the method is stable; 0: not known.
     static double stable_interval(Method method) {
