@@ -53,7 +53,7 @@ public:
     }
 
     int most_evaluations() const { return 1; }
-    /// −hλ up to which the polynomial of this order is below 1 (to 0.1, for orders from 4 to 30).
+    /// −hλ up to which the polynomial of this order is below 1 (to 2 %, for orders from 4 to 30).
     double stable_interval() const { return 1.3 + 0.37 * order_; }
 
     bool increment(Ends& ends, double h, double* change, double*) {
