@@ -10,6 +10,19 @@
 
 namespace alembert {
 
+Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
+    return {.names = view.names(),
+            .restitution = restitutions(d.mechanism, start.parameters),
+            .situation =
+                [&view, state = start.state()](double t, const double* y) mutable {
+                    state.t = t;
+                    std::copy_n(y, state.q.size(), state.q.begin());
+                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
+                    return view.at(state);
+                },
+            .on_jump = {}};
+}
+
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,
              OnModeStep on_step)
     : request_(request), derived_(derived), start_(start), first_(first), work_(work), on_step_(std::move(on_step)) {}
@@ -39,9 +52,11 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
-    const bool wants_series = request_.method.empty() ? derived.mechanism.run.method == "taylor" : request_.method == "taylor";
+    const std::string& method = request_.method.empty() ? derived.mechanism.run.method : request_.method;
+    const bool wants_series = method == "taylor";
     std::optional<Source> series;
     if (wants_series) series = emit_taylor(program, work_ == Work::integrated);
+    program = with_jacobian(std::move(program), method, work_ == Work::integrated);
     Source source = emit(program);
     seconds_.emit += lap();
     const Compiled compiled =
@@ -64,8 +79,12 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                                     .events = make_events(module, values, stops)},
                                                         .from_cache = compiled.from_cache});
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
+    mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
     LoadedMode* const self = mode.get();
-    if (constrained) mode->contact.project = std::ref(self->projection);
+    if (constrained) {
+        mode->contact.project = std::ref(self->projection);
+        mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
+    }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         on_step_(*self, t, state, rate);
     };

@@ -14,6 +14,7 @@
 #include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
+#include "analysis/contacts.hpp"
 #include "commands/pipeline.hpp"
 #include "emit/emit.hpp"
 
@@ -29,6 +30,9 @@ struct LoadedMode {
     ContactMode contact;
     bool from_cache = false;
 };
+
+/// Contacts as the runtime asks for them: gaps and rows by interpretation. `view` must outlive them.
+Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view);
 
 class Modes {
 public:

@@ -18,7 +18,7 @@ while [ $# -gt 0 ]; do
     esac
 done
 mkdir -p "$folder"
-cases="double_pendulum_chaotic pleiades andrews kepler outer_solar_system flyball_governor car_axis slider_crank cartesian_pendulum
+cases="double_pendulum_chaotic pleiades andrews kepler outer_solar_system flyball_governor car_axis slider_crank cartesian_pendulum bouncing_ball
 four_bars_2 bricard free_body heavy_top_fast heavy_top_sleeping kapitza chaplygin_sleigh mass_ratio stiff_spring_pendulum"
 results=()
 for name in ${only:-$cases}; do
