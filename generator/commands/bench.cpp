@@ -208,7 +208,7 @@ SeriesModule series_of(const Program& program, bool with_work, const Request& re
 }  // namespace
 
 int bench(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     const Energy energy = energy_of(d.mechanism);
     const Program program = lowered(d, request).program;
     Start start = start_of(d.mechanism);

@@ -8,6 +8,7 @@
 #include "alembert/drift.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
+#include "analysis/joint_reactions.hpp"
 #include "commands/estimate.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
@@ -165,7 +166,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
 }  // namespace
 
 int simulate(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                  request.scene);
@@ -231,7 +232,9 @@ int simulate(const Request& request) {
         account.estimate_seconds = process_seconds() - again;
     }
 
-    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes));
+    std::optional<JointReactions> reactions;
+    if (request.reactions && !request.output.empty() && !d.mechanism.joints.empty()) reactions = joint_reactions(d.scene, d.mechanism);
+    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first));
     if (request.json)
         std::cout << as_json(motion, contacts, d, free, account, moved).dump(2) << "\n";
     else

@@ -196,7 +196,7 @@ Sum sum_of(const Table& table, const Grid& grid) {
 
 int sweep(const Request& request) {
     const Grid grid = grid_of(request.vary);
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.unilateral.empty())
         throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
     if (!d.mechanism.impulses.empty())

@@ -171,18 +171,6 @@ private:
     std::map<ex, int, GiNaC::ex_is_less> known_;
 };
 
-/// Names and parameters, no nodes yet.
-Program begun(const Mechanism& m, bool fold) {
-    Program program;
-    program.source_labels = m.z->source_labels();
-    for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent && !fold)
-            program.parameters.push_back({p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
-    for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
-    program.name = m.name;
-    return program;
-}
-
 /// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& udot) {
     if (e.h.empty()) return;
@@ -291,6 +279,17 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
 }
 
 }  // namespace
+
+Program begun(const Mechanism& m, bool fold) {
+    Program program;
+    program.source_labels = m.z->source_labels();
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent && !fold)
+            program.parameters.push_back({p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
+    for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
+    program.name = m.name;
+    return program;
+}
 
 Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
     Program program = begun(m, options.fold);
@@ -480,6 +479,15 @@ std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism,
     std::vector<int> nodes;
     for (const ex& e : list) nodes.push_back(lowering(e));
     return nodes;
+}
+
+std::function<int(const ex&)> lowering_into(Program& program, const Mechanism& mechanism, const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    const auto lowering = std::make_shared<Lowering>(program, mechanism, false);
+    for (const auto& [symbol, node] : given) lowering->define(symbol, node);
+    return [lowering](const ex& e) {
+        lowering->lower_definitions({e});
+        return (*lowering)(e);
+    };
 }
 
 }  // namespace alembert
