@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <tuple>
 
 #include "alembert/compile.hpp"
 #include "analysis/assemble.hpp"
@@ -12,6 +13,7 @@
 #include "analysis/reference.hpp"
 #include "commands/bounces.hpp"
 #include "commands/measure.hpp"
+#include "commands/modes.hpp"
 #include "commands/peers.hpp"
 #include "commands/progress.hpp"
 #include "commands/separable.hpp"
@@ -35,15 +37,20 @@ struct Judge {
 };
 
 std::optional<Judge> by_doubles(Workbench& bench, const Options& options) {
-    Options strict = options;
-    strict.tolerance = 1e-14;
-    strict.method = Method::verner98;
-    const auto one = bench.end_of(strict);
-    strict.method = Method::dop853;
-    const auto other = bench.end_of(strict);
-    if (!one || !other) return std::nullopt;
-    const double apart = std::max(error_against(*one, *other), 1e-16);
-    return Judge{*one, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))), "verner98 and dop853 at tolerance 1e-14, doubles: no better reference in the time given"};
+    // Stiff systems are for the second pair.
+    for (const auto& [one, other, tolerance] : {std::tuple{Method::verner98, Method::dop853, 1e-14}, std::tuple{Method::radau13, Method::radau9, 1e-13}}) {
+        Options strict = options;
+        strict.tolerance = tolerance;
+        strict.method = one;
+        const auto first = bench.end_of(strict);
+        strict.method = other;
+        const auto second = first ? bench.end_of(strict) : std::nullopt;
+        if (!second) continue;
+        const double apart = std::max(error_against(*first, *second), 1e-16);
+        return Judge{*first, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))),
+                     fmt::format("{} and {} at tolerance {:g}, doubles: no better reference in the time given", name(one), name(other), tolerance)};
+    }
+    return std::nullopt;
 }
 
 /// Runs of one method, from loose to strict, as long as it pays.

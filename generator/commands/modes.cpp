@@ -7,6 +7,7 @@
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
 #include "emit/taylor.hpp"
+#include "lower/differentiate.hpp"
 
 namespace alembert {
 
@@ -21,6 +22,12 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
                     return view.at(state);
                 },
             .on_jump = {}};
+}
+
+Program with_jacobian(Program program, const std::string& method, bool with_power) {
+    if (program.singular || !(method.starts_with("radau") || method == "bdf" || method == "gauss")) return program;
+    std::optional<Differentiated> found = differentiated(program, {.parameters = false, .power = with_power});
+    return found ? std::move(found->program) : program;
 }
 
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,

@@ -31,6 +31,10 @@ struct LoadedMode {
     bool from_cache = false;
 };
 
+/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it, and it is not too
+/// long to be written out; else as it is. `with_power`: of the power too.
+Program with_jacobian(Program program, const std::string& method, bool with_power);
+
 /// Contacts as the runtime asks for them: gaps and rows by interpretation. `view` must outlive them.
 Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view);
 

@@ -22,7 +22,6 @@
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/joint_tree.hpp"
-#include "lower/differentiate.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -153,12 +152,6 @@ Choice lowered(const Derived& d, const Request& request) {
         }
     }
     return choose(d.mechanism, all, {.fold = request.fold});
-}
-
-Program with_jacobian(Program program, const std::string& method, bool with_power) {
-    if (program.singular || !(method.starts_with("radau") || method == "bdf" || method == "gauss")) return program;
-    std::optional<Differentiated> found = differentiated(program, {.parameters = false, .power = with_power});
-    return found ? std::move(found->program) : program;
 }
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {

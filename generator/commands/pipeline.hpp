@@ -40,10 +40,6 @@ void need_rates(const Derived& derived);
 /// Lowered in the form that takes the fewest operations.
 Choice lowered(const Derived& derived, const Request& request);
 
-/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it, and it is not too
-/// long to be written out; else as it is. `with_power`: of the power too.
-Program with_jacobian(Program program, const std::string& method, bool with_power);
-
 /// Why the numbers fail at a state, in the terms of the scene: a combination of rates that no inertia resists, or the
 /// term of the body that is not finite. Nothing if neither is the case. (The form with intermediate symbols knows
 /// whose term each value is; the textbook's has merged them.)
