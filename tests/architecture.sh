@@ -42,7 +42,7 @@ forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
 
 # The emitted file's copy of the ABI's structs, word for word.
 words() { sed -n "/^struct $1 {/,/^};/p" "$2" | sed 's|///.*||' | tr -s ' \n' ' '; }
-for struct in alembert_solver_table alembert_pack_table; do
+for struct in alembert_solver_table alembert_pack_table alembert_projection_table; do
     [ "$(words $struct lib/alembert/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
         { echo "templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about $struct"; failed=1; }
 done

@@ -24,6 +24,25 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
 
 }  // namespace
 
+Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
+    return {.names = view.names(),
+            .restitution = restitutions(d.mechanism, start.parameters),
+            .situation =
+                [&view, state = start.state()](double t, const double* y) mutable {
+                    state.t = t;
+                    std::copy_n(y, state.q.size(), state.q.begin());
+                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
+                    return view.at(state);
+                },
+            .on_jump = {}};
+}
+
+Program with_jacobian(Program program, Method method, bool with_power) {
+    if (program.singular || !uses_jacobian(method)) return program;
+    std::optional<Differentiated> found = affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
+    return found ? std::move(found->program) : program;
+}
+
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,
              const MethodChoice& method, OnModeStep on_step)
     : request_(request), derived_(derived), start_(start), first_(first), work_(work), method_(method), on_step_(std::move(on_step)) {}
@@ -46,6 +65,8 @@ Rhs Modes::with_jacobian(LoadedMode& mode) {
             clock = process_seconds();
             const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
             mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
+            mode.when_stiff->extra = 0;
+            if (!mode.derived.mechanism.constraints.empty()) mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
             mode.jacobian_operations = derivatives->operations.total();
             seconds_.compile += process_seconds() - clock;
         }
@@ -101,8 +122,12 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
+    mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
     LoadedMode* const self = mode.get();
-    if (constrained) mode->contact.project = std::ref(self->projection);
+    if (constrained) {
+        mode->contact.project = std::ref(self->projection);
+        mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
+    }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         on_step_(*self, t, state, rate);
     };

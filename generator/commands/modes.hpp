@@ -11,11 +11,13 @@
 #include <map>
 #include <memory>
 
+#include "alembert/compile.hpp"
 #include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
-#include "alembert/compile.hpp"
+#include "analysis/contacts.hpp"
 #include "commands/method.hpp"
+#include "commands/pipeline.hpp"
 #include "emit/emit.hpp"
 
 namespace alembert {
@@ -32,6 +34,13 @@ struct LoadedMode {
     std::optional<int> jacobian_operations = {};  ///< where it is emitted
     std::optional<Rhs> when_stiff = {};           ///< once the motion was found stiff
 };
+
+/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it, and it is not too
+/// long to be written out; else as it is. `with_power`: of the power too.
+Program with_jacobian(Program program, Method method, bool with_power);
+
+/// Contacts as the runtime asks for them: gaps and rows by interpretation. `view` must outlive them.
+Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view);
 
 class Modes {
 public:

@@ -46,20 +46,6 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Contacts as the runtime asks for them: gaps and rows by interpretation.
-Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
-    return {.names = view.names(),
-            .restitution = restitutions(d.mechanism, start.parameters),
-            .situation =
-                [&view, state = start.state()](double t, const double* y) mutable {
-                    state.t = t;
-                    std::copy_n(y, state.q.size(), state.q.begin());
-                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
-                    return view.at(state);
-                },
-            .on_jump = {}};
-}
-
 /// Does E stay with the system? Not where an impact has taken some of it.
 bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
     return std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
