@@ -35,6 +35,7 @@ for n in 2 4 8 16 32; do
     python3 -B "$root/scenes/benchmark/chain.py" "$n" --torques >"$folder/pend$n.toml"
     add "$folder/pend$n.toml"
 done
+for arm in arm7 arm7g; do add "$root/scenes/benchmark/trees/$arm.toml"; done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"
 "$build/tests/bench_rhs" "${json[@]}" "$root/tests/reference/chains.json" "${systems[@]}"
