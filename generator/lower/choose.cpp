@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "lower/flatten.hpp"
 #include "lower/share.hpp"
 #include "report/readable.hpp"
 
@@ -116,7 +117,7 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
             LowerOptions by = options;
             by.recursion = form;
             try {
-                programs.push_back(shared(lower(m, recursive, energy, by)));
+                programs.push_back(shared(flattened(lower(m, recursive, energy, by))));
             } catch (const std::domain_error&) {
                 // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
             }
