@@ -11,11 +11,14 @@
 #include <set>
 #include <sstream>
 
+#include "emit/schedule.hpp"
+
 namespace alembert {
 
 namespace {
 
 constexpr std::size_t widest_group = 8;  // angles whose sines the emitted `sincos` takes at once
+constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
 constexpr int widest_expression = 10;  // operations in one statement, so that it can be read
 
 bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
@@ -153,9 +156,16 @@ std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
     for (const auto& [id, wish] : wanted_)
         if (place[id] == 0 && !named_.contains(id)) first.push_back(id);
     sections[0].lines = trigonometry(first);
-    for (std::size_t s = 1; s < titles.size(); ++s)
-        for (const auto& [id, wish] : wanted_)
-            if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
+    if (ready_->is_ordered() && wanted_.size() > readable_statements) {
+        sections.resize(1);
+        sections.push_back({"All else, in the order in which it is ready", {}});
+        for (const int id : scheduled(program_, *ready_, nodes, [&](int node) { return place[node] == 0 || is_leaf(node) || named_.contains(node); }))
+            if (wanted_.contains(id) && !named_.contains(id)) sections[1].lines.push_back(statement(id));
+    } else {
+        for (std::size_t s = 1; s < titles.size(); ++s)
+            for (const auto& [id, wish] : wanted_)
+                if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
+    }
     std::erase_if(sections, [](const Section& section) { return section.lines.empty(); });
     return sections;
 }

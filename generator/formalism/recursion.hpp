@@ -312,7 +312,8 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
                 S& a = own.A[place(i, k)];
                 a = a - U[j].n[i] * column.n[k];
                 S& c = own.C[place(i, k)];
-                c = c - U[j].f[i] * column.f[k];
+                // In a plane these three are what the next division waits for: the products are ready before the quotient.
+                c = c - (link.absolute ? inverse * (column.f[i] * column.f[k]) : U[j].f[i] * column.f[k]);
             }
             for (int k = 0; k < 3; ++k) own.B[i][k] = own.B[i][k] - U[j].n[i] * column.f[k];
         }
@@ -336,7 +337,11 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         for (int i = 0; i < 3; ++i)
             for (int k = i; k < 3; ++k) {
                 S& a = parent.A[place(i, k)];
-                a = a + A[place(i, k)] + (first[i][k] + second[k][i]);
+                // About the axis by itself, without waiting for B: first[2][2] is 0.
+                const bool direct = link.absolute && i == 2;
+                const S shift = direct ? (r[0] * r[0]) * C[1] + (r[1] * r[1]) * C[0] - (r[0] * r[1]) * (C[3] + C[3])
+                                       : first[i][k] + second[k][i];
+                a = a + A[place(i, k)] + shift;
             }
         parent.C = parent.C + C;
         for (int i = 0; i < 3; ++i) parent.B[i] = parent.B[i] + B[i];
