@@ -106,12 +106,14 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
         programs.push_back(shared(lower(m, *textbook, readable_energy(m, energy), options)));
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
-    for (const bool articulated : {false, true})
+    using Solve = RecursionForm::Solve;
+    for (const Solve solve : {Solve::matrix, Solve::articulated, Solve::both_ends})
         for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
-            const RecursionForm form{axes, articulated};
+            const RecursionForm form{axes, solve};
             if (axes == LinkAxes::still && !parallel) continue;
-            // LDLᵀ grows with the cube; articulated bodies make no multipliers.
-            if (articulated ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
+            if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree))) continue;
+            // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
+            if (solve != Solve::matrix ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
             Equations recursive = equations;
             recursive.formalism += ", " + form.text();
             LowerOptions by = options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "lower/recursion.hpp"
 
+#include "formalism/planar_chain.hpp"
 #include "lower/solve.hpp"
 
 namespace alembert {
@@ -150,7 +151,8 @@ private:
 }  // namespace
 
 std::string RecursionForm::text() const {
-    return std::string(articulated ? "articulated bodies" : "composite bodies") + (axes == LinkAxes::still ? ", parallel axes" : "");
+    const std::string name = solve == Solve::matrix ? "composite bodies" : solve == Solve::articulated ? "articulated bodies" : "chain from both ends";
+    return name + (axes == LinkAxes::still ? ", parallel axes" : "");
 }
 
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
@@ -161,6 +163,11 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;
         for (const Symbolic& s : list) result.push_back(s.node(program));
+        return result;
+    };
+    const auto symbols = [&](const std::vector<int>& list) {
+        std::vector<Symbolic> result;
+        for (const int node : list) result.emplace_back(program, node);
         return result;
     };
     std::vector<int> Q;
@@ -177,14 +184,14 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     for (std::size_t a = 0; a < Q.size(); ++a) result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
     if (!change.determines()) return result;
     const std::vector<int> loads = change.loads(Q);
-    if (form.articulated) {
-        std::vector<Symbolic> list;
-        for (const int node : loads) list.emplace_back(program, node);
-        result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, list)));
+    if (form.solve == RecursionForm::Solve::articulated) {
+        result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, symbols(loads))));
     } else {
         std::vector<int> f;
         for (std::size_t j = 0; j < n.size(); ++j) f.push_back(program.sum(0, {{1, loads[j]}, {-1, n[j]}}));
-        if (const auto rates = solve_symmetric(program, lower, f)) result.acceleration = change.accelerations(*rates);
+        if (form.solve == RecursionForm::Solve::both_ends)
+            result.acceleration = change.accelerations(nodes(from_both_ends(tree, symbols(f))));
+        else if (const auto rates = solve_symmetric(program, lower, f)) result.acceleration = change.accelerations(*rates);
     }
     return result;
 }
