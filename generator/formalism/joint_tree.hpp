@@ -79,6 +79,7 @@ BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z, co
             drift[j] = z.name(drift[how[j].base] + drift[j]);
         }
         if (!l.slides || link.still) {
+            link.angle = value(angle[j]);
             link.cosine = value(z.name(cos(angle[j])));
             link.sine = value(z.name(sin(angle[j])));
         }

@@ -44,6 +44,9 @@ struct TreeLink {
     Triple<S> slide = no_vector<S>();      ///< of a sliding link, in its own axes; constant
     RigidBody<S> body{};                   ///< along the link's own axes; constant
 
+    bool about_x = false;                  ///< R is a turn about x
+
+    S angle = S(0);                        ///< of the joint, 0 of one that slides
     S cosine = S(1), sine = S(0);          ///< of the joint's angle; of the sum of angles where the axes are still
     S shift = S(0), rate = S(0);           ///< of the joint, in units of `slide`; w
     S drift = S(0);                        ///< w' at q'' = 0
@@ -73,10 +76,14 @@ struct BodyTree {
         if constexpr (std::is_same_v<V, Triple<S>>)
             v = link.R * v;
         else
-            v = congruent(link.R, v);
+            v = turned_by_constant(link, v);
         if (parent_is_still(link)) v = turned_about_z(links[link.parent].cosine, links[link.parent].sine, v);
         return v;
     }
+    static Symmetric<S> turned_by_constant(const TreeLink<S>& link, const Symmetric<S>& A) {
+        return link.about_x ? turned_about_x(link.R[1][1], link.R[2][1], A) : congruent(link.R, A);
+    }
+    static Matrix<S> turned_by_constant(const TreeLink<S>& link, const Matrix<S>& A) { return congruent(link.R, A); }
     Triple<S> from_parent(const TreeLink<S>& link, Triple<S> v) const {
         if (!link.continues) {
             if (parent_is_still(link)) v = turned_back(links[link.parent].cosine, links[link.parent].sine, v);

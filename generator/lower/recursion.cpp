@@ -2,53 +2,12 @@
 #include "lower/recursion.hpp"
 
 #include "formalism/planar_chain.hpp"
+#include "lower/link_frames.hpp"
 #include "lower/solve.hpp"
 
 namespace alembert {
 
 namespace {
-
-/// A node as a scalar; zeros and constants fold in the program.
-class Symbolic {
-public:
-    Symbolic(int number = 0) : number_(number) {}
-    Symbolic(Program& program, int node) : p_(&program), node_(node) {}
-
-    int node(Program& program) const { return p_ != nullptr ? node_ : program.number(number_); }
-
-    friend Symbolic operator+(const Symbolic& a, const Symbolic& b) { return sum(a, b, 1); }
-    friend Symbolic operator-(const Symbolic& a, const Symbolic& b) { return sum(a, b, -1); }
-    Symbolic operator-() const { return p_ == nullptr ? of(-number_) : Symbolic(*p_, p_->sum(0, {{-1, node_}})); }
-    friend Symbolic operator*(const Symbolic& a, const Symbolic& b) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ * b.number_);
-        if (a.p_ == nullptr) return {*p, p->sum(0, {{a.number_, b.node_}})};
-        if (b.p_ == nullptr) return {*p, p->sum(0, {{b.number_, a.node_}})};
-        return {*p, p->product(1, {{a.node_, 1}, {b.node_, 1}})};
-    }
-    friend Symbolic operator/(const Symbolic& a, const Symbolic& b) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ / b.number_);
-        return {*p, p->product(1, {{a.node(*p), 1}, {b.node(*p), -1}})};
-    }
-
-private:
-    static Symbolic of(const Rational& number) {
-        Symbolic result;
-        result.number_ = number;
-        return result;
-    }
-    static Program* either(const Symbolic& a, const Symbolic& b) { return a.p_ != nullptr ? a.p_ : b.p_; }
-    static Symbolic sum(const Symbolic& a, const Symbolic& b, int sign) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ + sign * b.number_);
-        return {*p, p->sum(0, {{1, a.node(*p)}, {sign, b.node(*p)}})};
-    }
-
-    Program* p_ = nullptr;
-    int node_ = -1;
-    Rational number_ = 0;
-};
 
 /// From joints' rates to the coordinates': the absolute ones by differences, the relative ones by S.
 class Change {
@@ -158,7 +117,9 @@ std::string RecursionForm::text() const {
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
                          const std::function<int(const GiNaC::ex&)>& lowering) {
     const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
-    const BodyTree<Symbolic> tree = regrouped(dressed<Symbolic>(joints, form.axes, z, value));
+    BodyTree<Symbolic> given = dressed<Symbolic>(joints, form.axes, z, value);
+    if (form.axes == LinkAxes::own) given = reframed(program, std::move(given));
+    const BodyTree<Symbolic> tree = regrouped(std::move(given));
     const Change change(program, joints, form.axes);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;
