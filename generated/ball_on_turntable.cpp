@@ -36,8 +36,10 @@ template <typename Real> Real max(const Real& x, const Real& y) { return x < y ?
 
 using real2 = double __attribute__((vector_size(16)));
 using real4 = double __attribute__((vector_size(32)));
+using real8 = double __attribute__((vector_size(64)));
 using bits2 = long long __attribute__((vector_size(16)));
 using bits4 = long long __attribute__((vector_size(32)));
+using bits8 = long long __attribute__((vector_size(64)));
 
 template <typename Real> struct pair { Real s, c; };
 template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };

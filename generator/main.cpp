@@ -104,6 +104,7 @@ int main(int argc, char** argv) {
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
     with_run(simulate);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
+    simulate->add_flag("!--no-estimate", request.estimate, "no second run to estimate the error: half the time");
     with_reactions(simulate);
 
     CLI::App* sweep = verb("sweep", "integrate from many initial states or with many parameters, a row for each", alembert::sweep);
@@ -111,6 +112,16 @@ int main(int argc, char** argv) {
     sweep->add_option("--vary", request.vary, "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; several make a grid")
         ->required();
     sweep->add_option("--threads", request.threads, "as many as there are cores where it is missing")->check(CLI::Range(1, 1024));
+
+    CLI::App* bench = verb("bench", "speed against error: every method over a range of tolerances, against a reference", alembert::bench);
+    bench->add_flag("--peers", request.peers, "CVODE, IDA, odeint and GSL too, on the same right-hand side, where they are installed");
+    bench->add_option("--csv", request.csv, "CSV file");
+    bench->add_option("--svg", request.svg, "work-precision plot");
+    bench->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+    bench->add_option("--method", request.method, "this one alone");
+    bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(CLI::PositiveNumber);
+    bench->add_option("--reference-seconds", request.reference_seconds, "processor time for each of the reference's methods")
+        ->check(CLI::PositiveNumber);
 
     try {
         app.parse(argc, argv);

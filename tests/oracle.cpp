@@ -64,6 +64,8 @@ public:
             if (p.independent) known_.emplace(p.symbol.get_name(), constant(s.parameters[independent++]));
         for (std::size_t i = 0; i < m.q.size(); ++i) known_.emplace(m.q[i].get_name(), Series({s.q[i], s.qdot[i], s.qddot[i]}, 2));
         for (std::size_t k = 0; k < e.lambda.size(); ++k) known_.emplace(e.lambda[k].get_name(), Series({s.unknown[k], 0, 0}, 0));
+        for (std::size_t k = 0; k < m.speeds.size(); ++k)
+            known_.emplace(m.speeds[k].u.get_name(), Series({s.unknown[e.lambda.size() + 2 * k], s.unknown[e.lambda.size() + 2 * k + 1], 0}, 1));
     }
 
     Series of(const Tree& tree) {
@@ -218,10 +220,26 @@ bool obey(State<Digits>& state, const Program& p, const Mechanism& m) {
     return off.empty() || project(state.qdot, A, off);
 }
 
+/// Each speed and its derivative, in q, q', q'' and t.
+std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
+    std::vector<GiNaC::ex> list;
+    for (const Mechanism::Speed& speed : m.speeds) {
+        const GiNaC::ex form = m.z->expand(speed.form);
+        GiNaC::ex rate = form.diff(m.t);
+        for (std::size_t i = 0; i < m.q.size(); ++i) rate += form.diff(m.q[i]) * m.qdot[i] + form.diff(m.qdot[i]) * m.qddot[i];
+        list.insert(list.end(), {form, rate});
+    }
+    return list;
+}
+
 }  // namespace
 
 Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsigned seed, int states) : scene_(scene), m_(m), e_(e) {
-    const Program p = lower(m, e, energy_of(m));
+    Mechanism plain = m;  // the motion is found in coordinates, and speeds are what their forms say
+    plain.speeds.clear();
+    const Program p = lower(plain, e, energy_of(plain));
+    Program forms;
+    const std::vector<int> form_nodes = lower_expressions(forms, m, forms_and_rates(m));
     Start start = start_of(m);
     assemble(start, m, lower_constraints(m), {});
     std::mt19937 random(seed);
@@ -235,7 +253,7 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             for (const double x : start.q) s.q.push_back(Digits(x) + uniform(-0.4, 0.6));
             for (const double x : start.qdot) s.qdot.push_back(Digits(x) / 2 + uniform(-1.5, 2));
             s.qddot.resize(s.q.size());
-            s.unknown.resize(e.lambda.size());
+            s.unknown.resize(e.lambda.size() + form_nodes.size());
             if (!obey(s, p, m)) continue;
             const std::vector<Digits> value = interpret<Digits>(p, s);
             const auto take = [&](const char* group, std::vector<Digits>& to) {
@@ -244,6 +262,8 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             };
             take("acceleration", s.qddot);
             take("multiplier", s.unknown);
+            const std::vector<Digits> speeds = interpret<Digits>(forms, s);
+            for (std::size_t k = 0; k < form_nodes.size(); ++k) s.unknown[e.lambda.size() + k] = speeds[form_nodes[k]];
             states_.push_back(std::move(s));
         } catch (const std::exception&) {  // a pole, a root of a negative number
         }

@@ -35,7 +35,7 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    std::vector<State<Digits>> states_;  ///< unknown: the multipliers
+    std::vector<State<Digits>> states_;  ///< unknown: the multipliers, then each speed and its derivative
 };
 
 }  // namespace alembert::test

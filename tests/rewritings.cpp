@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
+#include "formalism/kane.hpp"
 #include "report/derivation.hpp"
 #include "report/text.hpp"
 
@@ -139,11 +141,28 @@ bool mentions_geometry(const std::string& text) {
     return false;
 }
 
+/// z1, z2 ...: the oracle has no values for them.
+bool mentions_intermediates(const std::string& text) {
+    for (std::size_t k = 0; k + 1 < text.size(); ++k)
+        if (text[k] == 'z' && std::isdigit(static_cast<unsigned char>(text[k + 1])) && (k == 0 || !std::isalnum(static_cast<unsigned char>(text[k - 1])))) return true;
+    return false;
+}
+
 }  // namespace
 
 Rewritings::Rewritings(const Scene& scene, const Mechanism& m, const Equations& e) {
     const Derivation shown = derivation_of(m, e);
-    for (const ReadableEquation& equation : shown.equations) right_.push_back(text(equation.lhs) + " = " + text(equation.rhs));
+    const auto take = [&](const Phrase& lhs, const Phrase& rhs) {
+        const std::string equation = text(lhs) + " = " + text(rhs);
+        if (!mentions_intermediates(equation)) right_.push_back(equation);
+    };
+    for (const ReadableEquation& equation : shown.equations) take(equation.lhs, equation.rhs);
+    readable_ = right_.size() == shown.equations.size();
+    if (!m.speeds.empty()) {
+        const Derivation in_speeds = derivation_of(m, kane(m));
+        for (const ReadableEquation& equation : in_speeds.equations) take(equation.lhs, equation.rhs);
+        for (const auto& [rate, value] : in_speeds.kinematics) take(rate, value);
+    }
     for (const Claim& claim : scene.claims) {
         const std::string written = text_of(claim.equation);
         if (claim.at == "motion" && claim.unknowns.empty() && claim.constants.empty() && !mentions_geometry(written)) right_.push_back(written);

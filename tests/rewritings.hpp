@@ -23,7 +23,11 @@ public:
 
     std::string claim(std::mt19937& random) const;
 
-    /// What the combinations are made of: the equations as `derive` prints them, and the scene's claims without open names.
+    /// False where equations are written in intermediate symbols, which the oracle does not read.
+    bool readable() const { return readable_; }
+
+    /// What the combinations are made of: the equations as `derive` prints them, a row for each coordinate and those in the scene's
+    /// speeds, and the scene's claims without open names.
     const std::vector<std::string>& right() const { return right_; }
 
 private:
@@ -31,6 +35,7 @@ private:
     std::string dressed(const std::string& text, std::mt19937& random, int changes) const;
 
     std::vector<std::string> right_;
+    bool readable_ = true;
     std::vector<std::string> rates_;      ///< of the constraints: zero, and linear in the rates
     std::vector<std::string> positions_;  ///< of holonomic ones: zero
     std::vector<std::string> parameters_, coordinates_;

@@ -28,10 +28,15 @@ struct Request {
     std::string method;           ///< simulate; empty: the scene's
     double duration = -1, tolerance = -1, step = -1, sample = -1;  ///< simulate; negative: the scene's
     long budget = 10'000'000;
+    bool estimate = true;         ///< simulate: the error, by a second run
+    bool peers = false;           ///< bench: other people's integrators too
+    std::string csv, svg;         ///< bench: files
+    double reference_seconds = 30;  ///< bench: for each method of the reference
 };
 
 int agree(const Request& request);
 int audit(const Request& request);
+int bench(const Request& request);
 int check(const Request& request);
 int derive(const Request& request);
 int eval(const Request& request);

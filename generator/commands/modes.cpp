@@ -6,6 +6,7 @@
 #include "alembert/compile.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
+#include "emit/taylor.hpp"
 
 namespace alembert {
 
@@ -38,11 +39,16 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
+    const bool wants_series = request_.method.empty() ? derived.mechanism.run.method == "taylor" : request_.method == "taylor";
+    std::optional<Source> series;
+    if (wants_series) series = emit_taylor(program, work_ == Work::integrated);
     Source source = emit(program);
     seconds_.emit += lap();
     const Compiled compiled =
         compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}});
     const Module module = load(compiled.object);
+    SeriesModule series_module;
+    if (series) series_module = load_series(compile(series->text, program.name + "_taylor", {.fast_math = request_.fast_math}).object);
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
@@ -57,6 +63,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                         .contact = {.rhs = make_rhs(module, values, work_),
                                                                     .events = make_events(module, values, stops)},
                                                         .from_cache = compiled.from_cache});
+    if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     LoadedMode* const self = mode.get();
     if (constrained) mode->contact.project = std::ref(self->projection);
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {

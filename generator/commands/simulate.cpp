@@ -8,9 +8,11 @@
 #include "alembert/drift.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
+#include "commands/estimate.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
 #include "commands/run_options.hpp"
+#include "commands/separable.hpp"
 
 namespace alembert {
 
@@ -27,25 +29,6 @@ Options options_of(const Request& request, const Mechanism& mechanism, const Sta
             .step = wish(request.step, start.step),
             .sample = wish(request.sample, start.sample),
             .budget = request.budget};
-}
-
-void need_separable(const Derived& d, std::string_view method) {
-    const auto refuse = [&](const std::string& why) {
-        throw ModelError(fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
-                                     "alone, but {}; take gauss (symplectic for any energy) or dop853", method, why));
-    };
-    const Equations& e = d.equations;
-    if (!e.h.empty()) refuse("the equations are in generalized speeds");
-    if (!d.mechanism.constraints.empty() || !d.mechanism.unilateral.empty()) refuse("there are constraints");
-    std::vector<GiNaC::symbol> moving = e.q;
-    moving.insert(moving.end(), e.u.begin(), e.u.end());
-    moving.push_back(d.mechanism.t);
-    for (int i = 0; i < e.size(); ++i)
-        for (int j = 0; j < e.size(); ++j)
-            if (e.z->depends(e.M(i, j), moving))
-                refuse(fmt::format("the inertia of {} changes with the motion", e.q[i].get_name()));
-    for (int i = 0; i < e.size(); ++i)
-        if (e.z->depends(e.forcing(i), e.u)) refuse(fmt::format("a rate occurs in the equation of {}", e.q[i].get_name()));
 }
 
 namespace {
@@ -86,8 +69,27 @@ struct Account {
     Drift drift;
     double constraint_drift = 0, impact_loss = 0;
     Modes::Seconds seconds;
-    double integrate_seconds = 0;
+    double integrate_seconds = 0, estimate_seconds = 0;
+    bool closed = false;  ///< what runs now is not the result
+    std::optional<ErrorEstimate> estimate = {};
 };
+
+/// Why the result is not to be trusted; empty where nothing speaks against it.
+std::string distrust(const Account& account) {
+    if (!account.estimate || account.estimate->trusted) return {};
+    const ErrorEstimate& e = *account.estimate;
+    if (!e.value) return fmt::format("NOT TRUSTWORTHY: {}, so the error is unknown", e.by);
+    std::string text = fmt::format("NOT TRUSTWORTHY: the estimated error is {:.1e}", *e.value);
+    if (e.lyapunov) text += fmt::format("; the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left", *e.lyapunov, *e.horizon);
+    return text;
+}
+
+Json as_json(const ErrorEstimate& e) {
+    Json result{{"value", e.value ? Json(*e.value) : Json(nullptr)}, {"by", e.by}, {"trustworthy", e.trusted}};
+    if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
+    if (e.horizon) result["no_digit_after"] = *e.horizon;
+    return result;
+}
 
 /// q' at the end, where the state may hold speeds instead.
 std::vector<double> final_rates(const PhasedMotion& motion, const LoadedMode& mode) {
@@ -102,6 +104,7 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     const bool balance = !account.conserved;
     const std::vector<double> rates = final_rates(motion, mode);
     Json result;
+    if (const std::string warning = distrust(account); !warning.empty()) result["warning"] = warning;
     result["final"] = {{"time", motion.final_time()},
                        {"coordinates", by_coordinate(mode.program, end.data())},
                        {"rates", by_coordinate(mode.program, rates.data())}};
@@ -116,6 +119,7 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     if (balance) result["work_balance"] = account.drift.balance();
     if (account.jacobi_conserved) result["jacobi_drift"] = account.drift.jacobi();
     result["constraint_drift"] = account.constraint_drift;
+    if (account.estimate) result["error_estimate"] = as_json(*account.estimate);
     if (!moved.empty()) result["adjusted"] = moved;
     result["events"] = Json::array();
     for (const EventRecord& event : motion.events)
@@ -127,7 +131,8 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     result["seconds"] = {{"derive", account.seconds.derive},
                          {"emit", account.seconds.emit},
                          {"compile", account.seconds.compile},
-                         {"integrate", account.integrate_seconds}};
+                         {"integrate", account.integrate_seconds},
+                         {"estimate", account.estimate_seconds}};
     result["completed"] = motion.ending != Ending::failed;
     return result;
 }
@@ -137,6 +142,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
     const auto end = motion.final_state();
     const int n = d.mechanism.size();
     const std::vector<double> rates = final_rates(motion, mode);
+    if (const std::string warning = distrust(account); !warning.empty()) fmt::print("{}\n", warning);
     fmt::print("{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", mode.source.formulation,
                motion.statistics.method, motion.statistics.steps, motion.statistics.rejected, motion.statistics.evaluations,
                mode.source.operations.total());
@@ -152,6 +158,11 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
         std::string closed;
         for (const int k : motion.phases.back().closed) closed += (closed.empty() ? "" : ", ") + contacts.names[k];
         fmt::print("closed: {}\n", closed.empty() ? "no contact" : closed);
+    }
+    if (account.estimate && account.estimate->value) {
+        fmt::print("\nestimated error {:.1e}, by {}\n", *account.estimate->value, account.estimate->by);
+        if (account.estimate->lyapunov)
+            fmt::print("chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *account.estimate->lyapunov, *account.estimate->horizon);
     }
     if (account.impact_loss != 0) fmt::print("\nlost in impacts {:.10g}", account.impact_loss);
     if (account.conserved)
@@ -196,6 +207,7 @@ int simulate(const Request& request) {
     Progress progress("integrating");
     Modes modes(request, d, start, first, work ? Work::integrated : Work::left_out,
                 [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
+                    if (account.closed) return;
                     account.drift(mode.module.table(), mode.par, t, state, rate);
                     if (mode.contact.project)
                         account.constraint_drift =
@@ -205,7 +217,7 @@ int simulate(const Request& request) {
     modes.take_free(std::move(program));
     const LoadedMode& free = modes({});
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
-        account.drift.jump(free.module.table(), free.par, t, before, after, jump);
+        if (!account.closed) account.drift.jump(free.module.table(), free.par, t, before, after, jump);
     };
 
     std::vector<double> initial = start.q;
@@ -213,8 +225,10 @@ int simulate(const Request& request) {
     if (work) initial.push_back(0);
     const Modes::Seconds before = modes.seconds();
     const double integrate_begin = process_seconds();
-    const PhasedMotion motion =
-        follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, initial, options);
+    const auto run = [&](const Options& with, const std::vector<double>& from) {
+        return follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, from, with);
+    };
+    const PhasedMotion motion = run(options, initial);
     const Modes::Seconds& spent = modes.seconds();
     account.integrate_seconds = process_seconds() - integrate_begin - (spent.derive + spent.emit + spent.compile) +
                                 (before.derive + before.emit + before.compile);
@@ -224,6 +238,12 @@ int simulate(const Request& request) {
     account.conserved = energy.conserved && !is_lossy(motion, contacts);
     account.jacobi_conserved = !energy.conserved && energy.jacobi_conserved && !has_contacts;
     for (const ContactEvent& event : motion.contacts) account.impact_loss += event.energy_loss;
+    account.closed = true;
+    if (request.estimate && !motion.failure && options.duration > 0) {
+        const double again = process_seconds();
+        account.estimate = error_estimate(motion, run, options, initial, start.q.size() + first.qdot.size());
+        account.estimate_seconds = process_seconds() - again;
+    }
 
     if (!request.output.empty()) write_file(request.output, csv(motion, d, modes));
     if (request.json)

@@ -13,6 +13,7 @@
 #include "commands/grid.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"
+#include "commands/separable.hpp"
 #include "emit/emit.hpp"
 
 namespace alembert {

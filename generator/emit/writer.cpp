@@ -110,7 +110,7 @@ void Writer::choose_statements(const std::vector<Goal>& goals) {
         }
 }
 
-std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
+std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     leaves_ = named_;
     std::vector<int> nodes;
     for (const Goal& goal : goals) nodes.push_back(goal.node);
@@ -150,7 +150,7 @@ std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
         for (const int arg : program_[user->first].args)
             if (const auto it = place.find(arg); it != place.end()) it->second = std::min(it->second, user->second);
 
-    std::vector<Section> sections(titles.size());
+    std::vector<Passage> sections(titles.size());
     for (std::size_t s = 0; s < titles.size(); ++s) sections[s].title = titles[s];
     std::vector<int> first;
     for (const auto& [id, wish] : wanted_)
@@ -166,7 +166,7 @@ std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
             for (const auto& [id, wish] : wanted_)
                 if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
     }
-    std::erase_if(sections, [](const Section& section) { return section.lines.empty(); });
+    std::erase_if(sections, [](const Passage& section) { return section.lines.empty(); });
     return sections;
 }
 

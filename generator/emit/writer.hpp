@@ -15,7 +15,7 @@
 namespace alembert {
 
 /// Statements in the order in which a lecturer would write them.
-struct Section {
+struct Passage {
     std::string title;
     std::vector<std::string> lines;
 };
@@ -35,7 +35,7 @@ public:
 
     /// The statements that lead to the goals, by section: trigonometry, what several sections share, then the
     /// goals' own sections in their order.
-    std::vector<Section> write(const std::vector<Goal>& goals);
+    std::vector<Passage> write(const std::vector<Goal>& goals);
 
     /// After `write`: an expression for a goal's value, and the leaves that were used.
     std::string value(int node) { return text(node, 0); }

@@ -75,7 +75,7 @@ private:
         return R;
     }
 
-    /// Axes whose z is `a`, by columns.
+    /// LinkAxes whose z is `a`, by columns.
     Rotation3 axes_along(const Vector3& a) {
         for (int k = 0; k < 3; ++k) {
             if (!a[k].is_equal(1)) continue;

@@ -13,7 +13,7 @@
 
 #include <functional>
 
-#include "formalism/axes.hpp"
+#include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/recursion.hpp"
 #include "model/mechanism.hpp"

@@ -45,9 +45,7 @@ struct TreeLink {
     RigidBody<S> body{};                   ///< along the link's own axes; constant
 
     bool about_x = false;                  ///< R is a turn about x
-
-    S angle = S(0);                        ///< of the joint, 0 of one that slides
-    S cosine = S(1), sine = S(0);          ///< of the joint's angle; of the sum of angles where the axes are still
+    S angle = S(0), cosine = S(1), sine = S(0);  ///< of the joint's angle; of the sum of angles where the axes are still
     S shift = S(0), rate = S(0);           ///< of the joint, in units of `slide`; w
     S drift = S(0);                        ///< w' at q'' = 0
     bool still = false;                    ///< components are along axes that do not turn with the link,
@@ -314,15 +312,16 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         free[j] = u * inverse;
         U[j] = {inverse * column.n, inverse * column.f};
         if (link.parent < 0) continue;
+        // x y/D: in a chain of parallel axes the product does not wait for the division; elsewhere there are too many.
+        const auto over = [&](const S& x, const S& x_D, const S& y) { return link.still ? (x * y) * inverse : x_D * y; };
         for (int i = 0; i < 3; ++i) {
             for (int k = i; k < 3; ++k) {
                 S& a = own.A[place(i, k)];
-                a = a - U[j].n[i] * column.n[k];
+                a = a - over(column.n[i], U[j].n[i], column.n[k]);
                 S& c = own.C[place(i, k)];
-                // In a plane these three are what the next division waits for: the products are ready before the quotient.
-                c = c - (link.absolute ? inverse * (column.f[i] * column.f[k]) : U[j].f[i] * column.f[k]);
+                c = c - over(column.f[i], U[j].f[i], column.f[k]);
             }
-            for (int k = 0; k < 3; ++k) own.B[i][k] = own.B[i][k] - U[j].n[i] * column.f[k];
+            for (int k = 0; k < 3; ++k) own.B[i][k] = own.B[i][k] - over(column.n[i], U[j].n[i], column.f[k]);
         }
         w = {w.n + u * U[j].n, w.f + u * U[j].f};
         if (!link.slides) {

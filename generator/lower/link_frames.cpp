@@ -35,10 +35,13 @@ public:
 private:
     TreeLink<Symbolic>& link(int j) { return tree_.links[static_cast<std::size_t>(j)]; }
 
+    /// Its frame may be moved: it turns with the link, which turns about its z.
+    static bool turns(const TreeLink<Symbolic>& l) { return !l.slides && !l.still; }
+
     /// Both turn, and R between them is of numbers that no division makes worse.
     bool is_hinge(int k) {
         const TreeLink<Symbolic>& l = link(k);
-        if (l.slides || l.parent < 0 || link(l.parent).slides) return false;
+        if (!turns(l) || l.parent < 0 || !turns(link(l.parent))) return false;
         for (const Vector& row : l.R)
             for (const Symbolic& entry : row)
                 if (p_[entry.node(p_)].depends != 0) return false;
@@ -87,7 +90,7 @@ private:
     /// Turns the frame of link j: for its heaviest child by a, for what its own R ends in by c.
     void turn(int j) {
         TreeLink<Symbolic>& own = link(j);
-        if (own.slides) return;
+        if (!turns(own)) return;
         Turn offset;
         if (is_hinge(j)) {
             const Matrix<Symbolic> columns = transposed(own.R);
@@ -134,7 +137,7 @@ private:
     Vector arm(int k, const Place& own, const Symbolic& parent) {
         const TreeLink<Symbolic>& l = link(k);
         Vector p = l.p;
-        if (!l.slides)
+        if (turns(l))
             for (int i = 0; i < 3; ++i) p[i] = i == own.zero ? Symbolic(0) : p[i] + own.d * l.R[i][2];
         p[2] = p[2] - parent;
         return p;
@@ -153,7 +156,7 @@ private:
             std::vector<Place>& list = places_[static_cast<std::size_t>(j)];
             list.emplace_back();
             const TreeLink<Symbolic>& l = link(j);
-            if (!l.slides) {
+            if (turns(l)) {
                 if (is_hinge(j))
                     for (int i = 0; i < 2; ++i)
                         if (!l.p[i].is_zero() && std::abs(value(l.R[i][2])) > smallest_sine) list.push_back({-l.p[i] / l.R[i][2], i});

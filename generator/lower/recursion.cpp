@@ -117,9 +117,7 @@ std::string RecursionForm::text() const {
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
                          const std::function<int(const GiNaC::ex&)>& lowering) {
     const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
-    BodyTree<Symbolic> given = dressed<Symbolic>(joints, form.axes, z, value);
-    if (form.axes == LinkAxes::own) given = reframed(program, std::move(given));
-    const BodyTree<Symbolic> tree = regrouped(std::move(given));
+    const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
     const Change change(program, joints, form.axes);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;

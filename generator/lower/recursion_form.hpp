@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formalism/axes.hpp"
+#include "formalism/link_axes.hpp"
 
 namespace alembert {
 

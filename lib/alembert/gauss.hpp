@@ -7,15 +7,17 @@
 ///
 /// by fixed-point iteration until the changes no longer shrink, which is at rounding: a tolerance left in the
 /// equations would be a drift of the energy (Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.6). The
-/// iteration contracts for h‖∂f/∂y‖ below about 2, so that A-stability serves accuracy, not stiff systems: those are
-/// radau's. It starts from the polynomial of the step before (§VIII.6.1).
+/// iteration contracts for h‖∂f/∂y‖ below about 2. Where it contracts by less than a half, or not at all, simplified Newton
+/// takes its place for good, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z with J = ∂f/∂y at the start of the step (newton.hpp), as one dense
+/// system of 3n. It starts from the polynomial of the step before (§VIII.6.1).
 ///
 /// Source: Hairer, Lubich, Wanner, §II.1.3, table 1.2 (Kuntzmann & Butcher, order 6).
 
 #include <array>
 #include <numbers>
+#include <optional>
 
-#include "alembert/stepper.hpp"
+#include "alembert/newton.hpp"
 
 namespace alembert {
 
@@ -26,34 +28,18 @@ public:
     static constexpr int stages = 3;
 
     Gauss(const Ends& ends, double /*tolerance*/)
-        : size_(ends.y.size()), rates_(stages * size_), kept_(rates_), last_(rates_), state_(size_), z_(rates_) {}
+        : size_(ends.y.size()), rates_(stages * size_), kept_(rates_), last_(rates_), state_(size_), z_(rates_), start_(rates_) {}
 
-    int most_evaluations() const { return stages * most_rounds; }
+    int most_evaluations() const { return stages * (most_rounds + most_newton_rounds) + static_cast<int>(size_); }
 
     bool increment(Ends& ends, double h, double* change, double*) {
         forecast(ends, h);
-        double before = HUGE_VAL;
-        bool solved = false;
-        for (int round = 0; round < most_rounds; ++round) {
-            for (std::size_t i = 0; i < stages; ++i) {
-                for (std::size_t k = 0; k < size_; ++k)
-                    state_[k] = ends.y[k] + (z_[i * size_ + k] + ends.rest[k]);
-                ends.evaluate(ends.t + c[i] * h, state_.data(), &rates_[i * size_]);
-            }
-            double largest = 0;
-            for (std::size_t i = 0; i < stages; ++i) {
-                for (std::size_t k = 0; k < size_; ++k) {
-                    double sum = 0;
-                    for (std::size_t j = 0; j < stages; ++j) sum += a[i][j] * rates_[j * size_ + k];
-                    state_[k] = h * sum - z_[i * size_ + k];
-                    z_[i * size_ + k] = h * sum;
-                }
-                largest = std::max(largest, ends.norm(state_.data()));
-            }
-            if (!(largest < HUGE_VAL)) break;
-            solved = largest == 0 || (largest >= before && largest < 1e-12);
-            if (solved) break;
-            before = largest;
+        start_ = z_;
+        bool solved = !by_newton_ && iterate(ends, h);
+        if (!solved) {
+            z_ = start_;
+            solved = solve(ends, h);
+            by_newton_ = by_newton_ || solved;
         }
         for (std::size_t k = 0; k < size_; ++k)
             change[k] = h * (b[0] * (rates_[k] + rates_[2 * size_ + k]) + b[1] * rates_[size_ + k]);
@@ -68,7 +54,8 @@ public:
     }
 
 private:
-    static constexpr int most_rounds = 60;
+    static constexpr int most_rounds = 60, most_newton_rounds = 60;
+    static constexpr double rounding = 1e-12;  ///< changes below this that no longer shrink are rounding
     static constexpr double root = 3.872983346207417;  // √15
     static constexpr std::array<double, 3> c = {0.5 - root / 10, 0.5, 0.5 + root / 10};
     static constexpr std::array<double, 3> b = {5. / 18, 4. / 9, 5. / 18};
@@ -76,6 +63,87 @@ private:
         {{5. / 36, 2. / 9 - root / 15, 5. / 36 - root / 30},
          {5. / 36 + root / 24, 2. / 9, 5. / 36 - root / 24},
          {5. / 36 + root / 30, 2. / 9 + root / 15, 5. / 36}}};
+
+    void evaluate_stages(Ends& ends, double h) {
+        for (std::size_t i = 0; i < stages; ++i) {
+            for (std::size_t k = 0; k < size_; ++k) state_[k] = ends.y[k] + (z_[i * size_ + k] + ends.rest[k]);
+            ends.evaluate(ends.t + c[i] * h, state_.data(), &rates_[i * size_]);
+        }
+    }
+
+    /// h Σ_j a_ij k_j of component k.
+    double wanted(double h, std::size_t i, std::size_t k) const {
+        double sum = 0;
+        for (std::size_t j = 0; j < stages; ++j) sum += a[i][j] * rates_[j * size_ + k];
+        return h * sum;
+    }
+
+    bool iterate(Ends& ends, double h) {
+        double before = HUGE_VAL;
+        for (int round = 0; round < most_rounds; ++round) {
+            evaluate_stages(ends, h);
+            double largest = 0;
+            for (std::size_t i = 0; i < stages; ++i) {
+                for (std::size_t k = 0; k < size_; ++k) {
+                    const double value = wanted(h, i, k);
+                    state_[k] = value - z_[i * size_ + k];
+                    z_[i * size_ + k] = value;
+                }
+                largest = std::max(largest, ends.norm(state_.data()));
+            }
+            if (!(largest < HUGE_VAL)) return false;
+            if (largest == 0 || (largest >= before && largest < rounding)) return true;
+            if (round > 2 && largest > before / 2 && largest > rounding) return false;
+            before = largest;
+        }
+        return false;
+    }
+
+    bool solve(Ends& ends, double h) {
+        const auto n = static_cast<Eigen::Index>(size_);
+        if (!jacobian_) jacobian_.emplace(static_cast<int>(size_));
+        jacobian_->evaluate(ends);
+        Eigen::MatrixXd matrix(stages * n, stages * n);
+        for (int i = 0; i < stages; ++i)
+            for (int j = 0; j < stages; ++j)
+                matrix.block(i * n, j * n, n, n) =
+                    (i == j ? 1. : 0.) * Eigen::MatrixXd::Identity(n, n) -
+                    h * a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * jacobian_->values;
+        if (!matrix.allFinite()) return false;
+        const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
+        Eigen::VectorXd side(stages * n);
+        double before = HUGE_VAL;
+        for (int round = 0; round < most_newton_rounds; ++round) {
+            evaluate_stages(ends, h);
+            for (std::size_t i = 0; i < stages; ++i)
+                for (std::size_t k = 0; k < size_; ++k)
+                    side[static_cast<Eigen::Index>(i * size_ + k)] = wanted(h, i, k) - z_[i * size_ + k];
+            const Eigen::VectorXd delta = lu.solve(side);
+            double largest = 0;
+            for (std::size_t i = 0; i < stages; ++i) largest = std::max(largest, ends.norm(delta.data() + i * size_));
+            if (!(largest < HUGE_VAL)) return false;
+            for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += delta[static_cast<Eigen::Index>(k)];
+            if (largest == 0 || (largest >= before && largest < rounding)) {
+                // h k_i = Σ_j (A⁻¹)_ij Z_j: of a stiff system without the rounding of f.
+                const Eigen::Matrix3d inverse = matrix_of_a().inverse();
+                for (std::size_t k = 0; k < size_; ++k) {
+                    const Eigen::Vector3d z(z_[k], z_[size_ + k], z_[2 * size_ + k]), rates = inverse * z / h;
+                    for (std::size_t i = 0; i < stages; ++i) rates_[i * size_ + k] = rates[static_cast<Eigen::Index>(i)];
+                }
+                return true;
+            }
+            if (round > 20 && largest >= before) return false;
+            before = largest;
+        }
+        return false;
+    }
+
+    static Eigen::Matrix3d matrix_of_a() {
+        Eigen::Matrix3d A;
+        for (int i = 0; i < stages; ++i)
+            for (int j = 0; j < stages; ++j) A(i, j) = a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+        return A;
+    }
 
     /// Z from the rates that the polynomial of the last step has there; from the rate at the start in the first step.
     void forecast(const Ends& ends, double h) {
@@ -99,7 +167,9 @@ private:
     }
 
     std::size_t size_;
-    std::vector<double> rates_, kept_, last_, state_, z_;
+    std::vector<double> rates_, kept_, last_, state_, z_, start_;
+    std::optional<Jacobian> jacobian_;
+    bool by_newton_ = false;
     double increment_of_ = 0;
 };
 

@@ -20,6 +20,7 @@
 #include "alembert/run.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
+#include "alembert/taylor.hpp"
 #include "alembert/verner.hpp"
 
 namespace alembert {
@@ -54,6 +55,9 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("longest_step", options.longest_step, options.longest_step >= 0,
            "a finite number, zero or more, is needed");
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
+    check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
+          fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand side has not got",
+                      name(options.method)));
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
           fmt::format("{} has a fixed step: give it, for example step = {:g}", name(options.method),
@@ -91,7 +95,11 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
                                    {Method::abm, "abm", false, run<Stepper<Abm>>},
                                    {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
-                                   {Method::radau, "radau", false, run<Stepper<Radau>>}};
+                                   {Method::radau, "radau", false, run<Stepper<RadauOfAnyOrder>>},
+                                   {Method::radau5, "radau5", false, run<Stepper<Radau5>>},
+                                   {Method::radau9, "radau9", false, run<Stepper<Radau9>>},
+                                   {Method::radau13, "radau13", false, run<Stepper<Radau13>>},
+                                   {Method::taylor, "taylor", false, run<Stepper<Taylor>>}};
 
 const MethodEntry& entry(Method method) {
     return methods[static_cast<std::size_t>(method)];
@@ -113,11 +121,21 @@ bool has_fixed_step(Method method) {
     return entry(method).fixed_step;
 }
 
+std::vector<Method> all_methods() {
+    std::vector<Method> list;
+    for (const MethodEntry& one : methods) list.push_back(one.method);
+    return list;
+}
+
 std::string method_names() {
     std::string names;
     for (const MethodEntry& one : methods)
         names += fmt::format("{}{}", &one == std::begin(methods) ? "" : &one + 1 == std::end(methods) ? " or " : ", ", one.name);
     return names;
+}
+
+bool needs_series(Method method) {
+    return method == Method::taylor;
 }
 
 bool needs_separable(Method method) {

@@ -16,12 +16,16 @@
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
-////// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
+/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉, 22 at 1e-18 | adaptive, or fixed with `step` | its order | it grows with the order: to hλ = -8 at order 16 |
+/// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
-/// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0 (iteration: hλ below about 2) |
+/// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
 /// | abm | 4 | adaptive | order 4 | -1.28 < hλ < 0 |
 /// | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of 90°, 90°, 86°, 73°, 51° to either side |
-/// | radau | 5, estimate of order 3 | adaptive, stiff | order 3 | everywhere left of 0; damps stiff parts |
+/// | radau5 | 5, estimate of order 3 | adaptive, stiff | order 3 | everywhere left of 0; damps stiff parts |
+/// | radau9 | 9, estimate of order 5 | adaptive, stiff | order 5 | likewise |
+/// | radau13 | 13, estimate of order 7 | adaptive, stiff | order 7 | likewise |
+/// | radau | 5, 9 or 13, as the steps suggest | adaptive, stiff | 3, 5 or 7 | likewise |
 ///
 /// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
 /// as given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step
@@ -44,7 +48,7 @@
 
 namespace alembert {
 
-enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau };
+enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau, radau5, radau9, radau13, taylor };
 
 /// "dop853" and so on.
 std::string_view name(Method method);
@@ -52,6 +56,10 @@ std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
 /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
 bool needs_separable(Method method);
+/// Only for right-hand sides with Rhs::series.
+bool needs_series(Method method);
+/// In the order above.
+std::vector<Method> all_methods();
 /// "euler, rk2, ... or verner98", for messages.
 std::string method_names();
 
@@ -63,7 +71,7 @@ struct Options {
     double start = 0;
     double duration = 0;      ///< from the start; 0 gives one row
     double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;          ///< of methods with a fixed step; first step of the others, 0: found automatically
+    double step = 0;          ///< of methods with a fixed step, and of taylor where given; first step of the others, 0: found automatically
     double longest_step = 0;  ///< adaptive methods; 0: no bound
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample

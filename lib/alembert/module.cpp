@@ -12,31 +12,37 @@
 
 namespace alembert {
 
-Module load(const std::filesystem::path& object) {
+ObjectFile::ObjectFile(const std::filesystem::path& path) {
     // An absolute path: a bare file name would be searched for in the system's library folders.
-    const std::string path = std::filesystem::absolute(object).string();
-    void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const handle = dlopen(std::filesystem::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr)
         throw CompileError(
             fmt::format("cannot load the solver: {}; delete it from the cache, and see that the folder "
                         "allows programs to run",
                         dlerror()));
-    const std::shared_ptr<void> file(handle, [](void* open) { dlclose(open); });
+    handle_ = std::shared_ptr<void>(handle, [](void* open) { dlclose(open); });
+}
 
+void* ObjectFile::find(const char* name) const {
+    return dlsym(handle_.get(), name);
+}
+
+Module load(const std::filesystem::path& object) {
+    const ObjectFile file(object);
     using Entry = const alembert_solver_table* (*)();
-    const auto entry = reinterpret_cast<Entry>(dlsym(handle, "alembert_solver"));
+    const auto entry = reinterpret_cast<Entry>(file.find("alembert_solver"));
     const alembert_solver_table* const table = entry != nullptr ? entry() : nullptr;
-    if (table == nullptr) throw CompileError(path + " is not a solver: it has no alembert_solver()");
+    if (table == nullptr) throw CompileError(object.string() + " is not a solver: it has no alembert_solver()");
     if (table->abi != abi_version)
         throw CompileError(
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
-                        path, table->abi, abi_version));
+                        object.string(), table->abi, abi_version));
     using Further = const alembert_derivative_table* (*)();
     using PackEntry = const alembert_pack_table* (*)();
-    const auto further = reinterpret_cast<Further>(dlsym(handle, "alembert_derivatives"));
-    const auto pack_entry = reinterpret_cast<PackEntry>(dlsym(handle, "alembert_pack"));
-    return Module(std::shared_ptr<const alembert_solver_table>(file, table), further != nullptr ? further() : nullptr,
+    const auto further = reinterpret_cast<Further>(file.find("alembert_derivatives"));
+    const auto pack_entry = reinterpret_cast<PackEntry>(file.find("alembert_pack"));
+    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), further != nullptr ? further() : nullptr,
                   pack_entry != nullptr ? pack_entry() : nullptr);
 }
 

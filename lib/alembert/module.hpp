@@ -17,6 +17,18 @@
 
 namespace alembert {
 
+/// An emitted and compiled file; it leaves the process with the last copy. Opening throws CompileError.
+class ObjectFile {
+public:
+    explicit ObjectFile(const std::filesystem::path& path);
+    /// What the file exports as `name`, an `extern "C"` function; null where it has none.
+    void* find(const char* name) const;
+    const std::shared_ptr<void>& handle() const { return handle_; }
+
+private:
+    std::shared_ptr<void> handle_;
+};
+
 class Module {
 public:
     const alembert_solver_table& table() const { return *table_; }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What implicit methods share: ∂f/∂y by differences, and the iteration x ← x + δ with its forecast of the end.
+/// What implicit methods share: ∂f/∂y, and the iteration x ← x + δ with its forecast of the end.
 ///
 ///     Jacobian jacobian(n);
-///     jacobian.evaluate(ends);                  // n evaluations at the start of the step
+///     jacobian.evaluate(ends);                  // at the start of the step
 ///     Contraction contraction(tolerance);
 ///     for (...) if (contraction.after(ends.norm(delta)) != Contraction::more) break;
 ///
-/// Differences are of √ε max(|y_i|, |h f_i|, 1e-3): half the digits, which costs a simplified Newton method some speed
+/// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation), else by differences, n
+/// evaluations. Differences are of √ε max(|y_i|, |h f_i|, 1e-3): half the digits, which costs a simplified Newton method some speed
 /// of convergence and no accuracy. The forecast is that of Hairer & Wanner, Solving Ordinary Differential Equations II,
 /// 2nd ed. 1996, §IV.8: with Θ the ratio of two changes, Θ/(1−Θ) of the last one is left.
 
@@ -22,6 +23,11 @@ struct Jacobian {
     explicit Jacobian(int size) : values(size, size), moved(static_cast<std::size_t>(size)), rate(moved.size()) {}
 
     void evaluate(Ends& ends) {
+        if (ends.rhs.jacobian != nullptr) {
+            ends.rhs.jacobian(ends.rhs.context.get(), ends.t, ends.y.data(), values.data());
+            ++ends.evaluations;
+            return;
+        }
         constexpr double root_epsilon = 1.4901161193847656e-8;
         moved = ends.y;
         for (std::size_t j = 0; j < moved.size(); ++j) {

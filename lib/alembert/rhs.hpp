@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "alembert/module.hpp"
+#include "alembert/series.hpp"
 
 namespace alembert {
 
@@ -35,6 +36,7 @@ struct Rhs {
     std::shared_ptr<const void> context = {};
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
+    Series series = {};       ///< of the motion, for the method taylor; may be missing
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
@@ -76,7 +78,8 @@ Rhs make_rhs(int dimension, Function function, int extra = 0) {
             .names = {},
             .context = std::make_shared<const Function>(std::move(function)),
             .call = call,
-            .jacobian = nullptr};
+            .jacobian = nullptr,
+            .series = {}};
 }
 
 }  // namespace alembert

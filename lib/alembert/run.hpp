@@ -83,8 +83,15 @@ private:
     void steps() {
         if constexpr (AnyStep::has_fixed_step)
             fixed_steps();
+        else if (takes_fixed_steps())
+            fixed_steps();
         else
             adaptive_steps();
+    }
+
+    bool takes_fixed_steps() const {
+        if constexpr (requires { step_.first_length(); }) return options_.step > 0;
+        return false;
     }
 
     void fixed_steps() {
@@ -101,7 +108,9 @@ private:
         const double longest = options_.longest_step > 0 ? options_.longest_step : options_.duration;
         StepSize control(AnyStep::estimate_order);
         double h = options_.step;
-        if (h == 0) {
+        if constexpr (requires { step_.first_length(); }) {
+            h = step_.first_length();
+        } else if (h == 0) {
             h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), options_.tolerance,
                               AnyStep::estimate_order, longest);
             ++further_evaluations_;
@@ -121,7 +130,7 @@ private:
                 accept();
             else
                 ++result_.statistics.rejected;
-            h = next_length(control, good, misfit / options_.tolerance);
+            if (step_.time() < end_) h = next_length(control, good, misfit / options_.tolerance);
         }
     }
 

@@ -15,7 +15,8 @@
 ///
 /// `increment` writes y(t + h) − y(t) without what is lost in y + change, and false if its equations were not solved.
 /// A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in Ends::knows_end_rate.
-/// Adaptive formulas write the error of each component to Ends::error and have `estimate_order`; those with a memory
+/// Adaptive formulas write the error of each component to Ends::error and have `estimate_order`; those
+/// that find the rate at the end by a way of their own, after projection, have `evaluate_end(ends)`; those with a memory
 /// have `finished(ends)` and `advance(ends)`, those with a polynomial `interpolate(ends, theta, out)`.
 ///
 /// The state is the sum of two doubles as in step.hpp, and errors are measured as there.
@@ -141,7 +142,10 @@ public:
     }
 
     bool finish() {
-        if (!ends_.knows_end_rate) ends_.evaluate(ends_.end, ends_.next.data(), ends_.end_rate.data());
+        if constexpr (requires { formula_.evaluate_end(ends_); })
+            formula_.evaluate_end(ends_);
+        else if (!ends_.knows_end_rate)
+            ends_.evaluate(ends_.end, ends_.next.data(), ends_.end_rate.data());
         if constexpr (requires { formula_.finished(ends_); }) formula_.finished(ends_);
         return solved_ && is_finite(ends_.end_rate) && is_finite(ends_.next);
     }
@@ -170,6 +174,12 @@ public:
         requires requires(Formula f, Ends e) { f.next_length(e, accepted, ratio); }
     {
         return formula_.next_length(ends_, accepted, ratio);
+    }
+
+    double first_length()
+        requires requires(Formula f, Ends e) { f.first_length(e); }
+    {
+        return formula_.first_length(ends_);
     }
 
     void interpolate(double theta, double* out) {

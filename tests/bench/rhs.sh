@@ -59,7 +59,10 @@ for n in 2 4 8 16 32; do
     python3 -B "$root/scenes/benchmark/chain.py" "$n" --torques >"$folder/pend$n.toml"
     add "$folder/pend$n.toml"
 done
-for arm in arm7 arm7g; do add "$root/scenes/benchmark/trees/$arm.toml"; done
+for arm in arm7 arm7g; do
+    python3 -B "$root/scenes/benchmark/torques.py" "$root/scenes/benchmark/trees/$arm.toml" >"$folder/$arm.toml"
+    add "$folder/$arm.toml"
+done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"
 [ -n "$file" ] || file=$folder/rows.json

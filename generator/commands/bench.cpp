@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+
+#include "alembert/compile.hpp"
+#include "analysis/assemble.hpp"
+#include "analysis/diagnose.hpp"
+#include "analysis/reference.hpp"
+#include "commands/measure.hpp"
+#include "commands/peers.hpp"
+#include "commands/progress.hpp"
+#include "commands/separable.hpp"
+#include "emit/emit.hpp"
+#include "emit/taylor.hpp"
+#include "report/work_precision.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double most_seconds = 2;    // of one run; a method goes no further when a run has taken that
+constexpr int first_decade = 3, last_decade = 14;
+constexpr double floor_of_doubles = 1e-15;
+
+/// The end in double precision by two methods, where there is no better one; the digits in which they agree.
+struct Judge {
+    std::vector<double> final;  ///< coordinates, then rates
+    int digits = 0;
+    std::string by;
+};
+
+std::optional<Judge> by_doubles(Workbench& bench, const Options& options) {
+    Options strict = options;
+    strict.tolerance = 1e-14;
+    strict.method = Method::verner98;
+    const auto one = bench.end_of(strict);
+    strict.method = Method::dop853;
+    const auto other = bench.end_of(strict);
+    if (!one || !other) return std::nullopt;
+    const double apart = std::max(error_against(*one, *other), 1e-16);
+    return Judge{*one, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))), "verner98 and dop853 at tolerance 1e-14, doubles: no better reference in the time given"};
+}
+
+/// Runs of one method, from loose to strict, as long as it pays.
+std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess) {
+    std::vector<Measured> runs;
+    const long budget = options.budget;
+    options.budget = std::min(budget, static_cast<long>(most_seconds / each) + 1000);
+    double best = HUGE_VAL;
+    int worse = 0;
+    for (int k = 0; k < 24; ++k) {
+        if (has_fixed_step(options.method)) {
+            options.step = options.duration / (static_cast<double>(guess) * std::ldexp(1.0, k));
+        } else {
+            if (k > last_decade - first_decade) break;
+            options.tolerance = std::pow(10.0, -first_decade - k);
+        }
+        runs.push_back(bench.measure(options));
+        const Measured& last = runs.back();
+        if (!has_fixed_step(options.method)) {
+            if (!last.failure.empty() || last.seconds > most_seconds / 2) break;
+            continue;
+        }
+        if (last.failure.find("not enough") != std::string::npos || last.seconds > most_seconds / 4) break;
+        if (!last.failure.empty() || !last.error) continue;
+        if (*last.error < 1e-13) break;
+        worse = *last.error > best / 1.5 && *last.error < 1e-6 ? worse + 1 : 0;  // rounding has the word
+        if (worse > 1) break;
+        best = std::min(best, *last.error);
+    }
+    return runs;
+}
+
+Json as_json(const Measured& run) {
+    const auto optional = [](const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); };
+    Json one{{"who", run.who}, {"method", run.method}, {"tolerance", optional(run.tolerance)}};
+    if (run.step) one["step"] = *run.step;
+    one["error"] = optional(run.error);
+    one["seconds"] = run.seconds;
+    one["evaluations"] = run.evaluations;
+    one["steps"] = run.steps;
+    one["energy_drift"] = run.work ? Json(nullptr) : optional(run.energy_drift);
+    if (run.work) one["work_balance"] = optional(run.energy_drift);
+    one["constraint_error"] = optional(run.constraint_error);
+    one["momentum_error"] = optional(run.momentum_error);
+    if (!run.failure.empty()) one["failure"] = run.failure;
+    return one;
+}
+
+std::string csv(const std::vector<Measured>& runs) {
+    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
+    std::string text = "who,method,tolerance,step,error,seconds,evaluations,steps,energy_drift,constraint_error,momentum_error\n";
+    for (const Measured& run : runs)
+        text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{}\n", run.who, run.method, cell(run.tolerance), cell(run.step), cell(run.error),
+                            run.seconds, run.evaluations, run.steps, cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
+    return text;
+}
+
+std::vector<Curve> curves_of(const std::vector<Measured>& runs) {
+    std::vector<Curve> list;
+    for (const Measured& run : runs) {
+        if (!run.error) continue;
+        const bool peer = run.who != "alembert";
+        const std::string name = peer ? run.who + " " + run.method : run.method;
+        if (list.empty() || list.back().name != name) list.push_back({.name = name, .dashed = peer, .points = {}});
+        list.back().points.emplace_back(std::max(*run.error, floor_of_doubles), run.seconds);
+    }
+    return list;
+}
+
+/// The fastest run of each party at each error.
+void print_best(const std::vector<Measured>& runs) {
+    fmt::print("\nfastest to an error of at most\n");
+    for (int decade = 3; decade <= 13; ++decade) {
+        std::map<bool, const Measured*> best;
+        for (const Measured& run : runs) {
+            if (!run.error || *run.error > std::pow(10.0, -decade)) continue;
+            const Measured*& place = best[run.who == "alembert"];
+            if (place == nullptr || run.seconds < place->seconds) place = &run;
+        }
+        if (best.empty()) continue;
+        std::string line = fmt::format("  1e-{:<3}", decade);
+        for (const bool ours : {true, false})
+            if (best[ours] != nullptr)
+                line += fmt::format("  {:>24} {:>11.1f} us", ours ? best[ours]->method : best[ours]->who + " " + best[ours]->method, 1e6 * best[ours]->seconds);
+        if (best[true] != nullptr && best[false] != nullptr) line += fmt::format("   ratio {:.2f}", best[true]->seconds / best[false]->seconds);
+        fmt::print("{}\n", line);
+    }
+}
+
+void print(const std::vector<Measured>& runs) {
+    fmt::print("{:<22}{:>11}{:>11}{:>13}{:>12}{:>9}{:>11}{:>11}{:>11}\n", "method", "tolerance", "error", "time us", "evaluations", "steps", "energy",
+               "constraint", "momentum");
+    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.1e}", *value) : std::string("-"); };
+    for (const Measured& run : runs) {
+        const std::string name = run.who == "alembert" ? run.method : run.who + " " + run.method;
+        const std::string given = run.step ? fmt::format("h {:.1e}", *run.step) : cell(run.tolerance);
+        fmt::print("{:<22}{:>11}{:>11}{:>13.1f}{:>12}{:>9}{:>11}{:>11}{:>11}\n", name, given, run.failure.empty() ? cell(run.error) : "failed", 1e6 * run.seconds,
+                   run.evaluations, run.steps, cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
+    }
+}
+
+Json reference_json(const std::optional<Reference>& exact, const Judge& judge, const Program& program, double end) {
+    const std::size_t n = program.coordinates.size();
+    Json result;
+    result["final"] = {{"time", end}, {"coordinates", by_coordinate(program, judge.final.data())}, {"rates", by_coordinate(program, judge.final.data() + n)}};
+    result["digits"] = judge.digits;
+    result["by"] = judge.by;
+    if (exact) {
+        for (std::size_t i = 0; i < n; ++i) {
+            result["text"]["coordinates"][program.coordinates[i].name] = text(exact->coordinates[i], 30);
+            result["text"]["rates"][program.coordinates[i].name] = text(exact->rates[i], 30);
+        }
+        for (std::size_t i = 0; i < exact->speeds.size(); ++i) result["text"]["speeds"][program.speeds[i].name] = text(exact->speeds[i], 30);
+    }
+    return result;
+}
+
+/// Null where the motion has no power series, or its method is not asked for.
+SeriesModule series_of(const Program& program, bool with_work, const Request& request) {
+    if (!request.method.empty() && request.method != name(Method::taylor)) return nullptr;
+    try {
+        return load_series(
+            compile(emit_taylor(program, with_work).text, program.name + "_taylor", {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}})
+                .object);
+    } catch (const ModelError&) {
+        return nullptr;
+    }
+}
+
+}  // namespace
+
+int bench(const Request& request) {
+    const Derived d = derived(request);
+    if (!d.mechanism.unilateral.empty())
+        throw ModelError("bench measures smooth motions; scenes with unilateral constraints are not supported yet");
+    const Energy energy = energy_of(d.mechanism);
+    const Program program = lowered(d, request).program;
+    Start start = start_of(d.mechanism);
+    assemble(start, d.mechanism, lower_constraints(d.mechanism), {});
+    const State<double> first = state_of(start, d.mechanism, d.equations);
+    if (program.singular || massless_combination(program, first))
+        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
+                                           failure_at(d, first).value_or("the mass matrix is singular")), start.t, start.q);
+    const double duration = request.duration >= 0 ? request.duration : start.duration;
+    const Source source = emit(program);
+    const Compiled compiled = compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}});
+    const Module module = load(compiled.object);
+    const SeriesModule series = series_of(program, false, request);
+    const SeriesModule series_with_work = series && !energy.conserved ? series_of(program, true, request) : nullptr;
+    std::vector<double> initial = start.q;
+    initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
+    Workbench workbench({.derived = d, .module = module, .series = series, .series_with_work = series_with_work, .parameters = start.parameters, .initial = initial, .conserved = energy.conserved});
+
+    Progress progress("measuring");
+    const Options options{.start = start.t, .duration = duration, .budget = request.budget};
+    const std::optional<Reference> exact =
+        reference(program, quad_start(d.mechanism, d.equations, start, request.duration >= 0 ? std::optional(duration) : std::nullopt),
+                  {.seconds = request.reference_seconds});
+    std::optional<Judge> judge;
+    if (exact) {
+        judge = Judge{{}, exact->digits, exact->by};
+        for (const auto* list : {&exact->coordinates, &exact->rates})
+            for (const Quad& x : *list) judge->final.push_back(static_cast<double>(x));
+    } else {
+        judge = by_doubles(workbench, options);
+    }
+    if (!judge) throw IntegrationError("no method reaches the end: there is nothing to measure against", start.t, start.q);
+    workbench.set_reference(judge->final);
+
+    // One right-hand side, and how many steps a loose run takes: where fixed steps begin.
+    Options loose = options;
+    loose.tolerance = 1e-4;
+    const Measured trial = workbench.measure(loose);
+    const double each = std::max(trial.seconds / static_cast<double>(std::max(trial.evaluations, 1L)), 1e-9);
+    const long guess = std::max(16L, trial.steps);
+    const bool separable = !inseparable(d);
+
+    std::vector<Measured> runs;
+    const std::vector<Method> methods = all_methods();
+    for (std::size_t k = 0; k < methods.size(); ++k) {
+        progress.at(static_cast<double>(k) / static_cast<double>(methods.size()));
+        if (needs_separable(methods[k]) && !separable) continue;
+        if (needs_series(methods[k]) && !series) continue;
+        if (!request.method.empty() && name(methods[k]) != request.method) continue;
+        Options these = options;
+        these.method = methods[k];
+        for (Measured& run : ladder(workbench, these, each, guess)) runs.push_back(std::move(run));
+    }
+    Peers peers;
+    if (request.peers) {
+        std::vector<double> tolerances;
+        for (int decade = first_decade; decade <= last_decade; ++decade) tolerances.push_back(std::pow(10.0, -decade));
+        peers = measure_peers({.object = compiled.object, .parameters = start.parameters, .initial = initial, .start = start.t, .duration = duration,
+                               .tolerances = tolerances, .most_seconds = most_seconds},
+                              [&](const std::vector<double>& state) {
+                                  return error_against(judge->final, coordinates_and_rates(workbench.rhs(), start.t + duration, state.data(), start.q.size()));
+                              });
+        if (!peers.missing.empty()) std::cerr << "no peers: " << peers.missing << "\n";
+        runs.insert(runs.end(), peers.runs.begin(), peers.runs.end());
+    }
+
+    if (!request.csv.empty()) write_file(request.csv, csv(runs));
+    if (!request.svg.empty())
+        write_file(request.svg, work_precision(curves_of(runs), fmt::format("{} until t = {:g}", d.mechanism.title.empty() ? d.mechanism.name : d.mechanism.title, start.t + duration)));
+    if (request.json) {
+        Json result;
+        result["scene"] = d.mechanism.name;
+        result["formulation"] = source.formulation;
+        result["operations"] = source.operations.total();
+        result["reference"] = reference_json(exact, *judge, program, start.t + duration);
+        result["runs"] = Json::array();
+        for (const Measured& run : runs) result["runs"].push_back(as_json(run));
+        std::cout << result.dump(2) << "\n";
+        return 0;
+    }
+    fmt::print("{}: {} operations a right-hand side; to t = {:g}\n", source.formulation, source.operations.total(), start.t + duration);
+    fmt::print("reference: {} digits, by {}\n\n", judge->digits, judge->by);
+    print(runs);
+    print_best(runs);
+    return 0;
+}
+
+}  // namespace alembert

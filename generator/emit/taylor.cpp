@@ -1,0 +1,1012 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/taylor.hpp"
+
+#include <cln/float.h>
+#include <cln/integer.h>
+#include <cln/integer_io.h>
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <kainjow/mustache.hpp>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "alembert/error.hpp"
+#include "alembert/series.hpp"
+#include "emit/templates.hpp"
+#include "emit/writer.hpp"
+#include "lower/recurrence.hpp"
+#include "lower/solve.hpp"
+
+namespace alembert {
+
+namespace {
+
+namespace mustache = kainjow::mustache;
+using Kind = SeriesNode::Kind;
+using Lines = std::vector<std::string>;
+
+/// Exact in every Real of up to 34 digits: a double, a quotient of two, or a sum of three.
+std::string exact_text(const Rational& value) {
+    const auto is_double = [](const Rational& r) { return cln::zerop(r) || cln::equal(cln::rational(cln::cl_DF(cln::double_approx(r))), r); };
+    const auto text = [](const Rational& r) { return fmt::format("Real({})", shortest(cln::double_approx(r))); };
+    if (is_double(value)) return text(value);
+    const Rational above = cln::numerator(value), below = cln::denominator(value);
+    if (is_double(above) && is_double(below)) return fmt::format("({} / {})", text(above), text(below));
+    std::string sum;
+    Rational rest = value;
+    for (int part = 0; part < 3 && !cln::zerop(rest); ++part) {
+        const Rational piece = cln::rational(cln::cl_DF(cln::double_approx(rest)));
+        sum += (part > 0 ? " + " : "") + text(piece);
+        rest = rest - piece;
+    }
+    return "(" + sum + ")";
+}
+
+constexpr std::size_t least_lanes = 4;   // of a pack
+constexpr std::size_t most_loaded = 20;  // arrays in one loop; there are 32 registers
+
+bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
+
+class TaylorEmitter {
+public:
+    TaylorEmitter(const Program& program, bool with_work)
+        : r_(recurrences(program, with_work)),
+          p_(r_.program),
+          n_(static_cast<int>(p_.coordinates.size())),
+          s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())),
+          with_work_(with_work) {
+        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "add", "loaded", "wide", "stride", "block", "to", "from", "lanes", "first_block", "last_block", "columns", "columns_count", "l", "put", "convolved", "squared", "pad", "room",
+                                "series", "quad", "clear", "solve", "terms"})
+            names_.fresh(own);
+        name_everything();
+        for (int id = 0; id < size(); ++id) products_.push_back(products_of(id));
+        find_packs();
+        find_arrays();
+    }
+
+    Source emit() {
+        mustache::data file;
+        const auto set = [&](const char* key, const Lines& lines) {
+            mustache::data list{mustache::data::type::list};
+            for (const std::string& line : lines) list << line;
+            file.set(key, list);
+        };
+        const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
+        set("first", order_zero());
+        set("given", given());
+        set("gathering", gathering());
+        set("chain", chain());
+        set("spreading", spreading());
+        set("middles", middles());
+        set("storing", storing());
+        set("last", last());
+        set("arrays", arrays());
+        std::string rates;
+        for (int i = 0; i < width(); ++i) rates += first(rate_of(i)) + ", ";
+        file.set("rates_at_zero", rates);
+        set("prepare", prepare());
+        file.set("has_constants", !constants_.empty());
+        file.set("scene", ascii_identifier(p_.name));
+        file.set("formulation", p_.formulation);
+        file.set("version", ALEMBERT_VERSION);
+        file.set("products", fmt::format("{}", r_.products()));
+        file.set("trigonometric", has_trigonometry());
+        number("abi", series_abi_version);
+        number("n", static_cast<std::size_t>(n_));
+        number("s", static_cast<std::size_t>(s_));
+        number("extra", with_work_ ? 1 : 0);
+        number("width", static_cast<std::size_t>(width()));
+        number("p", p_.parameters.size());
+        number("most_order", static_cast<std::size_t>(most_order));
+        number("most_order_quad", static_cast<std::size_t>(most_order_quad));
+        number("k", constants_.size());
+        number("arrays_count", static_cast<std::size_t>(arrays_count_));
+        number("sums_count", static_cast<std::size_t>(sums_count_));
+        number("columns_count", static_cast<std::size_t>(columns_count_));
+        number("single_count", static_cast<std::size_t>(single_count_));
+        std::string values;
+        for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
+        file.set("parameter_values", values);
+        mustache::mustache shape{std::string(template_taylor)};
+        std::string elementary = mustache::mustache{std::string(template_elementary)}.render(file);
+        elementary.pop_back();
+        file.set("elementary", elementary);
+        return {.file = ascii_identifier(p_.name) + "_taylor.cpp",
+                .text = shape.render(file),
+                .operations = p_.count(p_.right_hand_side()),
+                .formulation = p_.formulation};
+    }
+
+private:
+    struct Named {
+        std::string now, first;            ///< the coefficient of this order; of order 0
+        std::string series, rates, sums;   ///< arrays: coefficients, j times these, sums of products; empty: not needed
+        std::string rate;                  ///< k times the coefficient of this order
+        std::string inverse;               ///< of the first coefficient
+    };
+    struct Product {
+        Weight weight;
+        int a, b;
+        bool a_rate = false, b_rate = false;
+    };
+
+    struct Piece {
+        bool negative;
+        std::string text;
+    };
+
+    /// Nodes of the same shape whose arguments stand in lanes of the same order: one vector operation for all of them.
+    struct Pack {
+        std::vector<int> nodes;
+        std::string column = {}, rates = {}, inverse = {};  ///< arrays [order][padded]; rates and inverse where needed
+        bool by_lanes = false;                      ///< each lane computed, or copied from elsewhere, by itself
+        bool is_copy = false;
+        std::map<int, int> sources = {};            ///< argument of the first lane → pack that has all lanes' arguments
+        std::vector<std::string> term_sums = {};    ///< one for each of the products
+        std::vector<std::vector<Weight>> weights = {};  ///< of linear, bilinear terms, then products; empty: all the same
+        std::vector<std::string> weight_arrays = {};    ///< where they differ
+        std::size_t padded() const { return (nodes.size() + 7) / 8 * 8; }
+    };
+    struct Place {
+        int pack = -1, lane = 0;
+    };
+
+    int width() const { return n_ + s_ + (with_work_ ? 1 : 0); }
+    const SeriesNode& node(int id) const { return r_.nodes[id]; }
+    int size() const { return static_cast<int>(r_.nodes.size()); }
+
+    bool has_trigonometry() const {
+        if (std::any_of(r_.nodes.begin(), r_.nodes.end(), [](const SeriesNode& x) { return is_pair(x.kind); })) return true;
+        for (int id = 0; id < p_.size(); ++id)
+            if (p_[id].op == Op::sin || p_[id].op == Op::cos) return true;
+        return false;
+    }
+
+    void name_everything() {
+        named_.resize(r_.nodes.size());
+        std::vector<std::string> speeds;
+        for (const Quantity& q : p_.coordinates) names_.fresh(q.name);
+        for (const Quantity& par : p_.parameters) names_.fresh(par.name);
+        for (int id = 0; id < size(); ++id) {
+            const SeriesNode& x = node(id);
+            const auto i = static_cast<std::size_t>(x.index);
+            Named& name = named_[id];
+            const auto speed = [&] {
+                if (p_.speeds.empty()) return ascii_identifier(p_.coordinates[i].name) + "_dot";
+                const std::string& u = p_.speeds[i].name;
+                return ascii_identifier(u.ends_with('\'') ? u.substr(0, u.size() - 1) + "_dot" : u);
+            };
+            switch (x.kind) {
+                case Kind::coordinate: name.now = names_.fresh(p_.coordinates[i].name + "_k"); break;
+                case Kind::speed: name.now = names_.fresh(speed() + "_k"); break;
+                case Kind::time: name.now = names_.fresh("t_k"); break;
+                case Kind::work: name.now = names_.fresh("work_k"); break;
+                case Kind::residual: name.now = names_.numbered("row"); break;
+                case Kind::unknown: name.now = x.index < r_.preferred ? names_.numbered("a") : names_.numbered("lambda"); break;
+                case Kind::sine: name.now = names_.numbered("sin"); break;
+                case Kind::cosine: name.now = names_.numbered("cos"); break;
+                default: name.now = names_.numbered("z");
+            }
+            name.first = names_.fresh(name.now + "_0");
+        }
+    }
+
+    std::vector<Product> products_of(int id) const {
+        const SeriesNode& x = node(id);
+        std::vector<Product> list;
+        for (const auto* terms : {&x.bilinear, &x.implied})
+            for (const auto& [weight, a, b] : *terms) list.push_back({weight, a, b});
+        const Weight plus{1, -1}, minus{-1, -1};
+        switch (x.kind) {
+            case Kind::quotient: list.push_back({minus, x.w, id}); break;
+            case Kind::root: list.push_back({minus, id, id}); break;
+            case Kind::power:
+                list.push_back({x.exponent, x.a, id, true, false});
+                list.push_back({minus, id, x.a, true, false});
+                break;
+            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area:
+                list.push_back({plus, x.a, x.w, true, false});
+                break;
+            case Kind::cosine: list.push_back({minus, x.a, x.w, true, false}); break;
+            case Kind::exponential: list.push_back({plus, x.a, id, true, false}); break;
+            case Kind::ratio: list.push_back({minus, id, x.w, true, false}); break;
+            case Kind::turn:
+                list.push_back({plus, x.b, x.a, false, true});
+                list.push_back({minus, x.a, x.b, false, true});
+                list.push_back({minus, id, x.w, true, false});
+                break;
+            default: break;
+        }
+        return list;
+    }
+
+    bool is_packed(int id) const { return place_[id].pack >= 0; }
+
+    void find_arrays() {
+        for (int id = 0; id < size(); ++id) {
+            if (products_[id].empty() || is_packed(id)) continue;
+            named_[id].sums = names_.fresh(named_[id].now + "_sums");
+            for (const Product& product : products_[id]) {
+                need(product.a, product.a_rate);
+                need(product.b, product.b_rate);
+            }
+        }
+    }
+
+    void need(int id, bool rate) {
+        Named& name = named_[id];
+        std::string& array = rate ? name.rates : name.series;
+        if (array.empty()) array = names_.fresh(name.now + (rate ? "_rates" : "_series"));
+        if (rate && name.rate.empty()) name.rate = names_.fresh(name.now + "_times");
+    }
+
+    // Packs.
+
+    /// What must be equal for two nodes to be lanes of one pack.
+    std::string shape(int id) {
+        const SeriesNode& x = node(id);
+        std::string text = fmt::format("{} {} {}", static_cast<int>(x.kind), static_cast<int>(x.op), x.linear.size());
+        for (const auto& [weight, a, b] : x.bilinear) text += a == b ? " s" : " p";
+        if (x.kind == Kind::power) text += joined({piece(x.exponent, "")});
+        return text;
+    }
+
+    /// Arguments by position: linear ones, bilinear ones, a, b, w.
+    std::vector<int> positions(int id) const {
+        const SeriesNode& x = node(id);
+        std::vector<int> list;
+        for (const auto& [weight, a] : x.linear) list.push_back(a);
+        for (const auto& [weight, a, b] : x.bilinear) list.insert(list.end(), {a, b});
+        for (const int arg : {x.a, x.b, x.w}) if (arg >= 0) list.push_back(arg);
+        return list;
+    }
+
+    bool can_be_packed(int id) const {
+        switch (node(id).kind) {
+            case Kind::time: case Kind::coordinate: case Kind::speed: case Kind::work: case Kind::unknown: case Kind::residual: return false;
+            default: return true;
+        }
+    }
+
+    int level(int id) const { return levels_[id]; }
+
+    void find_levels() {
+        int last_row = 0;
+        for (int id = 0; id < size(); ++id) {
+            int highest = node(id).kind == Kind::unknown ? last_row : 0;
+            for (const int arg : arguments(id)) highest = std::max(highest, levels_[arg]);
+            levels_.push_back(highest + 1);
+            if (node(id).kind == Kind::residual) last_row = std::max(last_row, highest + 1);
+        }
+    }
+
+    void find_packs() {
+        place_.resize(r_.nodes.size());
+        find_levels();
+        std::map<std::pair<int, std::string>, std::vector<int>> groups;
+        for (int id = 0; id < size(); ++id)
+            if (can_be_packed(id)) groups[{-level(id), shape(id)}].push_back(id);
+        for (const auto& [key, group] : groups) {
+            // From the last level to the first, so that users decide the order of lanes; nobody shares an argument in a pack.
+            std::vector<std::vector<int>> parts;
+            std::vector<std::set<std::pair<std::size_t, int>>> taken;
+            for (const int id : group) {
+                if (is_packed(id)) continue;
+                const std::vector<int> mine = positions(id);
+                std::size_t part = 0;
+                const auto clashes = [&] {
+                    for (std::size_t k = 0; k < mine.size(); ++k)
+                        if (can_be_packed(mine[k]) && taken[part].contains({k, mine[k]})) return true;
+                    return false;
+                };
+                while (part < parts.size() && clashes()) ++part;
+                if (part == parts.size()) parts.emplace_back(), taken.emplace_back();
+                parts[part].push_back(id);
+                for (std::size_t k = 0; k < mine.size(); ++k) taken[part].insert({k, mine[k]});
+            }
+            for (const std::vector<int>& part : parts) {
+                const bool is_linear = products_[part[0]].empty();  // worth a pack only as an argument of one
+                if (part.size() >= least_lanes && !is_linear) add_pack(part);
+            }
+            const int here = -key.first;
+            for (std::size_t p = 0; p < packs_.size(); ++p)
+                if (!packs_[p].is_copy && level(packs_[p].nodes[0]) == here && packs_[p].column.empty()) arrange(static_cast<int>(p));
+        }
+        for (std::size_t p = 0; p < packs_.size(); ++p)
+            if (packs_[p].column.empty()) arrange(static_cast<int>(p));
+        for (Pack& pack : packs_)
+            if (!pack.is_copy) find_weights(pack);
+    }
+
+    int add_pack(const std::vector<int>& nodes) {
+        const int number = static_cast<int>(packs_.size());
+        packs_.push_back({.nodes = nodes});
+        for (std::size_t lane = 0; lane < nodes.size(); ++lane) place_[nodes[lane]] = {number, static_cast<int>(lane)};
+        return number;
+    }
+
+    /// Names, and where each argument's lanes come from.
+    void arrange(int number) {
+        packs_[number].column = names_.numbered("p");
+        const std::vector<int> nodes = packs_[number].nodes;
+        std::vector<std::vector<int>> lists;  // by position, the lanes' arguments
+        for (const int id : nodes) {
+            const std::vector<int> list = positions(id);
+            lists.resize(list.size());
+            for (std::size_t k = 0; k < list.size(); ++k) lists[k].push_back(list[k]);
+        }
+        const bool is_linear = products_[nodes[0]].empty();
+        std::map<int, int> sources;
+        for (const std::vector<int>& list : lists) {
+            const int source = pack_of(list, is_linear);
+            if (source < 0) {
+                packs_[number].by_lanes = true;
+                return;
+            }
+            const auto [place, is_new] = sources.try_emplace(list[0], source);
+            if (!is_new && place->second != source) throw std::logic_error("an argument with two orders of lanes");
+        }
+        packs_[number].sources = sources;
+    }
+
+    /// A pack with just these lanes: one that exists, a new one, or copies. −1: linear sums are better computed lane by lane.
+    int pack_of(const std::vector<int>& list, bool is_linear) {
+        for (std::size_t p = 0; p < packs_.size(); ++p)
+            if (packs_[p].nodes == list) return static_cast<int>(p);
+        const std::set<int> distinct(list.begin(), list.end());
+        const auto same = [&](int id) { return can_be_packed(id) && !is_packed(id) && level(id) == level(list[0]) && shape(id) == shape(list[0]); };
+        if (!is_linear && distinct.size() == list.size() && std::all_of(list.begin(), list.end(), same)) return add_pack(list);
+        if (is_linear) return -1;
+        packs_.push_back({.nodes = list, .column = names_.numbered("p"), .by_lanes = true, .is_copy = true});
+        return static_cast<int>(packs_.size()) - 1;
+    }
+
+    void find_weights(Pack& pack) {
+        const auto same = [](const Weight& a, const Weight& b) { return a.constant == b.constant && cln::equal(a.number, b.number); };
+        const auto list = [&](int id) {
+            std::vector<Weight> all;
+            for (const auto& [weight, a] : node(id).linear) all.push_back(weight);
+            for (const auto& [weight, a, b] : node(id).bilinear) all.push_back(weight);
+            for (const Product& product : products_[id]) all.push_back(product.weight);
+            return all;
+        };
+        const std::vector<Weight> first = list(pack.nodes[0]);
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            std::vector<Weight> lanes;
+            for (const int id : pack.nodes) lanes.push_back(list(id)[k]);
+            const bool differ = std::any_of(lanes.begin(), lanes.end(), [&](const Weight& w) { return !same(w, lanes[0]); });
+            pack.weight_arrays.push_back(differ && !pack.by_lanes ? names_.fresh(pack.column + "_w" + std::to_string(k)) : "");
+            pack.weights.push_back(differ ? lanes : std::vector<Weight>());
+        }
+        for (std::size_t t = 0; t < products_[pack.nodes[0]].size(); ++t) pack.term_sums.push_back(names_.fresh(fmt::format("{}_s{}", pack.column, t)));
+        for (const Product& product : products_[pack.nodes[0]])
+            for (const auto& [arg, rate] : {std::pair(product.a, product.a_rate), std::pair(product.b, product.b_rate)}) {
+                Pack& source = packs_[source_of(pack, arg)];
+                if (rate && source.rates.empty()) source.rates = names_.fresh(source.column + "_rates");
+            }
+    }
+
+    int source_of(const Pack& pack, int arg) const {
+        if (arg == pack.nodes[0]) return place_[arg].pack;
+        return pack.sources.at(arg);
+    }
+
+    // Text of weights and sums.
+
+    std::string constant(int id) {
+        const Node& x = p_[id];
+        if (x.op == Op::variable) return fmt::format("par[{}]", x.variable.index);
+        if (x.is_number()) return exact_text(x.number);
+        auto place = std::find(constants_.begin(), constants_.end(), id);
+        if (place == constants_.end()) place = constants_.insert(constants_.end(), id);
+        return fmt::format("par[{}]", p_.parameters.size() + static_cast<std::size_t>(place - constants_.begin()));
+    }
+
+    Piece piece(const Weight& weight, const std::string& factor) {
+        const Rational size = cln::abs(weight.number);
+        std::string text;
+        if (!cln::equal(size, 1)) text = exact_text(size);
+        if (weight.constant >= 0) text += (text.empty() ? "" : " * ") + constant(weight.constant);
+        if (!factor.empty()) text += (text.empty() ? "" : " * ") + factor;
+        return {cln::minusp(weight.number), text.empty() ? "Real(1)" : text};
+    }
+
+    static std::string joined(std::vector<Piece> pieces) {
+        if (pieces.empty()) return "Real(0)";
+        const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& x) { return !x.negative; });
+        if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);
+        std::string result = (pieces[0].negative ? "-" : "") + pieces[0].text;
+        for (std::size_t k = 1; k < pieces.size(); ++k) result += (pieces[k].negative ? " - " : " + ") + pieces[k].text;
+        return result;
+    }
+
+    static std::string bracketed(const std::string& text) {
+        return text.find(' ') == std::string::npos ? text : "(" + text + ")";
+    }
+
+    std::string now(int id) const {
+        if (!is_packed(id)) return named_[id].now;
+        const Pack& pack = packs_[place_[id].pack];
+        return fmt::format("{}[{} * k + {}]", pack.column, pack.padded(), place_[id].lane);
+    }
+    std::string first(int id) const {
+        return is_packed(id) ? fmt::format("{}[{}]", packs_[place_[id].pack].column, place_[id].lane) : named_[id].first;
+    }
+
+    /// How the text of a value names what it is made of: of one node, or of all lanes from l on.
+    struct View {
+        std::function<std::string(int)> now, first, inverse;
+        std::function<Piece(std::size_t term, const Weight&, const std::string&)> piece;
+        std::string sums;
+    };
+
+    View view(int id) {
+        return {.now = [this](int arg) { return now(arg); },
+                .first = [this](int arg) { return first(arg); },
+                .inverse = [this](int arg) { return named_[arg].inverse; },
+                .piece = [this](std::size_t, const Weight& weight, const std::string& factor) { return piece(weight, factor); },
+                .sums = named_[id].sums.empty() ? "" : named_[id].sums + "[k]"};
+    }
+
+    View view(const Pack& pack) {
+        const auto at = [this, &pack](int arg, const char* order) {
+            const Pack& source = packs_[source_of(pack, arg)];
+            return fmt::format("loaded({} + {}l)", source.column, *order == 'k' ? fmt::format("{} * k + ", source.padded()) : "");
+        };
+        const auto weighed = [this, &pack](std::size_t term, const Weight& weight, const std::string& factor) -> Piece {
+            if (pack.weight_arrays[term].empty()) return piece(weight, factor);
+            return {false, fmt::format("loaded({} + l) * {}", pack.weight_arrays[term], factor)};
+        };
+        const SeriesNode& x = node(pack.nodes[0]);
+        std::vector<Piece> sums;
+        for (std::size_t t = 0; t < pack.term_sums.size(); ++t)
+            sums.push_back(weighed(x.linear.size() + x.bilinear.size() + t, products_[pack.nodes[0]][t].weight, fmt::format("loaded({} + l)", pack.term_sums[t])));
+        return {.now = [at](int arg) { return at(arg, "k"); },
+                .first = [at](int arg) { return at(arg, "0"); },
+                .inverse = [this, &pack](int arg) { return fmt::format("loaded({} + l)", packs_[source_of(pack, arg)].inverse); },
+                .piece = weighed,
+                .sums = sums.empty() ? "" : bracketed(joined(sums))};
+    }
+
+    // Order 0.
+
+    std::string value_at_zero(int id, const View& v) {
+        const SeriesNode& x = node(id);
+        const auto first = [&](int arg) { return v.first(arg); };
+        const auto call = [&](const char* function) { return fmt::format("{}({})", function, first(x.a)); };
+        std::vector<Piece> pieces;
+        std::size_t term = 0;
+        for (const auto& [weight, a] : x.linear) pieces.push_back(v.piece(term++, weight, first(a)));
+        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(v.piece(term++, weight, first(a) + " * " + first(b)));
+        for (const Weight& weight : x.constants) pieces.push_back(piece(weight, ""));
+        switch (x.kind) {
+            case Kind::quotient: return bracketed(joined(pieces)) + " / " + first(x.w);
+            case Kind::root: return call("sqrt");
+            case Kind::power: return fmt::format("pow({}, {})", first(x.a), joined({piece(x.exponent, "")}));
+            case Kind::sine: return call("sin");
+            case Kind::cosine: return call("cos");
+            case Kind::hyperbolic_sine: return call("sinh");
+            case Kind::hyperbolic_cosine: return call("cosh");
+            case Kind::exponential: return call("exp");
+            case Kind::area: case Kind::ratio: return call(name_of(x.op));
+            case Kind::turn: return fmt::format("atan2({}, {})", first(x.a), first(x.b));
+            default: return joined(pieces);
+        }
+    }
+
+    std::vector<int> arguments(int id) const {
+        const SeriesNode& x = node(id);
+        std::vector<int> list;
+        for (const auto& [weight, a] : x.linear) list.push_back(a);
+        for (const auto& [weight, a, b] : x.bilinear) list.insert(list.end(), {a, b});
+        for (const int arg : {x.a, x.b}) if (arg >= 0) list.push_back(arg);
+        if (x.kind == Kind::quotient || x.kind == Kind::ratio || x.kind == Kind::turn) list.push_back(x.w);
+        return list;
+    }
+
+    /// Everything that is ready, then all sines that are ready at once, until nothing is left.
+    Lines order_zero() {
+        Lines lines;
+        std::vector<char> done(r_.nodes.size(), 0);
+        const auto ready = [&](int id) {
+            const auto list = arguments(id);
+            return done[id] == 0 && std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
+        };
+        bool solved = r_.matrix.empty();
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (int id = 0; id < size(); ++id) {
+                if (!ready(id) || is_pair(node(id).kind) || (node(id).kind == Kind::unknown && !solved)) continue;
+                if (const int pack = place_[id].pack; pack >= 0 && is_vector_at_zero(packs_[pack])) {
+                    if (!std::all_of(packs_[pack].nodes.begin(), packs_[pack].nodes.end(), ready)) continue;
+                    add_copies(lines, packs_[pack], true);
+                    const View v = view(packs_[pack]);
+                    if (node(id).kind == Kind::root)
+                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = sqrt({}[l]);", packs_[pack].padded(), packs_[pack].column,
+                                                    packs_[source_of(packs_[pack], node(packs_[pack].nodes[0]).a)].column));
+                    else
+                        lines.push_back(over_lanes(packs_[pack], packs_[pack].column + " + l", value_at_zero(packs_[pack].nodes[0], v)));
+                    for (const int lane : packs_[pack].nodes) done[lane] = 1;
+                } else {
+                    if (node(id).kind != Kind::unknown) lines.push_back(statement_at_zero(id));
+                    done[id] = 1;
+                }
+                moved = true;
+            }
+            if (moved) continue;
+            std::vector<int> pairs;
+            for (int id = 0; id < size() && pairs.size() < 8; ++id)
+                if (node(id).kind == Kind::sine && ready(id)) pairs.push_back(id);
+            if (!pairs.empty()) {
+                add_sines(lines, pairs);
+                for (const int id : pairs) done[id] = done[node(id).w] = 1;
+                moved = true;
+            } else if (!solved) {
+                const Lines solution = solution_at_zero();
+                lines.insert(lines.end(), solution.begin(), solution.end());
+                solved = moved = true;
+            }
+        }
+        for (const Pack& pack : packs_)  // those that only the products need
+            if (pack.is_copy) add_copy(lines, pack, true);
+        add_inverses(lines);
+        return lines;
+    }
+
+    bool is_vector_at_zero(const Pack& pack) const {
+        const SeriesNode& x = node(pack.nodes[0]);
+        const auto plain = [&](int id) { return node(id).constants.empty(); };
+        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root) &&
+               std::all_of(pack.nodes.begin(), pack.nodes.end(), plain);
+    }
+
+    static std::string over_lanes(const Pack& pack, const std::string& to, const std::string& value) {
+        return fmt::format("for (int l = 0; l < {}; l += lanes<Real>) put({}, {});", pack.padded(), to, value);
+    }
+
+    void add_copy(Lines& lines, const Pack& pack, bool at_zero) const {
+        for (std::size_t lane = 0; lane < pack.nodes.size(); ++lane) {
+            const int id = pack.nodes[lane];
+            const std::string place = at_zero ? std::to_string(lane) : fmt::format("{} * k + {}", pack.padded(), lane);
+            lines.push_back(fmt::format("{}[{}] = {};", pack.column, place, at_zero ? first(id) : now(id)));
+        }
+    }
+
+    /// What a pack takes from lanes that stand elsewhere.
+    void add_copies(Lines& lines, const Pack& pack, bool at_zero) const {
+        for (const auto& [arg, source] : pack.sources)
+            if (packs_[source].is_copy) add_copy(lines, packs_[source], at_zero);
+    }
+
+    void add_sines(Lines& lines, const std::vector<int>& pairs) {
+        const auto declared = [&](int id) { return (is_packed(id) ? "" : "const Real ") + first(id); };
+        const std::string both = names_.numbered("both");
+        std::string angles;
+        for (const int id : pairs) angles += (angles.empty() ? "" : ", ") + first(node(id).a);
+        if (pairs.size() == 1) {
+            lines.push_back(fmt::format("const auto {} = sincos({});", both, angles));
+            lines.push_back(fmt::format("{} = {}.s;", declared(pairs[0]), both));
+            lines.push_back(fmt::format("{} = {}.c;", declared(node(pairs[0]).w), both));
+            return;
+        }
+        lines.push_back(fmt::format("const auto {} = sincos({});", both, angles));
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+            lines.push_back(fmt::format("{} = {}.sine[{}];", declared(pairs[i]), both, i));
+            lines.push_back(fmt::format("{} = {}.cosine[{}];", declared(node(pairs[i]).w), both, i));
+        }
+    }
+
+    std::string statement_at_zero(int id) {
+        const SeriesNode& x = node(id);
+        switch (x.kind) {
+            case Kind::time: return fmt::format("const Real {} = t;", first(id));
+            case Kind::coordinate: return fmt::format("const Real {} = state[{}];", first(id), x.index);
+            case Kind::speed: return fmt::format("const Real {} = state[{}];", first(id), n_ + x.index);
+            case Kind::work: return fmt::format("const Real {} = state[{}];", first(id), n_ + s_);
+            default: return fmt::format("{}{} = {};", is_packed(id) ? "" : "const Real ", first(id), value_at_zero(id, view(id)));
+        }
+    }
+
+    /// Whose first coefficient a node is divided by; −1: none.
+    int divisor(int id) const {
+        const SeriesNode& x = node(id);
+        if (x.kind == Kind::quotient || x.kind == Kind::ratio || x.kind == Kind::turn) return x.w;
+        if (x.kind == Kind::power) return x.a;
+        return x.kind == Kind::root ? id : -1;
+    }
+
+    void add_inverses(Lines& lines) {
+        for (Pack& pack : packs_) {
+            if (pack.is_copy || pack.by_lanes) continue;
+            const int of = divisor(pack.nodes[0]);
+            if (of < 0) continue;
+            Pack& source = packs_[source_of(pack, of)];
+            if (!source.inverse.empty()) continue;
+            source.inverse = names_.fresh("per_" + source.column);
+            lines.push_back(fmt::format("for (int l = 0; l < {}; l += lanes<Real>) put({} + l, Real(1) / loaded({} + l));", source.padded(),
+                                        source.inverse, source.column));
+        }
+        for (int id = 0; id < size(); ++id) {
+            if (is_packed(id) && !packs_[place_[id].pack].by_lanes) continue;
+            const int of = divisor(id);
+            if (of < 0 || !named_[of].inverse.empty()) continue;
+            named_[of].inverse = names_.fresh("per_" + named_[of].now);
+            lines.push_back(fmt::format("const Real {} = Real(1) / {};", named_[of].inverse, first(of)));
+        }
+        for (Pack& pack : packs_)
+            for (std::size_t k = 0; k < pack.weight_arrays.size(); ++k)
+                for (std::size_t lane = 0; lane < pack.nodes.size() && !pack.weight_arrays[k].empty(); ++lane)
+                    weight_lines_.push_back(fmt::format("{}[{}] = {};", pack.weight_arrays[k], lane, joined({piece(pack.weights[k][lane], "")})));
+        lines.insert(lines.begin(), weight_lines_.begin(), weight_lines_.end());
+    }
+
+    // The linear system: factors at order 0, then a function of the residuals.
+
+    Lines solution_at_zero() {
+        Program solver;
+        std::map<int, std::string> leaves;
+        Lines lines;
+        std::vector<int> lower, right;
+        for (const SeriesEntry& e : r_.matrix) {
+            if (e.node < 0 && e.constant.constant < 0) {
+                lower.push_back(solver.number(e.constant.number));
+                continue;
+            }
+            const int variable = solver.variable({Variable::Kind::parameter, static_cast<int>(lower.size())});
+            lower.push_back(variable);
+            leaves[variable] = e.node >= 0 ? first(e.node) : names_.numbered("m");
+            if (e.node < 0) lines.push_back(fmt::format("const Real {} = {};", leaves[variable], joined({piece(e.constant, "")})));
+        }
+        std::string residuals, results, firsts;
+        for (std::size_t i = 0; i < r_.residuals.size(); ++i) {
+            right.push_back(solver.variable({Variable::Kind::unknown, static_cast<int>(i)}));
+            const std::string row = names_.numbered("r");
+            leaves[right.back()] = row;
+            residuals += fmt::format("{}const Real& {}", i > 0 ? ", " : "", row);
+            results += fmt::format(", Real& {}", now(r_.unknowns[i]));
+            firsts += fmt::format("{}{}", i > 0 ? ", " : "", first(r_.unknowns[i]));
+        }
+        const auto solution = solve_symmetric(solver, lower, right, r_.preferred);
+        if (!solution) throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+        // What does not depend on the residuals is done once.
+        std::set<int> fixed;
+        for (const int id : solver.needed(*solution))
+            if (!solver[id].is_constant())
+                for (const int arg : solver[id].args)
+                    if (solver[arg].is_constant() && !solver[arg].args.empty()) fixed.insert(arg);
+        std::vector<Goal> goals;
+        for (const int id : fixed) goals.push_back({"Factors", names_.numbered("factor"), id, true});
+        Writer factors(solver, names_, leaves);
+        for (const Passage& section : factors.write(goals)) lines.insert(lines.end(), section.lines.begin(), section.lines.end());
+        for (const Goal& goal : goals) {
+            if (const std::string value = factors.value(goal.node); value != goal.name)
+                lines.push_back(fmt::format("const Real {} = {};", goal.name, value));
+            leaves[goal.node] = goal.name;
+        }
+        lines.push_back(fmt::format("const auto solve = [&]({}{}) __attribute__((always_inline)) {{", residuals, results));
+        Writer writer(solver, names_, leaves);
+        goals.clear();
+        for (const int id : *solution) goals.push_back({"Solution", "", id});
+        for (const Passage& section : writer.write(goals))
+            for (const std::string& line : section.lines) lines.push_back("    " + line);
+        for (std::size_t i = 0; i < solution->size(); ++i)
+            lines.push_back(fmt::format("    {} = {};", now(r_.unknowns[i]), writer.value((*solution)[i])));
+        lines.emplace_back("};");
+        lines.push_back(fmt::format("Real {};", firsts));
+        lines.push_back(solve_call([&](int id) { return first(id); }));
+        return lines;
+    }
+
+    template <class Name>
+    std::string solve_call(Name name) const {
+        std::string args;
+        for (const auto* list : {&r_.residuals, &r_.unknowns})
+            for (const int id : *list) args += (args.empty() ? "" : ", ") + name(id);
+        return fmt::format("solve({});", args);
+    }
+
+    // Order k.
+
+    Lines given() const {
+        Lines lines;
+        for (int id = 0; id < size(); ++id) {
+            const SeriesNode& x = node(id);
+            const int place = x.kind == Kind::coordinate ? x.index : x.kind == Kind::speed ? n_ + x.index : x.kind == Kind::work ? n_ + s_ : -1;
+            if (place < 0) continue;
+            lines.push_back(fmt::format("const Real {} = per_k * last[{}];", now(id), place));
+            lines.push_back(fmt::format("out[k * {} + {}] = {};", width(), place, now(id)));
+        }
+        return lines;
+    }
+
+    /// The coefficient of order k, sums of products being complete but for their ends.
+    std::string value(int id, const View& v) {
+        const SeriesNode& x = node(id);
+        const auto now = [&](int arg) { return v.now(arg); };
+        const auto first = [&](int arg) { return v.first(arg); };
+        const auto boundary = [&](int a, int b) {
+            if (a == b) return fmt::format("Real(2) * {} * {}", first(a), now(a));
+            return fmt::format("({} * {} + {} * {})", first(a), now(b), now(a), first(b));
+        };
+        const std::string& sums = v.sums;
+        std::vector<Piece> pieces;
+        std::size_t term = 0;
+        if (!sums.empty() && x.kind != Kind::quotient) pieces.push_back({false, sums});
+        for (const auto& [weight, a] : x.linear) pieces.push_back(v.piece(term++, weight, now(a)));
+        for (const auto& [weight, a, b] : x.bilinear) pieces.push_back(v.piece(term++, weight, boundary(a, b)));
+        for (const auto& [weight, m, a] : x.implied) pieces.push_back(piece(weight, fmt::format("{} * {}", now(m), first(a))));
+        const std::string shared = sums.empty() ? "" : "per_k * " + sums;
+        switch (x.kind) {
+            case Kind::time: return "Real(k == 1)";
+            case Kind::quotient:
+                pieces.push_back({true, fmt::format("{} * {}", now(x.w), first(id))});
+                pieces.push_back({false, sums});
+                return fmt::format("({}) * {}", joined(pieces), v.inverse(x.w));
+            case Kind::root: return fmt::format("Real(0.5) * ({} + {}) * {}", sums, now(x.a), v.inverse(id));
+            case Kind::power: return fmt::format("({} + {}) * {}", shared, bracketed(joined({piece(x.exponent, now(x.a) + " * " + first(id))})), v.inverse(x.a));
+            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area:
+                return fmt::format("{} + {} * {}", shared, now(x.a), first(x.w));
+            case Kind::cosine: return fmt::format("{} - {} * {}", shared, now(x.a), first(x.w));
+            case Kind::exponential: return fmt::format("{} + {} * {}", shared, now(x.a), first(id));
+            case Kind::ratio: return fmt::format("({} + {}) * {}", shared, now(x.a), v.inverse(x.w));
+            case Kind::turn:
+                return fmt::format("({} + {} * {} - {} * {}) * {}", shared, first(x.b), now(x.a), first(x.a), now(x.b), v.inverse(x.w));
+            default: return joined(pieces);
+        }
+    }
+
+    /// Sums of products in packs: all of orders below k, needed by nothing but this order.
+    Lines gathering() {
+        Lines lines;
+        for (const Pack& pack : packs_) {
+            if (pack.is_copy) continue;
+            for (std::size_t t = 0; t < pack.term_sums.size(); ++t) {
+                const Product& x = products_[pack.nodes[0]][t];
+                const auto array = [&](int arg, bool rate) -> const std::string& {
+                    const Pack& source = packs_[source_of(pack, arg)];
+                    return rate ? source.rates : source.column;
+                };
+                if (x.a == x.b && x.a_rate == x.b_rate)
+                    lines.push_back(fmt::format("squared<{}>({}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate)));
+                else
+                    lines.push_back(fmt::format("convolved<{}>({}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate), array(x.b, x.b_rate)));
+            }
+        }
+        return lines;
+    }
+
+    Lines chain() {
+        Lines lines;
+        std::vector<char> done(r_.nodes.size(), 0);
+        bool solved = r_.matrix.empty();
+        const auto is_given = [&](int id) {
+            const Kind kind = node(id).kind;
+            return kind == Kind::coordinate || kind == Kind::speed || kind == Kind::work;
+        };
+        const auto ready = [&](int id) {
+            if (node(id).kind == Kind::unknown) return solved;
+            const auto list = arguments(id);
+            return std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
+        };
+        const auto finish = [&](int id) {
+            if (!named_[id].rate.empty()) lines.push_back(fmt::format("const Real {} = number * {};", named_[id].rate, now(id)));
+            done[id] = 1;
+        };
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (int id = 0; id < size(); ++id) {
+                if (done[id] != 0 || !ready(id)) continue;
+                moved = true;
+                if (!is_packed(id)) {
+                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value(id, view(id))));
+                    finish(id);
+                    continue;
+                }
+                const Pack& pack = packs_[place_[id].pack];
+                if (!std::all_of(pack.nodes.begin(), pack.nodes.end(), ready)) {
+                    moved = false;
+                    continue;
+                }
+                if (pack.by_lanes) {
+                    for (const int lane : pack.nodes) lines.push_back(fmt::format("{} = {};", now(lane), value(lane, view(lane))));
+                } else {
+                    add_copies(lines, pack, false);
+                    lines.push_back(over_lanes(pack, fmt::format("{} + {} * k + l", pack.column, pack.padded()), value(pack.nodes[0], view(pack))));
+                }
+                for (const int lane : pack.nodes) finish(lane);
+            }
+            if (!moved && !solved) {
+                std::string unknowns;
+                for (const int a : r_.unknowns) unknowns += (unknowns.empty() ? "" : ", ") + now(a);
+                lines.push_back(fmt::format("Real {};", unknowns));
+                lines.push_back(solve_call([&](int a) { return now(a); }));
+                solved = moved = true;
+            }
+        }
+        for (const Pack& pack : packs_) {
+            bool used_before = !pack.is_copy;  // copies that only products need
+            for (const Pack& other : packs_)
+                if (!other.is_copy && !other.by_lanes)
+                    for (const auto& [arg, source] : other.sources) used_before = used_before || &packs_[source] == &pack;
+            if (!used_before) add_copy(lines, pack, false);
+            if (!pack.rates.empty())
+                lines.push_back(over_lanes(pack, fmt::format("{} + {} * k + l", pack.rates, pack.padded()),
+                                           fmt::format("number * loaded({} + {} * k + l)", pack.column, pack.padded())));
+        }
+        return lines;
+    }
+
+    /// The node of component i's rate.
+    int rate_of(int i) const {
+        if (i < n_) return r_.coordinate_rates.empty() ? n_ + i : r_.coordinate_rates[i];
+        return i < n_ + s_ ? r_.accelerations[i - n_] : r_.work;
+    }
+
+    Lines last() const {
+        Lines lines;
+        for (int i = 0; i < width(); ++i) lines.push_back(fmt::format("last[{}] = {};", i, now(rate_of(i))));
+        return lines;
+    }
+
+    /// Loops over blocks of later orders, several sums each, so that what they read in common is loaded once.
+    Lines spreading() {
+        Lines lines;
+        std::vector<std::string> loaded;
+        Lines loads, sums;
+        const auto flush = [&] {
+            if (sums.empty()) return;
+            lines.emplace_back("for (int block = first_block; block <= last_block; ++block) {");
+            lines.emplace_back("    const int to = lanes<Real> * block, from = to - k;");
+            for (const Lines* part : {&loads, &sums})
+                for (const std::string& line : *part) lines.push_back("    " + line);
+            lines.emplace_back("}");
+            loaded.clear(), loads.clear(), sums.clear();
+        };
+        for (int id = 0; id < size(); ++id) {
+            if (products_[id].empty() || is_packed(id)) continue;
+            std::vector<Piece> pieces;
+            for (const Product& x : products_[id]) {
+                const auto array = [&](int arg, bool rate) {
+                    const std::string& name = rate ? named_[arg].rates : named_[arg].series;
+                    const std::string block = name + "_block";
+                    if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) {
+                        loaded.push_back(name);
+                        loads.push_back(fmt::format("const auto {} = loaded({} + from);", block, name));
+                    }
+                    return block;
+                };
+                const auto add = [&](const Weight& weight, const std::string& factor, const std::string& block) {
+                    const Piece scale = piece(weight, factor);
+                    pieces.push_back({scale.negative, bracketed(scale.text) + " * " + block});
+                };
+                if (x.a == x.b && x.a_rate == x.b_rate) {
+                    add({2 * x.weight.number, x.weight.constant}, scalar(x.a, x.a_rate), array(x.a, x.a_rate));
+                } else {
+                    add(x.weight, scalar(x.a, x.a_rate), array(x.b, x.b_rate));
+                    add(x.weight, scalar(x.b, x.b_rate), array(x.a, x.a_rate));
+                }
+            }
+            std::string text = fmt::format("add({} + to, ", named_[id].sums) + joined(pieces) + ");";
+            sums.push_back(std::move(text));
+            if (loaded.size() > most_loaded) flush();
+        }
+        flush();
+        return lines;
+    }
+
+    /// The products of two coefficients of order k.
+    Lines middles() {
+        Lines lines;
+        for (int id = 0; id < size(); ++id) {
+            if (products_[id].empty() || is_packed(id)) continue;
+            std::vector<Piece> pieces;
+            for (const Product& x : products_[id]) pieces.push_back(piece(x.weight, scalar(x.a, x.a_rate) + " * " + scalar(x.b, x.b_rate)));
+            lines.push_back(fmt::format("{}[2 * k] += {};", named_[id].sums, joined(pieces)));
+        }
+        return lines;
+    }
+
+    std::string scalar(int id, bool rate) const { return rate ? named_[id].rate : now(id); }
+
+    Lines storing() const {
+        Lines lines;
+        for (int id = 0; id < size(); ++id) {
+            if (!named_[id].series.empty()) lines.push_back(fmt::format("{}[k] = {};", named_[id].series, now(id)));
+            if (!named_[id].rates.empty()) lines.push_back(fmt::format("{}[k] = {};", named_[id].rates, named_[id].rate));
+        }
+        return lines;
+    }
+
+    Lines arrays() {
+        Lines lines;
+        for (const Named& name : named_)
+            for (const std::string* array : {&name.series, &name.rates})
+                if (!array->empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + pad;", *array, arrays_count_++));
+        for (const Named& name : named_)
+            if (!name.sums.empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + {} * room;", name.sums, arrays_count_, sums_count_++));
+        std::size_t columns = 0, single = 0;
+        const auto place = [&](const std::string& name, std::size_t rows, std::size_t& count) {
+            if (name.empty()) return;
+            lines.push_back(fmt::format("Real* const {} = columns + {}{};", name, count, &count == &columns ? " * room" : " + columns_count * room"));
+            count += rows;
+        };
+        for (const Pack& pack : packs_)
+            for (const std::string* name : {&pack.column, &pack.rates}) place(*name, pack.padded(), columns);
+        for (const Pack& pack : packs_) {
+            place(pack.inverse, pack.padded(), single);
+            for (const auto* list : {&pack.term_sums, &pack.weight_arrays})
+                for (const std::string& name : *list) place(name, pack.padded(), single);
+        }
+        columns_count_ = static_cast<int>(columns), single_count_ = static_cast<int>(single);
+        return lines;
+    }
+
+    // What depends on parameters alone; called last, when all constants are known.
+
+    Lines prepare() {
+        Lines lines;
+        std::map<int, std::string> known;
+        const auto text = [&](int id) -> std::string {
+            const Node& x = p_[id];
+            if (x.op == Op::variable) return fmt::format("par[{}]", x.variable.index);
+            if (x.is_number()) return exact_text(x.number);
+            if (x.op == Op::pi) return "(Real(3.141592653589793) + Real(1.2246467991473532e-16) + Real(-2.9947698097183397e-33))";
+            return known.at(id);
+        };
+        for (const int id : p_.needed(constants_)) {
+            const Node& x = p_[id];
+            if (x.args.empty()) continue;
+            std::string value;
+            if (x.op == Op::sum) {
+                std::vector<Piece> pieces;
+                for (std::size_t k = 0; k < x.args.size(); ++k) {
+                    const Rational size = cln::abs(x.coefficients[k]);
+                    pieces.push_back({cln::minusp(x.coefficients[k]), (cln::equal(size, 1) ? "" : exact_text(size) + " * ") + text(x.args[k])});
+                }
+                if (!cln::zerop(x.number)) pieces.push_back({cln::minusp(x.number), exact_text(cln::abs(x.number))});
+                value = joined(pieces);
+            } else if (x.op == Op::product) {
+                std::string above, below;
+                for (std::size_t k = 0; k < x.args.size(); ++k)
+                    for (int e = 0; e < std::abs(x.exponents[k]); ++e)
+                        (x.exponents[k] > 0 ? above : below) += (x.exponents[k] < 0 ? " / " : above.empty() ? "" : " * ") + text(x.args[k]);
+                value = (above.empty() ? "Real(1)" : above) + below;
+            } else {
+                value = std::string(name_of(x.op)) + "(" + text(x.args[0]) + (x.args.size() > 1 ? ", " + text(x.args[1]) : "") + ")";
+            }
+            known[id] = names_.numbered("c");
+            lines.push_back(fmt::format("const Real {} = {};", known[id], value));
+        }
+        for (std::size_t k = 0; k < constants_.size(); ++k)
+            lines.push_back(fmt::format("par[{}] = {};", p_.parameters.size() + k, text(constants_[k])));
+        return lines;
+    }
+
+    const Recurrences r_;
+    const Program& p_;
+    int n_, s_;
+    bool with_work_;
+    Names names_;
+    std::vector<Named> named_;                    // of each node
+    std::vector<std::vector<Product>> products_;  // that each node sums up
+    std::vector<int> constants_;                  // of the Program, in the order of `par`
+    int arrays_count_ = 0, sums_count_ = 0, columns_count_ = 0, single_count_ = 0;
+    std::vector<Pack> packs_;
+    std::vector<Place> place_;                    // of each node
+    std::vector<int> levels_;
+    Lines weight_lines_;
+};
+
+}  // namespace
+
+Source emit_taylor(const Program& program, bool with_work) {
+    if (program.singular)
+        throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+    return TaylorEmitter(program, with_work).emit();
+}
+
+}  // namespace alembert

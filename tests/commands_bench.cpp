@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// `bench` and the error estimate of `simulate` against digits from elsewhere (the cases' pages: Kepler's equation in 50 digits,
+// Taylor series in 110).
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+Json result_of(const std::vector<std::string>& arguments) {
+    const auto result = run(arguments);
+    INFO(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+std::string scene(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
+
+}  // namespace
+
+TEST_CASE("bench: the reference of Kepler's comet is Kepler's equation in the digits that it claims") {
+    const std::string svg = temporary("kepler.svg", ""), csv = temporary("kepler.csv", "");
+    const Json result = result_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
+    const Json& reference = result["reference"];
+    CHECK(reference["digits"].get<int>() >= 18);
+    // The leading 20 digits as text: a double would lose the last four.
+    CHECK(reference["text"]["coordinates"]["x"].get<std::string>().substr(0, 22) == "-0.1351664773678210293");
+    CHECK(reference["text"]["rates"]["x"].get<std::string>().substr(0, 21) == "3.3757472100490509819");
+    CHECK(std::abs(reference["final"]["coordinates"]["y"].get<double>() + 0.07320018447262802682) < 1e-16);
+    REQUIRE(result["runs"].size() == 12);
+    double first = 0, last = 0;
+    for (const Json& one : result["runs"]) {
+        if (one["tolerance"].get<double>() > 0.9e-5 && one["tolerance"].get<double>() < 1.1e-5) first = one["error"];
+        last = one["error"];
+        CHECK(one["seconds"].get<double>() > 0);
+        CHECK(one["evaluations"].get<long>() > one["steps"].get<long>());
+        CHECK(one.contains("energy_drift"));
+    }
+    CHECK(last < 1e-8);
+    CHECK(first > 1e3 * last);
+    std::ifstream picture(svg), table(csv);
+    std::stringstream text;
+    text << picture.rdbuf();
+    CHECK(text.str().find("dop853") != std::string::npos);
+    CHECK(text.str().ends_with("</svg>\n"));
+    int lines = 0;
+    for (std::string line; std::getline(table, line);) ++lines;
+    CHECK(lines == 13);
+}
+
+TEST_CASE("bench: methods for separable systems are left out where the system is not") {
+    const auto methods = [](const Json& result) {
+        std::set<std::string> names;
+        for (const Json& one : result["runs"]) names.insert(one["method"].get<std::string>());
+        return names;
+    };
+    const auto coupled = methods(result_of({"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1"}));
+    CHECK(!coupled.contains("kahanli8"));
+    CHECK(coupled.contains("gauss"));
+    CHECK(coupled.contains("radau"));
+    CHECK(methods(result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "kahanli8"})).contains("kahanli8"));
+}
+
+TEST_CASE("bench: constraints are kept, and their error is told") {
+    const Json result = result_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
+    const Json& end = result["reference"]["text"]["coordinates"];
+    // Exact by elliptic functions: the mass at t = 10.
+    CHECK(end["x"].get<std::string>().substr(0, 19) == "-0.2750874625761168");
+    CHECK(end["y"].get<std::string>().substr(0, 19) == "-0.9614192050991250");
+    for (const Json& one : result["runs"]) CHECK(one["constraint_error"].get<double>() < 1e-12);
+}
+
+TEST_CASE("simulate: the estimated error is within a factor of 30 of the true one") {
+    for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"}, std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
+        const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
+        const Json& end = result["final"];
+        const double error = std::max({std::abs(end["coordinates"]["x"].get<double>() - x), std::abs(end["coordinates"]["y"].get<double>() + 0.073200184472628027),
+                                       std::abs(end["rates"]["x"].get<double>() - 3.3757472100490510) / 3.37, std::abs(end["rates"]["y"].get<double>() - 0.78449894364958458)});
+        const double estimate = result["error_estimate"]["value"];
+        CAPTURE(error);
+        CAPTURE(estimate);
+        CHECK(estimate > error / 30);
+        CHECK(estimate < error * 30);
+    }
+    const Json without = result_of({"simulate", scene("kepler"), "--json", "--no-estimate"});
+    CHECK(!without.contains("error_estimate"));
+}
+
+// Measured on the page: errors grow 10^6 to 10^7 fold in 10 s, 10^13 in 20 s: an exponent of 1.4 to 1.6.
+TEST_CASE("simulate: chaos is told with its exponent, and a result without digits says so on its first line") {
+    const std::string chaotic = scene("double_pendulum_chaotic");
+    const Json good = result_of({"simulate", chaotic, "--json"});
+    CHECK(good["error_estimate"]["trustworthy"] == true);
+    const auto bad = run({"simulate", chaotic, "--duration", "40", "--tolerance", "1e-9"});
+    CHECK(bad.exit == 0);
+    CHECK(bad.out.starts_with("NOT TRUSTWORTHY"));
+    const Json same = result_of({"simulate", chaotic, "--json", "--duration", "40", "--tolerance", "1e-9"});
+    const Json& estimate = same["error_estimate"];
+    REQUIRE(estimate.contains("lyapunov_exponent"));
+    CHECK(estimate["lyapunov_exponent"].get<double>() > 0.7);
+    CHECK(estimate["lyapunov_exponent"].get<double>() < 3);
+    CHECK(estimate["no_digit_after"].get<double>() > 5);
+    CHECK(estimate["no_digit_after"].get<double>() < 30);
+    const Json regular = result_of({"simulate", scene("double_pendulum_regular"), "--json"});
+    CHECK(!regular["error_estimate"].contains("lyapunov_exponent"));
+    CHECK(regular["error_estimate"]["value"].get<double>() < 1e-10);
+}
