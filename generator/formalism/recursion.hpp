@@ -233,6 +233,37 @@ std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenc
     return loads;
 }
 
+/// Where a chain's columns of M, passed inwards, best meet the rates of its first joints, passed outwards: in its middle, unless
+/// passing costs little since axes stand at right angles. −1: nowhere.
+template <typename S>
+int middle_of(const BodyTree<S>& tree) {
+    int oblique = 0;
+    for (int j = 0; j < tree.size(); ++j) {
+        if (tree.links[j].parent != j - 1 || tree.links[j].still) return -1;
+        oblique += tree.links[j].about_x ? 1 : 0;
+    }
+    return tree.size() > 4 && 2 * oblique > tree.size() ? (tree.size() - 1) / 2 : -1;
+}
+
+/// What w_i = 1 gives each link k up to `last`, from link i on: angular velocity and that of the origin, as (n, f) at [k][i].
+template <typename S>
+std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last) {
+    std::vector<std::vector<Wrench<S>>> twists;
+    for (int k = 0; k <= last; ++k) {
+        const TreeLink<S>& link = tree.links[k];
+        twists.emplace_back();
+        for (int i = 0; i < k; ++i) {
+            const Wrench<S>& before = twists[k - 1][i];
+            twists[k].push_back({tree.from_parent(link, before.n), tree.from_parent(link, before.f + cross(before.n, tree.arm(link)))});
+        }
+        if (link.slides)
+            twists[k].push_back({no_vector<S>(), tree.direction(link)});
+        else
+            twists[k].push_back({{S(0), S(0), S(1)}, no_vector<S>()});
+    }
+    return twists;
+}
+
 /// M of M w' + n = Q: entry (j, i) for every i on the way from j to the ground, zeros elsewhere.
 template <typename S>
 std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
@@ -240,6 +271,8 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
     for (const TreeLink<S>& link : tree.links) whole.push_back(tree.body(link));
     std::vector<std::vector<S>> M;
     for (int j = 0; j < tree.size(); ++j) M.emplace_back(j + 1, S(0));
+    const int middle = middle_of(tree);
+    const std::vector<std::vector<Wrench<S>>> twists = twists_to(tree, middle);
     for (int j = tree.size() - 1; j >= 0; --j) {
         const TreeLink<S>* link = &tree.links[j];
         const RigidBody<S>& b = whole[j];
@@ -252,6 +285,10 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
         }
         M[j][j] = along_joint(tree, *link, on);
         for (int i = j; link->parent >= 0; link = &tree.links[i]) {
+            if (i <= middle) {
+                for (int a = 0; a < i; ++a) M[j][a] = dot(twists[i][a].n, on.n) + dot(twists[i][a].f, on.f);
+                break;
+            }
             on = passed(tree, *link, on);
             i = link->parent;
             M[j][i] = along_joint(tree, tree.links[i], on);
