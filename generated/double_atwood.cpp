@@ -103,8 +103,8 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real E = Real(0.5) * z2 - z4;
     const Real z5 = m2 * z0;
     const Real z6 = m3 * z1;
-    const Real z7 = x_dot * (m1 * x_dot + z5 + z6);
-    const Real h = (z7 - y_dot * (z5 - z6)) - (Real(0.5) * z2 + z4);
+    const Real z7 = x_dot * (z5 + m1 * x_dot + z6);
+    const Real h = (z7 - y_dot * (z5 - z6)) - (z4 + Real(0.5) * z2);
 
     // Result
     energy[0] = T;

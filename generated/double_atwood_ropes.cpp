@@ -51,7 +51,7 @@ void prepare(Real* par) {
     const Real z11 = (z9 + z10) - Real(2) * z8;
     const Real k0 = z7 * ((z1 + z8) + Real(2) * z6 * z11);
     const Real k1 = z1 - z0 * k0;
-    const Real k2 = Real(2) * k0 * z6 + z5 * z11;
+    const Real k2 = z5 * z11 + Real(2) * k0 * z6;
     const Real k3 = k0 * z2 - Real(2) * k2 * z2 - z8;
     const Real k4 = k2 * z3 - z9;
     const Real k5 = k2 * z4 - z10;
@@ -130,7 +130,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z5 = y2_dot * m2 * y2_dot;
     const Real z6 = y3_dot * m3 * y3_dot;
     const Real z7 = z4 + z5 + z6 + z_dot * mp * z_dot;
-    const Real h = z7 - (Real(0.5) * z1 + z3);
+    const Real h = z7 - (z3 + Real(0.5) * z1);
 
     // Result
     energy[0] = T;

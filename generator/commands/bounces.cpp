@@ -50,7 +50,8 @@ double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
 Bounces measured_bounces(const Request& request, const Derived& d, const Start& start, const State<double>& first) {
     const ContactView view(d.mechanism);
     const Contacts contacts = contacts_of(d, start, view);
-    Modes modes(request, d, start, first, Work::left_out, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
+    const MethodChoice choice;  // for its compilation: methods that need nothing else are measured
+    Modes modes(request, d, start, first, Work::left_out, choice, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .budget = request.budget};

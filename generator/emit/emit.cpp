@@ -224,17 +224,17 @@ private:
         std::map<int, std::string> leaves = variables();
         for (const int id : constants_) leaves[id] = constant_names_.at(id);
         Writer writer(p_, names_, std::move(leaves));
-        std::vector<Section> sections = writer.write(goals);
-        Section last{"Result", first};
+        std::vector<Passage> sections = writer.write(goals);
+        Passage last{"Result", first};
         for (const Result& result : results) last.lines.push_back(result.to + " = " + writer.value(result.node) + ";");
         sections.push_back(std::move(last));
         return assembled(name, about, arguments, unpacked(writer.uses(), !first.empty()), sections);
     }
 
     static mustache::data assembled(const char* name, const char* about, const char* arguments,
-                                    const mustache::data& unpack, const std::vector<Section>& sections) {
+                                    const mustache::data& unpack, const std::vector<Passage>& sections) {
         mustache::data list{mustache::data::type::list};
-        for (const Section& section : sections) {
+        for (const Passage& section : sections) {
             if (section.lines.empty()) continue;
             mustache::data lines{mustache::data::type::list};
             for (const std::string& line : section.lines) lines << wrapped(line);
@@ -256,8 +256,8 @@ private:
         Writer writer(p_, names_, variables());
         std::vector<Goal> goals;
         for (const int id : constants_) goals.push_back({"Constants", constant_names_.at(id), id, true});
-        std::vector<Section> sections = writer.write(goals);
-        Section last{"Result", {}};
+        std::vector<Passage> sections = writer.write(goals);
+        Passage last{"Result", {}};
         for (std::size_t k = 0; k < constants_.size(); ++k)
             last.lines.push_back(fmt::format("par[{}] = {};", par_.size() + k, writer.value(constants_[k])));
         sections.push_back(std::move(last));

@@ -779,7 +779,7 @@ private:
         std::vector<Goal> goals;
         for (const int id : fixed) goals.push_back({"Factors", names_.numbered("factor"), id, true});
         Writer factors(solver, names_, leaves);
-        for (const Section& section : factors.write(goals)) lines.insert(lines.end(), section.lines.begin(), section.lines.end());
+        for (const Passage& section : factors.write(goals)) lines.insert(lines.end(), section.lines.begin(), section.lines.end());
         for (const Goal& goal : goals) {
             if (const std::string value = factors.value(goal.node); value != goal.name)
                 lines.push_back(fmt::format("const Real {} = {};", goal.name, value));
@@ -789,7 +789,7 @@ private:
         Writer writer(solver, names_, leaves);
         goals.clear();
         for (const int id : *solution) goals.push_back({"Solution", "", id});
-        for (const Section& section : writer.write(goals))
+        for (const Passage& section : writer.write(goals))
             for (const std::string& line : section.lines) lines.push_back("    " + line);
         for (std::size_t i = 0; i < solution->size(); ++i)
             lines.push_back(fmt::format("    {} = {};", now(r_.unknowns[i]), writer.value((*solution)[i])));

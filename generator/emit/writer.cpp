@@ -11,11 +11,14 @@
 #include <set>
 #include <sstream>
 
+#include "emit/schedule.hpp"
+
 namespace alembert {
 
 namespace {
 
 constexpr std::size_t widest_group = 8;  // angles whose sines the emitted `sincos` takes at once
+constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
 constexpr int widest_expression = 10;  // operations in one statement, so that it can be read
 
 bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
@@ -107,8 +110,11 @@ void Writer::choose_statements(const std::vector<Goal>& goals) {
         }
 }
 
-std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
+std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     leaves_ = named_;
+    std::vector<int> nodes;
+    for (const Goal& goal : goals) nodes.push_back(goal.node);
+    ready_.emplace(program_, nodes);
     count_uses(goals);
     choose_statements(goals);
 
@@ -144,16 +150,23 @@ std::vector<Section> Writer::write(const std::vector<Goal>& goals) {
         for (const int arg : program_[user->first].args)
             if (const auto it = place.find(arg); it != place.end()) it->second = std::min(it->second, user->second);
 
-    std::vector<Section> sections(titles.size());
+    std::vector<Passage> sections(titles.size());
     for (std::size_t s = 0; s < titles.size(); ++s) sections[s].title = titles[s];
     std::vector<int> first;
     for (const auto& [id, wish] : wanted_)
         if (place[id] == 0 && !named_.contains(id)) first.push_back(id);
     sections[0].lines = trigonometry(first);
-    for (std::size_t s = 1; s < titles.size(); ++s)
-        for (const auto& [id, wish] : wanted_)
-            if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
-    std::erase_if(sections, [](const Section& section) { return section.lines.empty(); });
+    if (ready_->is_ordered() && wanted_.size() > readable_statements) {
+        sections.resize(1);
+        sections.push_back({"All else, in the order in which it is ready", {}});
+        for (const int id : scheduled(program_, *ready_, nodes, [&](int node) { return place[node] == 0 || is_leaf(node) || named_.contains(node); }))
+            if (wanted_.contains(id) && !named_.contains(id)) sections[1].lines.push_back(statement(id));
+    } else {
+        for (std::size_t s = 1; s < titles.size(); ++s)
+            for (const auto& [id, wish] : wanted_)
+                if (place[id] == s && !named_.contains(id)) sections[s].lines.push_back(statement(id));
+    }
+    std::erase_if(sections, [](const Passage& section) { return section.lines.empty(); });
     return sections;
 }
 
@@ -242,11 +255,11 @@ std::string Writer::text(int id, int precedence) {
         case Op::pi: result = "Real(3.14159265358979323846264338327950288L)"; break;
         case Op::sum:
             own = node.is_scaled() && !cln::minusp(node.coefficients[0]) ? multiplicative : additive;
-            result = sum_text(node, false);
+            result = sum_text(id, false);
             break;
         case Op::product:
             own = multiplicative;
-            result = product_text(node);
+            result = product_text(id);
             break;
         default: {
             result = fmt::format("{}({}", name_of(node.op), text(node.args[0], additive));
@@ -257,13 +270,14 @@ std::string Writer::text(int id, int precedence) {
     return own < precedence ? "(" + result + ")" : result;
 }
 
-std::string Writer::sum_text(const Node& node, bool negated) {
+std::string Writer::sum_text(int id, bool negated) {
+    const Node& node = program_[id];
     struct Piece {
         bool negative;
         std::string text;
     };
     std::vector<Piece> pieces;
-    for (std::size_t k = 0; k < node.args.size(); ++k) {
+    for (const std::size_t k : ready_->order(id)) {
         const Rational& c = node.coefficients[k];
         const bool negative = cln::minusp(c) != negated;
         const Rational size = cln::abs(c);
@@ -271,25 +285,28 @@ std::string Writer::sum_text(const Node& node, bool negated) {
         if (cln::equal(size, 1)) {
             const bool is_sum = arg.op == Op::sum && !arg.is_scaled() && !named_.contains(node.args[k]);
             // −1·(a − b) reads better as b − a.
-            if (negative && is_sum && node.args.size() == 1 && cln::zerop(node.number)) return sum_text(arg, true);
+            if (negative && is_sum && node.args.size() == 1 && cln::zerop(node.number)) return sum_text(node.args[k], true);
             pieces.push_back({negative, text(node.args[k], is_sum || negative ? multiplicative : additive)});
         } else {
             pieces.push_back({negative, number_text(size) + " * " + text(node.args[k], multiplicative)});
         }
     }
     if (!cln::zerop(node.number))
-        pieces.push_back({cln::minusp(node.number) != negated, number_text(cln::abs(node.number))});
+        pieces.insert(ready_->is_ordered() ? pieces.begin() : pieces.end(), {cln::minusp(node.number) != negated, number_text(cln::abs(node.number))});
     // A positive term first, if there is one: b − a, not −a + b.
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return !p.negative; });
-    if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);
+    // But what is late stays last.
+    const bool late = ready_->is_ordered() && pieces.size() > 2 && positive + 1 == pieces.end();
+    if (positive != pieces.end() && !late) std::rotate(pieces.begin(), positive, positive + 1);
     std::string result = (pieces[0].negative ? "-" : "") + pieces[0].text;
     for (std::size_t k = 1; k < pieces.size(); ++k) result += (pieces[k].negative ? " - " : " + ") + pieces[k].text;
     return result;
 }
 
-std::string Writer::product_text(const Node& node) {
+std::string Writer::product_text(int sought) {
+    const Node& node = program_[sought];
     std::string numerator, denominators;
-    for (std::size_t k = 0; k < node.args.size(); ++k) {
+    for (const std::size_t k : ready_->order(sought)) {
         const int id = node.args[k];
         const Node& arg = program_[id];
         if (node.exponents[k] < 0 || (arg.is_reciprocal() && !named_.contains(id))) {

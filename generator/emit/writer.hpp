@@ -4,16 +4,18 @@
 /// Writes one function's statements from a Program: what is used twice gets a name, the rest stays in place.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "emit/names.hpp"
 #include "lower/program.hpp"
+#include "lower/readiness.hpp"
 
 namespace alembert {
 
 /// Statements in the order in which a lecturer would write them.
-struct Section {
+struct Passage {
     std::string title;
     std::vector<std::string> lines;
 };
@@ -33,7 +35,7 @@ public:
 
     /// The statements that lead to the goals, by section: trigonometry, what several sections share, then the
     /// goals' own sections in their order.
-    std::vector<Section> write(const std::vector<Goal>& goals);
+    std::vector<Passage> write(const std::vector<Goal>& goals);
 
     /// After `write`: an expression for a goal's value, and the leaves that were used.
     std::string value(int node) { return text(node, 0); }
@@ -48,10 +50,11 @@ private:
     std::vector<std::string> trigonometry(const std::vector<int>& nodes);
     std::string trigonometric_name(int argument);
     std::string text(int node, int precedence);
-    std::string sum_text(const Node& node, bool negated);
-    std::string product_text(const Node& node);
+    std::string sum_text(int node, bool negated);
+    std::string product_text(int node);
 
     const Program& program_;
+    std::optional<Readiness> ready_;  // in `write`
     Names names_;
     std::map<int, std::string> named_;
     std::map<int, std::string> leaves_;

@@ -339,6 +339,13 @@ bool has_parallel_axes(const JointTree& tree) {
     return std::any_of(how.begin(), how.end(), [](const Dress& d) { return d.continues; });
 }
 
+bool is_planar_chain(const JointTree& tree) {
+    const std::vector<Dress> how = dress(tree, LinkAxes::still);
+    for (std::size_t j = 0; j < how.size(); ++j)
+        if (tree.joints[j].link.parent != static_cast<int>(j) - 1 || !how[j].absolute || (j > 0 && !how[j].continues)) return false;
+    return how.size() > 1;
+}
+
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes) {
     const std::vector<Dress> how = dress(tree, axes);
     std::vector<std::vector<GiNaC::numeric>> rows;

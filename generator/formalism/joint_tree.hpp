@@ -48,6 +48,8 @@ struct Dress {
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes);
 /// Is there a chain of parallel axes?
 bool has_parallel_axes(const JointTree& tree);
+/// Is all of it one, each link on the one before (planar_chain.hpp)?
+bool is_planar_chain(const JointTree& tree);
 
 /// Over another scalar: `value` takes an expression there.
 template <typename S>

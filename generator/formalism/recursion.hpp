@@ -44,6 +44,7 @@ struct TreeLink {
     Triple<S> slide = no_vector<S>();      ///< of a sliding link, in its own axes; constant
     RigidBody<S> body{};                   ///< along the link's own axes; constant
 
+    bool about_x = false;                  ///< R is a turn about x
     S angle = S(0), cosine = S(1), sine = S(0);  ///< of the joint's angle; of the sum of angles where the axes are still
     S shift = S(0), rate = S(0);           ///< of the joint, in units of `slide`; w
     S drift = S(0);                        ///< w' at q'' = 0
@@ -73,10 +74,14 @@ struct BodyTree {
         if constexpr (std::is_same_v<V, Triple<S>>)
             v = link.R * v;
         else
-            v = congruent(link.R, v);
+            v = turned_by_constant(link, v);
         if (parent_is_still(link)) v = turned_about_z(links[link.parent].cosine, links[link.parent].sine, v);
         return v;
     }
+    static Symmetric<S> turned_by_constant(const TreeLink<S>& link, const Symmetric<S>& A) {
+        return link.about_x ? turned_about_x(link.R[1][1], link.R[2][1], A) : congruent(link.R, A);
+    }
+    static Matrix<S> turned_by_constant(const TreeLink<S>& link, const Matrix<S>& A) { return congruent(link.R, A); }
     Triple<S> from_parent(const TreeLink<S>& link, Triple<S> v) const {
         if (!link.continues) {
             if (parent_is_still(link)) v = turned_back(links[link.parent].cosine, links[link.parent].sine, v);
@@ -228,6 +233,37 @@ std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenc
     return loads;
 }
 
+/// Where a chain's columns of M, passed inwards, best meet the rates of its first joints, passed outwards: in its middle, unless
+/// passing costs little since axes stand at right angles. −1: nowhere.
+template <typename S>
+int middle_of(const BodyTree<S>& tree) {
+    int oblique = 0;
+    for (int j = 0; j < tree.size(); ++j) {
+        if (tree.links[j].parent != j - 1 || tree.links[j].still) return -1;
+        oblique += tree.links[j].about_x ? 1 : 0;
+    }
+    return tree.size() > 4 && 2 * oblique > tree.size() ? (tree.size() - 1) / 2 : -1;
+}
+
+/// What w_i = 1 gives each link k up to `last`, from link i on: angular velocity and that of the origin, as (n, f) at [k][i].
+template <typename S>
+std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last) {
+    std::vector<std::vector<Wrench<S>>> twists;
+    for (int k = 0; k <= last; ++k) {
+        const TreeLink<S>& link = tree.links[k];
+        twists.emplace_back();
+        for (int i = 0; i < k; ++i) {
+            const Wrench<S>& before = twists[k - 1][i];
+            twists[k].push_back({tree.from_parent(link, before.n), tree.from_parent(link, before.f + cross(before.n, tree.arm(link)))});
+        }
+        if (link.slides)
+            twists[k].push_back({no_vector<S>(), tree.direction(link)});
+        else
+            twists[k].push_back({{S(0), S(0), S(1)}, no_vector<S>()});
+    }
+    return twists;
+}
+
 /// M of M w' + n = Q: entry (j, i) for every i on the way from j to the ground, zeros elsewhere.
 template <typename S>
 std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
@@ -235,6 +271,8 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
     for (const TreeLink<S>& link : tree.links) whole.push_back(tree.body(link));
     std::vector<std::vector<S>> M;
     for (int j = 0; j < tree.size(); ++j) M.emplace_back(j + 1, S(0));
+    const int middle = middle_of(tree);
+    const std::vector<std::vector<Wrench<S>>> twists = twists_to(tree, middle);
     for (int j = tree.size() - 1; j >= 0; --j) {
         const TreeLink<S>* link = &tree.links[j];
         const RigidBody<S>& b = whole[j];
@@ -247,6 +285,10 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
         }
         M[j][j] = along_joint(tree, *link, on);
         for (int i = j; link->parent >= 0; link = &tree.links[i]) {
+            if (i <= middle) {
+                for (int a = 0; a < i; ++a) M[j][a] = dot(twists[i][a].n, on.n) + dot(twists[i][a].f, on.f);
+                break;
+            }
             on = passed(tree, *link, on);
             i = link->parent;
             M[j][i] = along_joint(tree, tree.links[i], on);
@@ -338,7 +380,11 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         for (int i = 0; i < 3; ++i)
             for (int k = i; k < 3; ++k) {
                 S& a = parent.A[place(i, k)];
-                a = a + A[place(i, k)] + (first[i][k] + second[k][i]);
+                // About the axis by itself, without waiting for B: first[2][2] is 0.
+                const bool direct = link.absolute && i == 2;
+                const S shift = direct ? (r[0] * r[0]) * C[1] + (r[1] * r[1]) * C[0] - (r[0] * r[1]) * (C[3] + C[3])
+                                       : first[i][k] + second[k][i];
+                a = a + A[place(i, k)] + shift;
             }
         parent.C = parent.C + C;
         for (int i = 0; i < 3; ++i) parent.B[i] = parent.B[i] + B[i];

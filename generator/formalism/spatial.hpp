@@ -110,6 +110,11 @@ Symmetric<S> turned_about_z(const S& c, const S& s, const Symmetric<S>& A) {
     return {A[0] - sa, A[1] + sa, A[2], c * a - A[3], s * A[5] + c * A[4], c * A[5] - s * A[4]};
 }
 template <typename S>
+Symmetric<S> turned_about_x(const S& c, const S& s, const Symmetric<S>& A) {
+    const S a = s * (A[1] - A[2]) + c * (A[4] + A[4]), sa = s * a;
+    return {A[0], A[1] - sa, A[2] + sa, c * A[3] - s * A[5], c * a - A[4], s * A[3] + c * A[5]};
+}
+template <typename S>
 Matrix<S> turned_about_z(const S& c, const S& s, const Matrix<S>& A) {
     Matrix<S> T = A;  // A Rᵀ
     for (Triple<S>& row : T) row = turned_about_z(c, s, row);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "lower/flatten.hpp"
 #include "lower/share.hpp"
 #include "report/readable.hpp"
 
@@ -105,18 +106,20 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
         programs.push_back(shared(lower(m, *textbook, readable_energy(m, energy), options)));
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
-    for (const bool articulated : {false, true})
+    using Solve = RecursionForm::Solve;
+    for (const Solve solve : {Solve::matrix, Solve::articulated, Solve::both_ends})
         for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
-            const RecursionForm form{axes, articulated};
+            const RecursionForm form{axes, solve};
             if (axes == LinkAxes::still && !parallel) continue;
-            // LDLᵀ grows with the cube; articulated bodies make no multipliers.
-            if (articulated ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
+            if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree))) continue;
+            // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
+            if (solve != Solve::matrix ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
             Equations recursive = equations;
             recursive.formalism += ", " + form.text();
             LowerOptions by = options;
             by.recursion = form;
             try {
-                programs.push_back(shared(lower(m, recursive, energy, by)));
+                programs.push_back(shared(flattened(lower(m, recursive, energy, by))));
             } catch (const std::domain_error&) {
                 // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
             }

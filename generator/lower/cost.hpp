@@ -6,8 +6,7 @@
 ///     const Cost cost = cost_of(program);
 ///     cost.time();        // to compare programs with
 ///
-/// Chains are counted in cycles of a present processor (Fog, Instruction tables): 4 for a sum or product of two, 14 for a
-/// division, 40 for sine and cosine. A processor overlaps part of a chain with the next call, so that both count.
+/// Chains are counted in cycles (readiness.hpp). A processor overlaps part of a chain with the next call, so that both count.
 
 #include "lower/program.hpp"
 

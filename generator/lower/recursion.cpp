@@ -1,115 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "lower/recursion.hpp"
 
+#include "formalism/planar_chain.hpp"
+#include "lower/link_frames.hpp"
 #include "lower/solve.hpp"
 
 namespace alembert {
 
 namespace {
-
-/// A node as a scalar; zeros and constants fold in the program.
-class Symbolic {
-public:
-    Symbolic(int number = 0) : number_(number) {}
-    Symbolic(Program& program, int node) : p_(&program), node_(node) {}
-
-    int node(Program& program) const { return p_ != nullptr ? node_ : program.number(number_); }
-
-    friend Symbolic operator+(const Symbolic& a, const Symbolic& b) { return sum(a, b, 1); }
-    friend Symbolic operator-(const Symbolic& a, const Symbolic& b) { return sum(a, b, -1); }
-    Symbolic operator-() const { return p_ == nullptr ? of(-number_) : Symbolic(*p_, p_->sum(0, {{-1, node_}})); }
-    friend Symbolic operator*(const Symbolic& a, const Symbolic& b) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ * b.number_);
-        if (a.p_ == nullptr) return {*p, p->sum(0, {{a.number_, b.node_}})};
-        if (b.p_ == nullptr) return {*p, p->sum(0, {{b.number_, a.node_}})};
-        return {*p, p->product(1, {{a.node_, 1}, {b.node_, 1}})};
-    }
-    friend Symbolic operator/(const Symbolic& a, const Symbolic& b) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ / b.number_);
-        return {*p, p->product(1, {{a.node(*p), 1}, {b.node(*p), -1}})};
-    }
-
-private:
-    static Symbolic of(const Rational& number) {
-        Symbolic result;
-        result.number_ = number;
-        return result;
-    }
-    static Program* either(const Symbolic& a, const Symbolic& b) { return a.p_ != nullptr ? a.p_ : b.p_; }
-    static Symbolic sum(const Symbolic& a, const Symbolic& b, int sign) {
-        Program* p = either(a, b);
-        if (p == nullptr) return of(a.number_ + sign * b.number_);
-        return {*p, p->sum(0, {{1, a.node(*p)}, {sign, b.node(*p)}})};
-    }
-
-    Program* p_ = nullptr;
-    int node_ = -1;
-    Rational number_ = 0;
-};
-
-/// Links' axes chosen anew, turned about their joints' by constant angles, so that from a link to its (first) child there is one
-/// turn only beside the joints' own: R = Rz(a) Rx(α) Rz(b), a given to the parent's joint angle and b to the child's (Denavit &
-/// Hartenberg, J. Applied Mechanics 22 (1955) 215). Without this a generic constant rotation takes nine multiplications for every
-/// vector, and with it four.
-class Aligned {
-public:
-    Aligned(Program& program, BodyTree<Symbolic> tree) : p_(program), tree_(std::move(tree)), offset_(tree_.links.size(), Symbolic(0)) {
-        std::vector<char> done(tree_.links.size(), 0);
-        for (std::size_t j = 0; j < tree_.links.size(); ++j) {
-            TreeLink<Symbolic>& link = tree_.links[j];
-            if (link.slides || link.still || link.parent < 0 || !is_generic(link.R)) continue;
-            const auto i = static_cast<std::size_t>(link.parent);
-            const TreeLink<Symbolic>& parent = tree_.links[i];
-            if (parent.slides || parent.still || done[i]++ != 0) continue;
-            turn_axes(i, function(Op::atan2, link.R[0][2], -link.R[1][2]));
-            const Symbolic c = link.R[2][2], s = -link.R[1][2];  // of α, where a is taken away
-            turn_joint(j, function(Op::atan2, -link.R[0][1], link.R[0][0]));
-            link.R = {Triple<Symbolic>{1, 0, 0}, Triple<Symbolic>{0, c, -s}, Triple<Symbolic>{0, s, c}};
-        }
-        for (std::size_t j = 0; j < tree_.links.size(); ++j) {
-            TreeLink<Symbolic>& link = tree_.links[j];
-            if (link.slides || offset_[j].node(p_) == p_.number(0)) continue;
-            link.angle = link.angle + offset_[j];
-            link.cosine = function(Op::cos, link.angle);
-            link.sine = function(Op::sin, link.angle);
-        }
-    }
-    BodyTree<Symbolic> tree() const { return tree_; }
-
-private:
-    /// Neither axes along axes nor a turn about one of them.
-    bool is_generic(const Matrix<Symbolic>& R) const {
-        int zeros = 0;
-        for (const Triple<Symbolic>& row : R)
-            for (const Symbolic& entry : row) zeros += p_.is_zero(entry.node(p_)) ? 1 : 0;
-        return zeros < 3;
-    }
-    Symbolic function(Op op, const Symbolic& a) const { return {p_, p_.call(op, {a.node(p_)})}; }
-    Symbolic function(Op op, const Symbolic& a, const Symbolic& b) const { return {p_, p_.call(op, {a.node(p_), b.node(p_)})}; }
-
-    void turn_joint(std::size_t j, const Symbolic& by) { offset_[j] = offset_[j] + by; }
-    /// The link's own axes, about its z by `a`; what stands along them changes.
-    void turn_axes(std::size_t i, const Symbolic& a) {
-        const Symbolic c = function(Op::cos, a), s = function(Op::sin, a);
-        turn_joint(i, a);
-        RigidBody<Symbolic>& body = tree_.links[i].body;
-        body.first = turned_back(c, s, body.first);
-        body.second = turned_about_z(c, -s, body.second);
-        for (TreeLink<Symbolic>& child : tree_.links) {
-            if (child.parent != static_cast<int>(i)) continue;
-            child.p = turned_back(c, s, child.p);
-            Matrix<Symbolic> columns = transposed(child.R);
-            for (Triple<Symbolic>& column : columns) column = turned_back(c, s, column);
-            child.R = transposed(columns);
-        }
-    }
-
-    Program& p_;
-    BodyTree<Symbolic> tree_;
-    std::vector<Symbolic> offset_;
-};
 
 /// From joints' rates to the coordinates': the absolute ones by differences, the relative ones by S.
 class Change {
@@ -212,17 +110,23 @@ private:
 }  // namespace
 
 std::string RecursionForm::text() const {
-    return std::string(articulated ? "articulated bodies" : "composite bodies") + (axes == LinkAxes::still ? ", parallel axes" : "");
+    const std::string name = solve == Solve::matrix ? "composite bodies" : solve == Solve::articulated ? "articulated bodies" : "chain from both ends";
+    return name + (axes == LinkAxes::still ? ", parallel axes" : "");
 }
 
 RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
                          const std::function<int(const GiNaC::ex&)>& lowering) {
     const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
-    const BodyTree<Symbolic> tree = regrouped(Aligned(program, dressed<Symbolic>(joints, form.axes, z, value)).tree());
+    const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
     const Change change(program, joints, form.axes);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
         std::vector<int> result;
         for (const Symbolic& s : list) result.push_back(s.node(program));
+        return result;
+    };
+    const auto symbols = [&](const std::vector<int>& list) {
+        std::vector<Symbolic> result;
+        for (const int node : list) result.emplace_back(program, node);
         return result;
     };
     std::vector<int> Q;
@@ -239,14 +143,14 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     for (std::size_t a = 0; a < Q.size(); ++a) result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
     if (!change.determines()) return result;
     const std::vector<int> loads = change.loads(Q);
-    if (form.articulated) {
-        std::vector<Symbolic> list;
-        for (const int node : loads) list.emplace_back(program, node);
-        result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, list)));
+    if (form.solve == RecursionForm::Solve::articulated) {
+        result.acceleration = change.accelerations(nodes(articulated_bodies(tree, bias.wrenches, symbols(loads))));
     } else {
         std::vector<int> f;
         for (std::size_t j = 0; j < n.size(); ++j) f.push_back(program.sum(0, {{1, loads[j]}, {-1, n[j]}}));
-        if (const auto rates = solve_symmetric(program, lower, f)) result.acceleration = change.accelerations(*rates);
+        if (form.solve == RecursionForm::Solve::both_ends)
+            result.acceleration = change.accelerations(nodes(from_both_ends(tree, symbols(f))));
+        else if (const auto rates = solve_symmetric(program, lower, f)) result.acceleration = change.accelerations(*rates);
     }
     return result;
 }

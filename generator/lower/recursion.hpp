@@ -3,7 +3,7 @@
 
 /// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
 ///
-///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still, true}, lowering);
+///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still, RecursionForm::Solve::articulated}, lowering);
 
 #include <functional>
 #include <optional>
@@ -16,7 +16,8 @@ namespace alembert {
 
 struct RecursionNodes {
     std::vector<int> mass, forcing;                       ///< in coordinates; mass: lower triangle by rows
-    std::optional<std::vector<int>> acceleration = {};    ///< q''; nothing where the joints' rates do not determine the coordinates'
+    std::optional<std::vector<int>> acceleration = {};    ///< q''; nothing where the joints' rates do not
+                                                          ///< determine the coordinates', or the form is not one of this tree
 };
 
 /// `lowering` gives the node of an expression. Sources of nodes are left as they are.

@@ -10,8 +10,9 @@ namespace alembert {
 /// Which of the recursions a program is made by.
 struct RecursionForm {
     LinkAxes axes = LinkAxes::own;
-    bool articulated = false;  ///< else composite bodies and LDLᵀ
-    std::string text() const;  ///< "articulated bodies, parallel axes"
+    enum class Solve { matrix, articulated, both_ends };
+    Solve solve = Solve::matrix;  ///< composite bodies and LDLᵀ; articulated bodies; a planar chain from both of its ends
+    std::string text() const;     ///< "articulated bodies, parallel axes"
 };
 
 }  // namespace alembert

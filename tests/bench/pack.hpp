@@ -37,12 +37,16 @@ public:
         for (int group = 0; group < groups_; ++group) {
             Lanes* const answer = &answer_[group * width_];
             for (int i = 0; i < width_; ++i)
-                for (int lane = 0; lane < lanes; ++lane) state_[i][lane] = base_[group * width_ + i][lane] + feedback_ * answer[i][lane];
+                whole(state_[i]) = whole(base_[group * width_ + i]) + feedback_ * whole(answer[i]);
             pack.rhs(reals(&time_), reals(state_.data()), reals(par_.data()), reals(answer));
         }
     }
 
 private:
+    /// As one vector: a pack that is stored in pieces and loaded whole waits until the pieces have left for the cache.
+    using Whole [[gnu::may_alias]] = double __attribute__((vector_size(sizeof(Lanes))));
+    static Whole& whole(Lanes& pack) { return reinterpret_cast<Whole&>(pack); }
+
     const Module& module_;
     int width_, groups_;
     double feedback_;

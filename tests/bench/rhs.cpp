@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The time of one right-hand side of an emitted solver, against a floor: rhs.sh says how it is called.
 //
-//   bench_rhs [--json FILE] REFERENCES INFO SOURCE.cpp [INFO SOURCE.cpp …]      INFO: what `emit --json` printed
+//   bench_rhs [--json FILE] FOLDER INFO SOURCE.cpp [INFO SOURCE.cpp …]      INFO: what `emit --json` printed
 //
 // Thread CPU time of many short slices, the floor's and ours in turn; the median of each. A slice walks through 64 states
 // with |q| ≤ π; each is perturbed by its own previous answer, so that no evaluation can be left out, and none waits for
 // the one before. The floor is n calls of glibc's sincos on the same angles in the same loop.
-// Accelerations at a reference state (tests/reference/chains.json, 50 digits) give `error`, relative to the largest.
+// Accelerations at a reference state (50 digits: FOLDER/reference/chains.json, FOLDER/bench/systems/) give `error`, relative to
+// the largest. A rival (rivals.hpp) is timed in the same turns once its accelerations at all 64 states are ours to 1e-9.
 #include <fmt/format.h>
 #include <math.h>
 #include <time.h>
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -25,6 +27,7 @@
 #include "alembert/compile.hpp"
 #include "alembert/module.hpp"
 #include "pack.hpp"
+#include "rivals.hpp"
 
 using namespace alembert;
 using Json = nlohmann::ordered_json;
@@ -32,7 +35,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr int states = 64, slices = 400;
-constexpr double slice_ns = 1e5, feedback = 1e-9;
+constexpr double slice_ns = 1e5, feedback = 1e-9, agreement = 1e-9;
 
 double now_ns() {
     timespec t{};
@@ -52,26 +55,21 @@ std::string text_of(const std::string& path) {
 }
 
 /// Median time of one call for each of the walks, which take turns. A walk makes `states` calls.
-template <typename... Walk>
-std::vector<double> timed(Walk&&... walk) {
-    const auto repeats_of = [](auto& w) {
-        w();
+std::vector<double> timed(const std::vector<std::function<void()>>& walks) {
+    std::vector<int> repeats;
+    for (const auto& walk : walks) {
+        walk();
         const double start = now_ns();
-        for (int k = 0; k < 20; ++k) w();
-        return std::max(1, static_cast<int>(slice_ns / ((now_ns() - start) / 20)));
-    };
-    const std::vector<int> repeats{repeats_of(walk)...};
-    std::vector<std::vector<double>> times(sizeof...(walk));
-    for (int slice = 0; slice < slices; ++slice) {
-        std::size_t which = 0;
-        const auto once = [&](auto& w) {
-            const double start = now_ns();
-            for (int k = 0; k < repeats[which]; ++k) w();
-            times[which].push_back((now_ns() - start) / repeats[which] / states);
-            ++which;
-        };
-        (once(walk), ...);
+        for (int k = 0; k < 5; ++k) walk();
+        repeats.push_back(std::max(1, static_cast<int>(slice_ns / ((now_ns() - start) / 5))));
     }
+    std::vector<std::vector<double>> times(walks.size());
+    for (int slice = 0; slice < slices; ++slice)
+        for (std::size_t which = 0; which < walks.size(); ++which) {
+            const double start = now_ns();
+            for (int k = 0; k < repeats[which]; ++k) walks[which]();
+            times[which].push_back((now_ns() - start) / repeats[which] / states);
+        }
     std::vector<double> result;
     for (const std::vector<double>& t : times) result.push_back(median(t));
     return result;
@@ -99,7 +97,9 @@ double error_of(const alembert_solver_table& table, const Module& module, const 
     std::vector<double> values(table.parameter_values, table.parameter_values + table.parameters), state, rate(2 * n);
     for (const char* key : {"q", "qd"})
         for (const double x : reference.at(key)) state.push_back(x);
-    for (int i = 0; i < n; ++i) values[table.parameters - n + i] = reference.at("tau")[i];
+    for (int i = 0; i < n; ++i)  // the torques are parameters, or the scene's own numbers
+        for (int k = 0; k < table.parameters; ++k)
+            if (table.parameter_names[k] == fmt::format("tau{}", i + 1)) values[k] = reference.at("tau")[i];
     const std::vector<double> par = prepared(module, values);
     table.rhs(0, state.data(), par.data(), rate.data());
     double worst = 0, largest = 0;
@@ -111,7 +111,34 @@ double error_of(const alembert_solver_table& table, const Module& module, const 
     return worst / largest;
 }
 
-Json measured(const Json& info, const std::string& source, const Json& references) {
+/// The states and accelerations of a rival are ours? (Those where the accelerations are larger are weaker by rounding.)
+void compare(const bench::Rival& rival, const std::string& system, const alembert_solver_table& table, const std::vector<double>& par, Walkers& walkers) {
+    const int n = table.coordinates;
+    std::vector<double> rate(2 * n), theirs(n);
+    double worst = 0;
+    for (int k = 0; k < states; ++k) {
+        const double* state = walkers.perturbed(k, 2 * n);
+        table.rhs(0, state, par.data(), rate.data());
+        rival.accelerations(state, state + n, theirs.data());
+        double difference = 0, largest = 0;
+        for (int i = 0; i < n; ++i) {
+            difference = std::max(difference, std::abs(theirs[i] - rate[n + i]));
+            largest = std::max(largest, std::abs(rate[n + i]));
+        }
+        worst = std::max(worst, difference / largest);
+    }
+    if (!(worst < agreement))
+        throw std::runtime_error(fmt::format("{}: accelerations of {} are not ours: {:.1e} apart, expected less than {:.0e}", rival.name, system, worst, agreement));
+}
+
+Json reference_of(const std::string& folder, const std::string& name) {
+    const Json chains = Json::parse(text_of(folder + "/reference/chains.json"));
+    if (chains.contains(name)) return chains.at(name);
+    const std::string system = folder + "/bench/systems/" + name + ".json";
+    return std::filesystem::exists(system) ? Json::parse(text_of(system)).at("ref") : Json(nullptr);
+}
+
+Json measured(const Json& info, const std::string& source, const std::string& folder) {
     const std::string name = std::filesystem::path(source).stem().string();
     const Compiled compiled = compile(text_of(source), name, {});
     const Module module = load(compiled.object);
@@ -120,10 +147,8 @@ Json measured(const Json& info, const std::string& source, const Json& reference
     const std::vector<double> par = prepared(module);
 
     Walkers ours(n, s, 1), floor(n, s, 1);
-    const auto walk_ours = [&] {
-        for (int k = 0; k < states; ++k) table.rhs(0, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
-    };
-    const auto walk_floor = [&] {
+    std::vector<std::function<void()>> walks;
+    walks.emplace_back([&] {
         for (int k = 0; k < states; ++k) {
             const double* angle = floor.perturbed(k, n);
             for (int i = 0; i < n; ++i) {
@@ -132,9 +157,27 @@ Json measured(const Json& info, const std::string& source, const Json& reference
                 floor.answer[k * floor.width + i] = sine + cosine;
             }
         }
-    };
+    });
+    walks.emplace_back([&] {
+        for (int k = 0; k < states; ++k) table.rhs(0, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
+    });
     PackWalk walk_packs(module, states, ours.base, feedback);
-    const std::vector<double> ns = timed(walk_floor, walk_ours, walk_packs);
+    walks.emplace_back([&] { walk_packs(); });
+
+    const std::optional<bench::Tree> tree = bench::tree_of(name, folder + "/bench/systems");
+    const std::vector<bench::Rival> rivals = tree ? bench::rivals_of(*tree) : std::vector<bench::Rival>();
+    std::vector<Walkers> theirs(rivals.size(), Walkers(n, s, 1));
+    for (std::size_t r = 0; r < rivals.size(); ++r) {
+        compare(rivals[r], name, table, par, theirs[r]);
+        walks.emplace_back([&walkers = theirs[r], &accelerations = rivals[r].accelerations, n, s] {
+            for (int k = 0; k < states; ++k) {
+                const double* state = walkers.perturbed(k, n + s);
+                accelerations(state, state + n, &walkers.answer[k * walkers.width + n]);
+            }
+        });
+    }
+    const std::vector<double> ns = timed(walks);
+    const Json reference = reference_of(folder, name);
     Json row;
     row["system"] = name;
     row["floor_ns"] = ns[0];
@@ -142,14 +185,33 @@ Json measured(const Json& info, const std::string& source, const Json& reference
     row["ours_pack_ns"] = ns[2];
     row["formulation"] = info.at("formulation");
     row["operations"] = info.at("operations");
-    row["error"] = references.contains(name) ? Json(error_of(table, module, references.at(name))) : Json(nullptr);
+    row["error"] = reference.is_null() ? Json(nullptr) : Json(error_of(table, module, reference));
     row["compile_s"] = compiled.from_cache ? Json(nullptr) : Json(compiled.seconds);
     row["rivals"] = Json::object();
+    for (std::size_t r = 0; r < rivals.size(); ++r) row["rivals"][rivals[r].name] = ns[3 + r];
     return row;
 }
 
 std::string cell(const Json& value, const char* format) {
     return value.is_null() ? "-" : fmt::format(fmt::runtime(format), value.get<double>());
+}
+
+void print_rivals(const Json& rows) {
+    std::vector<std::string> names;
+    for (const Json& row : rows)
+        for (const auto& item : row.at("rivals").items())
+            if (std::find(names.begin(), names.end(), item.key()) == names.end()) names.push_back(item.key());
+    if (names.empty()) return;
+    fmt::print("\n{:<16} {:>9}", "floors", "ours");
+    for (const std::string& name : names) fmt::print(" {:>9}", name);
+    fmt::print("\n");
+    for (const Json& row : rows) {
+        if (row.at("rivals").empty()) continue;
+        const double floor = row.at("floor_ns");
+        fmt::print("{:<16} {:>9.2f}", row.at("system").get<std::string>(), row.at("ours_ns").get<double>() / floor);
+        for (const std::string& name : names) fmt::print(" {:>9.2f}", row.at("rivals").at(name).get<double>() / floor);
+        fmt::print("\n");
+    }
 }
 
 }  // namespace
@@ -161,12 +223,12 @@ int main(int argc, char** argv) try {
         file = arguments[1];
         arguments.erase(arguments.begin(), arguments.begin() + 2);
     }
-    const Json references = Json::parse(text_of(arguments.at(0)));
+    const std::string folder = arguments.at(0);
     Json rows = Json::array();
     fmt::print("{:<16} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n", "system", "floor ns", "ours ns", "floors",
                "pack ns", "floors", "operations", "error", "compile s", "formulation");
     for (std::size_t k = 1; k + 1 < arguments.size(); k += 2) {
-        const Json row = measured(Json::parse(text_of(arguments[k])), arguments[k + 1], references);
+        const Json row = measured(Json::parse(text_of(arguments[k])), arguments[k + 1], folder);
         const double floor = row["floor_ns"], ours = row["ours_ns"];
         const Json& pack = row["ours_pack_ns"];
         fmt::print("{:<16} {:>9.1f} {:>9.1f} {:>7.2f} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n", row["system"].get<std::string>(), floor,
@@ -175,6 +237,7 @@ int main(int argc, char** argv) try {
                    row["formulation"].get<std::string>());
         rows.push_back(row);
     }
+    print_rivals(rows);
     if (!file.empty()) std::ofstream(file) << rows.dump(2) << "\n";
     return 0;
 } catch (const std::exception& error) {

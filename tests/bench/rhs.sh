@@ -1,24 +1,48 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# rhs.sh [--alone] [--json FILE] [BUILD]: the time of one emitted right-hand side, in floors (n calls of glibc's sincos), for chains
-# of 2 to 32 rods with joint torques, the arms arm7 and arm7g, the double pendulum and the four-bar; BUILD is the folder of the build (build/release).
-# --json writes a list of {system, floor_ns, ours_ns, ours_pack_ns, formulation, operations, error, compile_s, rivals}.
-# --alone leaves rivals out; none is built yet. rhs.cpp says how time is taken.
+# rhs.sh [--alone] [--json FILE] [--svg FILE] [BUILD]: the time of one emitted right-hand side, in floors (n calls of glibc's sincos),
+# for chains of 2 to 32 rods with joint torques, two arms of seven joints, the double pendulum and the four-bar, beside those of
+# MuJoCo, KDL, Bullet, DART and Simbody from Debian's packages (--alone: without); BUILD is the folder of the build (build/release).
+# Packages that are missing are installed where this runs as root, and left out otherwise.
+# --json writes a list of {system, floor_ns, ours_ns, ours_pack_ns, formulation, operations, error, compile_s, rivals: {name: ns}},
+# --svg a bar chart. rhs.cpp says how time is taken.
 set -eu
 
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 build=$root/build/release
-json=()
+file=
+chart=
+target=bench_rivals
 while [ $# -gt 0 ]; do
     case $1 in
-        --alone) ;;
-        --json) json=(--json "$2"); shift ;;
-        -*) echo "usage: rhs.sh [--alone] [--json FILE] [BUILD]" >&2; exit 3 ;;
+        --alone) target=bench_rhs ;;
+        --json | --svg)
+            [ $# -gt 1 ] || { echo "$1 needs the name of a file" >&2; exit 3; }
+            if [ "$1" = --json ]; then file=$2; else chart=$2; fi
+            shift ;;
+        -*) echo "usage: rhs.sh [--alone] [--json FILE] [--svg FILE] [BUILD]" >&2; exit 3 ;;
         *) build=$1 ;;
     esac
     shift
 done
-cmake --build "$build" --target alembert bench_rhs >/dev/null
+
+install_rivals() {
+    local package missing=()
+    for package in libmujoco-dev liborocos-kdl-dev libbullet-dev libdart-dev libsimbody-dev; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    if [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null; then
+        echo "installing ${missing[*]}"
+        apt-get -qq update >/dev/null && DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install "${missing[@]}" >/dev/null && return 0
+    fi
+    for package in "${missing[@]}"; do echo "left out: $package is not installed (apt-get install $package)"; done
+}
+if [ "$target" = bench_rivals ]; then
+    install_rivals
+    cmake "$build" >/dev/null # looks for what has been installed since
+fi
+log=$(cmake --build "$build" --target alembert "$target" 2>&1) || { printf '%s\n' "$log" >&2; exit 5; }
 alembert=$build/generator/alembert
 folder=$(mktemp -d)
 trap 'rm -rf -- "$folder"' EXIT
@@ -41,4 +65,6 @@ for arm in arm7 arm7g; do
 done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"
-"$build/tests/bench_rhs" "${json[@]}" "$root/tests/reference/chains.json" "${systems[@]}"
+[ -n "$file" ] || file=$folder/rows.json
+"$build/tests/$target" --json "$file" "$root/tests" "${systems[@]}"
+[ -z "$chart" ] || python3 -B "$root/tests/bench/chart.py" "$file" >"$chart"
