@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, schiehlen, roberson-wittenburg, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, schiehlen, roberson-wittenburg, recursive, hamilton or routhian");
         sub->callback([&command, run] { command = run; });
         return sub;
     };
@@ -81,6 +81,8 @@ int main(int argc, char** argv) {
 
     at_a_state(verb("linearize", "matrices and eigenvalues near an equilibrium or a steady motion", alembert::linearize));
 
+    at_a_state(verb("inverse", "the loads along the coordinates that accelerations need: --at \"theta1''=2\"", alembert::inverse));
+
     verb("impact", "the rates after the scene's impulses, sudden constraints and closed contacts", alembert::impact);
 
     with_reactions(eval);
@@ -101,6 +103,14 @@ int main(int argc, char** argv) {
         sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
         sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
     };
+    CLI::App* import_robot = app.add_subcommand("import", "write the scene of a robot description (URDF)");
+    import_robot->add_option("robot", request.scene, "the robot, an .urdf file")->required();
+    import_robot->add_option("-o,--output", request.output, "the scene to be written")->required();
+    import_robot->add_flag("--floating", request.floating, "the root link moves freely; otherwise it is the ground");
+    import_robot->add_flag("--quaternion", request.quaternion, "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
+    import_robot->add_flag("--json", request.json, "print one JSON object");
+    import_robot->callback([&command] { command = alembert::import_robot; });
+
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
     with_run(simulate);
     simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);

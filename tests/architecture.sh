@@ -23,7 +23,7 @@ mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
 mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
 mapfile -t formalism < <(files generator/formalism generator/model)
 
-forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|lower|emit|analysis|report|commands)/' "${runtime[@]}"
+forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|lower|emit|analysis|report|commands|urdf)/' "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
 forbid 'a lower layer includes a higher one' '#include "(model|formalism|lower|emit|analysis|commands)/' "${below_model[@]}"
@@ -34,13 +34,15 @@ forbid 'GiNaC beyond lower' '#include.*ginac' "${emit[@]}" generator/lower/progr
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"
+mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/robot.cpp')
+forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
 forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
 forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
 forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"
 
 # The emitted file's copy of the ABI's structs, word for word.
 words() { sed -n "/^struct $1 {/,/^};/p" "$2" | sed 's|///.*||' | tr -s ' \n' ' '; }
-for struct in alembert_solver_table alembert_pack_table; do
+for struct in alembert_solver_table alembert_pack_table alembert_projection_table; do
     [ "$(words $struct lib/alembert/abi.hpp)" = "$(words $struct templates/solver.cpp.mustache)" ] ||
         { echo "templates/solver.cpp.mustache and lib/alembert/abi.hpp disagree about $struct"; failed=1; }
 done

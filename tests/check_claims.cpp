@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/check.hpp"
+#include "analysis/redundancy.hpp"
 #include "formalism/routh.hpp"
 #include "report/derivation.hpp"
 #include "report/text.hpp"
@@ -243,6 +244,33 @@ TEST_CASE("check: a claim that holds on one branch of a constraint only is refut
     CHECK(result.claims[0].verdict == Verdict::refuted);
     CHECK(result.claims[1].verdict == Verdict::refuted);
     for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
+}
+
+// Two rows of one constraint, of which the second is left out: a claim that names its multiplier speaks of both, of which the sum of
+// forces alone is determined; one that does not speaks of the first as of the only one.
+TEST_CASE("check: the multipliers of a constraint and of its double") {
+    const Scene scene = parse_scene("[parameters]\nm = 1\ng = 9.81\n[coordinates]\nx = 0.2\ny = 0.2\n"
+                                    "[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\npotential = \"m*g*y\"\n"
+                                    "[[constraint]]\nname = \"c1\"\nholonomic = \"x - y\"\n"
+                                    "[[constraint]]\nname = \"c2\"\nholonomic = \"2*x - 2*y\"\n", "double.toml");
+    const Mechanism all = build(scene);
+    const Checked result = check(with_claims(scene, R"(
+m*x'' = lambda_c1 + 2*lambda_c2
+m*y'' + m*g = -lambda_c1 - 2*lambda_c2
+m*x'' = lambda_c1 - 2*lambda_c2
+lambda_c2 = 2*lambda_c1
+m*x'' = lambda_c1
+m*x'' = 2*lambda_c2
+m*x'' = 2*lambda_c1
+2*x'' + g = 0
+)", "claims.txt"), without_constraints(all, redundant_constraints(all)));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
+                                        Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
 }
 
 // Beyond the readable size the equations are in intermediate symbols z1, z2 …, which claims may name.

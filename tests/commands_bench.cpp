@@ -3,6 +3,7 @@
 // Taylor series in 110).
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -116,4 +117,64 @@ TEST_CASE("simulate: chaos is told with its exponent, and a result without digit
     const Json regular = result_of({"simulate", scene("double_pendulum_regular"), "--json"});
     CHECK(!regular["error_estimate"].contains("lyapunov_exponent"));
     CHECK(regular["error_estimate"]["value"].get<double>() < 1e-10);
+}
+
+// Runs apart by 0.1: seen in their rows, where the estimate works with two other runs of its own.
+TEST_CASE("simulate: the time after which no digit is left is the time at which a hundred times stricter run has parted") {
+    const std::string chaotic = scene("double_pendulum_chaotic");
+    const auto rows = [&](const std::string& tolerance) {
+        const std::string file = temporary("chaos" + tolerance + ".csv", "");
+        const Json result = result_of({"simulate", chaotic, "--json", "--duration", "40", "--sample", "0.1", "--tolerance", tolerance, "-o", file});
+        std::ifstream in(file);
+        std::vector<std::array<double, 3>> list;
+        std::string line;
+        for (std::getline(in, line); std::getline(in, line);) {
+            std::stringstream cells(line);
+            std::array<double, 3> row{};
+            char comma = 0;
+            cells >> row[0] >> comma >> row[1] >> comma >> row[2];
+            list.push_back(row);
+        }
+        return std::pair(result, list);
+    };
+    const auto [loose, first] = rows("1e-8");
+    const auto [strict, second] = rows("1e-12");
+    REQUIRE(first.size() == second.size());
+    double parted = 0;
+    for (std::size_t k = 0; k < first.size() && parted == 0; ++k)
+        for (int i = 1; i <= 2; ++i)
+            if (std::abs(first[k][i] - second[k][i]) > 0.1 * std::max(1.0, std::abs(second[k][i]))) parted = first[k][0];
+    CAPTURE(parted);
+    REQUIRE(loose["error_estimate"].contains("no_digit_after"));
+    CHECK(std::abs(loose["error_estimate"]["no_digit_after"].get<double>() - parted) < 2);
+    CHECK(strict["error_estimate"]["no_digit_after"].get<double>() > parted + 2);
+    CHECK(loose["warning"].get<std::string>().starts_with("NOT TRUSTWORTHY"));
+}
+
+// The true errors: against the end of a run three decades stricter by another method, whose own error is a hundredth and less of them.
+TEST_CASE("simulate: the estimated error is within a factor of 10 of the true one, whatever the scene") {
+    for (const char* name : {"kepler", "pleiades", "andrews", "free_body", "car_axis", "stiff_spring_pendulum", "double_pendulum_regular", "four_bars_2"}) {
+        CAPTURE(name);
+        const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-8", "--method", "dop853"});
+        const Json better = result_of({"simulate", scene(name), "--json", "--no-estimate", "--tolerance", "1e-11", "--method", "verner98"});
+        double error = 0;
+        for (const char* group : {"coordinates", "rates"})
+            for (const auto& [key, value] : better["final"][group].items())
+                error = std::max(error, std::abs(result["final"][group][key].get<double>() - value.get<double>()) / std::max(1.0, std::abs(value.get<double>())));
+        const double estimate = result["error_estimate"]["value"];
+        CAPTURE(error);
+        CAPTURE(estimate);
+        CHECK(estimate > error / 10);
+        CHECK(estimate < error * 10);
+    }
+}
+
+// It touches down first at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e): `error` holds those times against a strict run's.
+TEST_CASE("bench: a bouncing ball has its row, by the times of its contacts") {
+    const Json result = result_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
+    CHECK(result["reference"]["digits"].get<int>() >= 10);
+    REQUIRE(result["runs"].size() == 11);
+    CHECK(result["runs"].front()["error"].get<double>() < 1e-2);
+    CHECK(result["runs"].back()["error"].get<double>() < 1e-11);
+    for (const Json& one : result["runs"]) CHECK(one["seconds"].get<double>() > 0);
 }

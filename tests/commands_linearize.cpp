@@ -114,3 +114,60 @@ TEST_CASE("bicycle: after a small kick it moves as the eigenvalues say") {
     }
     CHECK(std::abs(x[state("lean")]) > 1e-3);
 }
+
+// m (x'' − 2Ω y' − Ω² x) + c x' + k x = −n y,  m (y'' + 2Ω x' − Ω² y) + k y = n x.
+TEST_CASE("linearize: small matrices are shown in the parameters, and are the numbers at the scene's") {
+    const std::string text = R"toml(
+[parameters]
+m = 2
+k = 50
+c = 0.3
+n = 1.5
+Omega = 1.2
+[coordinates]
+x = 0
+y = 0
+[[frame]]
+name = "R"
+rotate = [["z", "Omega*t"]]
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+axes = "R"
+[[spring]]
+between = ["O", "P"]
+stiffness = "k"
+[[damper]]
+along = "x"
+damping = "c"
+[forces]
+x = "-n*y"
+y = "n*x"
+)toml";
+    const Json turning = json_of({"linearize", temporary("turning.toml", text), "--json"});
+    const Json& symbols = turning["symbolic"];
+    CHECK(symbols["M"] == Json::parse(R"([["m","0"],["0","m"]])"));
+    CHECK(symbols["C"] == Json::parse(R"([["c","0"],["0","0"]])"));
+    CHECK(symbols["N"] == Json::parse(R"([["0","n"],["-n","0"]])"));
+    const Json pendulum = json_of({"linearize", source_path("scenes/textbook/double_pendulum.toml"), "--at", "theta1=0", "--at", "theta2=0", "--json"});
+    for (const auto& [scene, near] : {std::pair(text, turning), std::pair(std::string("[parameters]\nm1 = 1.0\nm2 = 1.0\nl1 = 1.0\nl2 = 0.8\ng = 9.81\n[coordinates]\nx = 0\n"
+                                                                                      "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"),
+                                                                          pendulum)}) {
+        for (const char* letter : {"M", "C", "G", "K", "N"}) {
+            std::string outputs = scene + "\n[outputs]\n";
+            for (int i = 0; i < 2; ++i)
+                for (int j = 0; j < 2; ++j) outputs += "e" + std::to_string(2 * i + j) + " = \"" + near["symbolic"][letter][i][j].get<std::string>() + "\"\n";
+            const Json values = json_of({"eval", temporary("entries.toml", outputs), "--json"})["outputs"];
+            const Eigen::MatrixXd numbers = matrix(near["matrices"][letter]);
+            for (int i = 0; i < 2; ++i)
+                for (int j = 0; j < 2; ++j) {
+                    CAPTURE(letter);
+                    CHECK(std::abs(values["e" + std::to_string(2 * i + j)].get<double>() - numbers(i, j)) < 1e-12);
+                }
+        }
+    }
+    CHECK(matrix(turning["matrices"]["G"])(1, 0) == doctest::Approx(4.8));
+    CHECK(matrix(pendulum["matrices"]["K"])(0, 0) == doctest::Approx(2 * 9.81));
+    CHECK_FALSE(json_of({"linearize", bicycle, "--at", "kick=0", "--json"}).contains("symbolic"));
+}

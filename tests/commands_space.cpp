@@ -133,6 +133,55 @@ TEST_CASE("space: a ball turned by a quaternion runs on the turntable's circle")
     }
 }
 
+// Where a wheel of radius r rolls on one of radius R that turns: r psi' = (R + r) phi' − R alpha'. With T in alpha' and phi',
+//   M = (I1 + I2 R²/r²,  −I2 R (R + r)/r²;  …,  (m + I2/r²)(R + r)²),   M (alpha'', phi'') = (tau, 0),   and along the rim the force on the planet is −I2 psi''/r.
+TEST_CASE("space: a planet rolls on a driven sun as gears do, the force between them is that of its spin") {
+    const double R = 0.5, r = 0.2, m = 1.5, I1 = 0.3, I2 = 0.04, tau = 2, phi = 0.7;
+    const std::string scene = temporary("planet.toml", R"toml(
+[coordinates]
+alpha = { initial = 0.1, rate = 2 }
+phi = { initial = 0.7, rate = 0.5 }
+psi = { initial = 0.3, rate_guess = 0 }
+[[frame]]
+name = "S"
+rotate = [["z", "alpha"]]
+[[frame]]
+name = "P"
+rotate = [["z", "psi"]]
+[[body]]
+name = "sun"
+mass = 3
+frame = "S"
+position = [0, 0]
+inertia = 0.3
+[[body]]
+name = "planet"
+mass = 1.5
+frame = "P"
+position = ["0.7*cos(phi)", "0.7*sin(phi)"]
+inertia = 0.04
+[[rolling]]
+name = "teeth"
+body = "planet"
+on = "sun"
+contact = ["-0.2*cos(phi)", "-0.2*sin(phi)"]
+[forces]
+alpha = 2
+)toml");
+    const Json json = json_of({"eval", scene, "--json"});
+    const double a = I1 + I2 * R * R / (r * r), b = -I2 * R * (R + r) / (r * r), c = (m + I2 / (r * r)) * (R + r) * (R + r), det = a * c - b * b;
+    const double alpha = c * tau / det, phi2 = -b * tau / det, psi = ((R + r) * phi2 - R * alpha) / r;
+    CHECK(std::abs(number(json, "rates", "psi") - ((R + r) * 0.5 - R * 2) / r) < 1e-13);
+    CHECK(std::abs(number(json, "accelerations", "alpha") - alpha) < 1e-12);
+    CHECK(std::abs(number(json, "accelerations", "phi") - phi2) < 1e-12);
+    CHECK(std::abs(number(json, "accelerations", "psi") - psi) < 1e-12);
+    // The multipliers push the planet at the contact: their part along the rim turns it, against psi for a push along (−sin phi, cos phi).
+    double force = 0;
+    for (const auto& [name, lambda] : json["multipliers"].items()) force += lambda.get<double>() * (name.ends_with("_x") ? -std::sin(phi) : std::cos(phi));
+    CHECK(std::abs(force + I2 * psi / r) < 1e-11);
+    CHECK(json_of({"simulate", scene, "--json", "--duration", "3"})["work_balance"].get<double>() < 1e-10);
+}
+
 TEST_CASE("space: a coin that rolls upright by a contact moves as by its two velocity constraints") {
     const std::string text = without(without(textbook("rolling_coin"), "[[constraint]]"), "[[claim]]") +
                              "\n[[rolling]]\nname = \"rim\"\nbody = \"coin\"\ncontact = [0, 0, \"-r\"]\n";

@@ -152,16 +152,17 @@ bool mentions_intermediates(const std::string& text) {
 
 Rewritings::Rewritings(const Scene& scene, const Mechanism& m, const Equations& e) {
     const Derivation shown = derivation_of(m, e);
-    const auto take = [&](const Phrase& lhs, const Phrase& rhs) {
+    const auto take = [&](const Phrase& lhs, const Phrase& rhs, bool in_any_case) {
         const std::string equation = text(lhs) + " = " + text(rhs);
-        if (!mentions_intermediates(equation)) right_.push_back(equation);
+        const bool readable = !mentions_intermediates(equation);
+        if (readable || in_any_case) right_.push_back(equation);
+        return readable;
     };
-    for (const ReadableEquation& equation : shown.equations) take(equation.lhs, equation.rhs);
-    readable_ = right_.size() == shown.equations.size();
+    for (const ReadableEquation& equation : shown.equations) readable_ = take(equation.lhs, equation.rhs, true) && readable_;
     if (!m.speeds.empty()) {
         const Derivation in_speeds = derivation_of(m, kane(m));
-        for (const ReadableEquation& equation : in_speeds.equations) take(equation.lhs, equation.rhs);
-        for (const auto& [rate, value] : in_speeds.kinematics) take(rate, value);
+        for (const ReadableEquation& equation : in_speeds.equations) take(equation.lhs, equation.rhs, false);
+        for (const auto& [rate, value] : in_speeds.kinematics) take(rate, value, false);
     }
     for (const Claim& claim : scene.claims) {
         const std::string written = text_of(claim.equation);

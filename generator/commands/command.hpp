@@ -28,6 +28,7 @@ struct Request {
     std::string method;           ///< simulate; empty: the scene's
     double duration = -1, tolerance = -1, step = -1, sample = -1;  ///< simulate; negative: the scene's
     long budget = 10'000'000;
+    bool floating = false, quaternion = false;  ///< import
     bool estimate = true;         ///< simulate: the error, by a second run
     bool peers = false;           ///< bench: other people's integrators too
     std::string csv, svg;         ///< bench: files
@@ -42,6 +43,8 @@ int derive(const Request& request);
 int eval(const Request& request);
 int emit_files(const Request& request);
 int impact(const Request& request);
+int import_robot(const Request& request);
+int inverse(const Request& request);
 int linearize(const Request& request);
 int simulate(const Request& request);
 int sweep(const Request& request);

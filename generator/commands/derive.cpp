@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "analysis/contacts.hpp"
+#include "analysis/expression_of.hpp"
+#include "analysis/joint_reactions.hpp"
 #include "commands/pipeline.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/own_steps.hpp"
@@ -241,6 +243,34 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     return blocks;
 }
 
+/// What joints bear, as far as it is short: F_x … M_z of each.
+std::vector<Statement> borne(const Derived& d) {
+    constexpr std::size_t most_terms = 20;
+    constexpr const char* letters[] = {"F_x", "F_y", "F_z", "M_x", "M_y", "M_z"};
+    if (d.mechanism.joints.empty()) return {};
+    const JointReactions reactions = joint_reactions(d.scene, d.mechanism);
+    std::vector<GiNaC::symbol> multipliers;
+    const auto find = [&](const std::string& name, const Mechanism::Constraint& c) {
+        if (c.multiplier.get_name() == name) multipliers.push_back(c.multiplier);
+    };
+    for (const std::string& name : reactions.multipliers) {
+        for (const auto* list : {&d.mechanism.constraints, &d.mechanism.redundant})
+            for (const Mechanism::Constraint& c : *list) find(name, c);
+        for (const Mechanism::Unilateral& contact : d.mechanism.unilateral) find(name, contact.gap);
+    }
+    const std::vector<int> force = reactions.program.nodes_of("force"), moment = reactions.program.nodes_of("moment");
+    std::vector<Statement> result;
+    for (std::size_t k = 0; k < reactions.joints.size(); ++k)
+        for (std::size_t i = 0; i < 6; ++i) {
+            const auto e = expression_of(reactions.program, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3], d.mechanism, multipliers);
+            if (!e) continue;
+            const auto f = fourier(*e, *d.mechanism.symbols, 20 * most_terms);
+            if (!f || f->size() > most_terms) continue;
+            result.push_back({.kind = Statement::Kind::energy, .letter = letters[i], .of = reactions.joints[k], .by = {}, .value = readable(*f)});
+        }
+    return result;
+}
+
 Json as_json(const Derivation& shown, const Mechanism& m) {
     Json result;
     result["formalism"] = shown.formalism;
@@ -296,8 +326,11 @@ int derive(const Request& request) {
     shown.formalism = d.equations.formalism;
     show_own_steps(shown, d.mechanism, d.equations);
     if (request.reactions) show_reactions(shown, d.mechanism);
+    const std::vector<Statement> joints = request.reactions ? borne(d) : std::vector<Statement>();
     if (request.json) {
-        std::cout << as_json(shown, d.mechanism).dump(2) << "\n";
+        Json result = as_json(shown, d.mechanism);
+        for (const Statement& s : joints) result["joint_reactions"][s.of][s.letter] = text(s.value);
+        std::cout << result.dump(2) << "\n";
         return 0;
     }
     const Notation n = notation_of(request.format);
@@ -342,6 +375,10 @@ int derive(const Request& request) {
     if (!shown.reactions.empty()) {
         blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
         for (const Statement& r : shown.reactions) blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
+    }
+    if (!joints.empty()) {
+        blocks.push_back({"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:", {}});
+        for (const Statement& s : joints) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
     }
     if (!shown.gaps.empty()) {
         blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});

@@ -12,7 +12,7 @@
 namespace alembert {
 
 int emit_files(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     const Choice choice = lowered(d, request);
     std::optional<Differentiated> derivatives;
     if (request.jacobian) {

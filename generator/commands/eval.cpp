@@ -8,6 +8,7 @@
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
+#include "analysis/joint_reactions.hpp"
 #include "commands/pipeline.hpp"
 
 namespace alembert {
@@ -37,7 +38,7 @@ Json reactions_of(const Mechanism& m, const Json& outputs) {
 }  // namespace
 
 int eval(const Request& request) {
-    Derived d = derived(request);
+    Derived d = derived(request, Use::run);
     Program program = lowered(d, request).program;
     const Overrides overrides = overrides_of(request);
     Start start = start_of(d.mechanism, overrides);
@@ -106,7 +107,13 @@ int eval(const Request& request) {
     result["outputs"] = Json::object();
     for (const Root& root : program.roots)
         if (root.group == "output") result["outputs"][root.name] = value[root.node];
-    if (request.reactions) result["reactions"] = reactions_of(d.mechanism, result["outputs"]);
+    std::vector<JointLoad> joint_loads;
+    if (request.reactions) {
+        result["reactions"] = reactions_of(d.mechanism, result["outputs"]);
+        result["joint_reactions"] = Json::object();
+        if (!d.mechanism.joints.empty()) joint_loads = joint_reactions(d.scene, d.mechanism).at(program, state);
+        for (const JointLoad& load : joint_loads) result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
+    }
     if (request.json) {
         std::cout << result.dump(2) << "\n";
         return 0;
@@ -123,6 +130,10 @@ int eval(const Request& request) {
     for (const std::string& line : moved) fmt::print("adjusted {}\n", line);
     fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single("kinetic"), single("potential"), single("energy"));
     for (const auto& [name, output] : result["outputs"].items()) fmt::print("{} = {:.16g}\n", name, output.get<double>());
+    if (!joint_loads.empty()) fmt::print("\nJoints exert on their children, along the joint's axes:\n");
+    for (const JointLoad& load : joint_loads)
+        for (const auto& [what, v] : {std::pair("force", &load.force), std::pair("moment", &load.moment)})
+            fmt::print("{:<16}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, what, (*v)[0], (*v)[1], (*v)[2]);
     return 0;
 }
 

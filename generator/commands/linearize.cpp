@@ -10,9 +10,12 @@
 #include "alembert/error.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
+#include "analysis/linearize_symbolic.hpp"
 #include "commands/pipeline.hpp"
 #include "formalism/elements.hpp"
 #include "lower/lower.hpp"
+#include "report/readable.hpp"
+#include "report/text.hpp"
 
 namespace alembert {
 
@@ -123,6 +126,68 @@ void print_eigenvalues(const Linearization& near) {
     }
 }
 
+/// Matrices in the parameters, by name; in the order of the numbers. Empty where they are not short.
+using SymbolRows = std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>>;
+constexpr std::size_t widest = 60;  // letters of an element
+
+/// Initial values as the scene or --at has them.
+std::vector<GiNaC::ex> starts(const Mechanism& m, const Request& request, const std::string& prime) {
+    std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
+    for (const std::string& item : request.at)
+        for (int i = 0; i < m.size(); ++i)
+            if (const std::string name = m.q[i].get_name() + prime; item.starts_with(name + "=")) values[i] = exact_number(item.substr(name.size() + 1));
+    return values;
+}
+
+SymbolRows in_symbols(const Linearization& near, const Derived& d, const Request& request) {
+    const Mechanism& m = d.mechanism;
+    if (!near.paired || static_cast<int>(near.speeds.size()) != m.size()) return {};
+    const auto found = symbolic_matrices(m, d.equations, starts(m, request, ""), starts(m, request, "'"));
+    if (!found) return {};
+    std::vector<int> order;
+    for (const std::string& speed : near.speeds)
+        for (int i = 0; i < m.size(); ++i)
+            if (m.q[i].get_name() + "'" == speed) order.push_back(i);
+    if (static_cast<int>(order.size()) != m.size()) return {};
+    SymbolRows result;
+    for (const auto& [name, matrix] : {std::pair("M", &found->M), std::pair("C", &found->C), std::pair("G", &found->G), std::pair("K", &found->K), std::pair("N", &found->N)}) {
+        result.push_back({name, {}});
+        for (const int i : order) {
+            result.back().second.emplace_back();
+            for (const int j : order) {
+                const auto f = fourier((*matrix)(i, j), *m.symbols);
+                if (!f) return {};
+                result.back().second.back().push_back(text(readable(*f)));
+                if (result.back().second.back().back().size() > widest) return {};
+            }
+        }
+    }
+    return result;
+}
+
+void print(const SymbolRows& symbols) {
+    if (symbols.empty()) return;
+    fmt::print("In the parameters:\n\n");
+    std::vector<std::string> zeros;
+    for (const auto& [name, rows] : symbols) {
+        std::size_t width = 1;
+        bool zero = true;
+        for (const auto& row : rows)
+            for (const std::string& element : row) width = std::max(width, element.size()), zero = zero && element == "0";
+        if (zero) {
+            zeros.push_back(name);
+            continue;
+        }
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            fmt::print("  {:<4}", i == 0 ? name : "");
+            for (const std::string& element : rows[i]) fmt::print("  {:>{}}", element, width);
+            fmt::print("\n");
+        }
+        fmt::print("\n");
+    }
+    if (!zeros.empty()) fmt::print("  {} = 0\n\n", fmt::join(zeros, " = "));
+}
+
 /// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates are not steady,
 /// Kane's speeds may be.
 Linearization linearized(Derived& d, const Request& request, const Start& start) {
@@ -160,8 +225,11 @@ int linearize(const Request& request) {
         if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
     }
     const Linearization near = linearized(d, request, start);
+    const SymbolRows symbols = in_symbols(near, d, request);
     if (request.json) {
-        std::cout << as_json(near, d, start).dump(2) << "\n";
+        Json result = as_json(near, d, start);
+        for (const auto& [name, rows] : symbols) result["symbolic"][name] = rows;
+        std::cout << result.dump(2) << "\n";
         return 0;
     }
     if (!d.scene.title.empty()) fmt::print("{}\n\n", d.scene.title);
@@ -180,6 +248,7 @@ int linearize(const Request& request) {
     if (!near.left_out.empty()) fmt::print("left out, as nothing else depends on {}: {}\n", near.left_out.size() == 1 ? "it" : "them", fmt::join(near.left_out, ", "));
     fmt::print("\n");
     print_matrices(near);
+    print(symbols);
     print_eigenvalues(near);
     return 0;
 }

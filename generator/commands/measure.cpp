@@ -37,6 +37,7 @@ Workbench::Workbench(Parts parts)
     if (parts_.series) rhs_.series = make_series(parts_.series, parts_.parameters);
     if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
     const Mechanism& m = parts_.derived.mechanism;
+    if (!m.constraints.empty()) rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
     if (!m.constraints.empty()) return;  // their forces change the momenta
     const std::vector<int> cyclic = cyclic_coordinates(m);
     if (cyclic.empty()) return;

@@ -7,12 +7,45 @@
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
 #include "emit/taylor.hpp"
+#include "lower/differentiate.hpp"
 
 namespace alembert {
 
+namespace {
+
+constexpr int most_operations = 8000;  // of a Jacobian that compiles in a second or two; beyond, differences serve
+
+std::optional<Differentiated> affordable_derivatives(const Program& program, Work work) {
+    if (program.count(program.right_hand_side()).total() > most_operations / 2) return std::nullopt;
+    auto result = differentiated(program, {.power = work == Work::integrated, .budget = 100000});
+    if (result && result->operations.total() > most_operations) return std::nullopt;
+    return result;
+}
+
+}  // namespace
+
+Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
+    return {.names = view.names(),
+            .restitution = restitutions(d.mechanism, start.parameters),
+            .situation =
+                [&view, state = start.state()](double t, const double* y) mutable {
+                    state.t = t;
+                    std::copy_n(y, state.q.size(), state.q.begin());
+                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
+                    return view.at(state);
+                },
+            .on_jump = {}};
+}
+
+Program with_jacobian(Program program, Method method, bool with_power) {
+    if (program.singular || !uses_jacobian(method)) return program;
+    std::optional<Differentiated> found = affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
+    return found ? std::move(found->program) : program;
+}
+
 Modes::Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work,
-             OnModeStep on_step)
-    : request_(request), derived_(derived), start_(start), first_(first), work_(work), on_step_(std::move(on_step)) {}
+             const MethodChoice& method, OnModeStep on_step)
+    : request_(request), derived_(derived), start_(start), first_(first), work_(work), method_(method), on_step_(std::move(on_step)) {}
 
 void Modes::take_free(Program program) { free_ = std::move(program); }
 
@@ -20,6 +53,29 @@ const LoadedMode& Modes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
     if (!mode) mode = made(closed);
     return *mode;
+}
+
+Rhs Modes::with_jacobian(LoadedMode& mode) {
+    if (!mode.when_stiff) {
+        mode.when_stiff = mode.contact.rhs;
+        double clock = process_seconds();
+        if (const auto derivatives = affordable_derivatives(mode.program, work_)) {
+            const Source source = emit(derivatives->program);
+            seconds_.emit += process_seconds() - clock;
+            clock = process_seconds();
+            const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
+            mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
+            mode.when_stiff->extra = 0;
+            if (!mode.derived.mechanism.constraints.empty()) mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
+            mode.jacobian_operations = derivatives->operations.total();
+            seconds_.compile += process_seconds() - clock;
+        }
+    }
+    return *mode.when_stiff;
+}
+
+CompileOptions Modes::options_of_compiler() const {
+    return {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}};
 }
 
 std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
@@ -39,16 +95,16 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
-    const bool wants_series = request_.method.empty() ? derived.mechanism.run.method == "taylor" : request_.method == "taylor";
+    const std::optional<Differentiated> derivatives =
+        uses_jacobian(method_.method) ? affordable_derivatives(program, work_) : std::nullopt;
     std::optional<Source> series;
-    if (wants_series) series = emit_taylor(program, work_ == Work::integrated);
-    Source source = emit(program);
+    if (needs_series(method_.method)) series = emit_taylor(program, work_ == Work::integrated);
+    Source source = emit(derivatives ? derivatives->program : program);
     seconds_.emit += lap();
-    const Compiled compiled =
-        compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request_.fast_math, .cache = {}});
+    const Compiled compiled = compile(source.text, program.name, options_of_compiler());
     const Module module = load(compiled.object);
     SeriesModule series_module;
-    if (series) series_module = load_series(compile(series->text, program.name + "_taylor", {.fast_math = request_.fast_math}).object);
+    if (series) series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
@@ -63,9 +119,15 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                         .contact = {.rhs = make_rhs(module, values, work_),
                                                                     .events = make_events(module, values, stops)},
                                                         .from_cache = compiled.from_cache});
+    if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
+    if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
+    mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
     LoadedMode* const self = mode.get();
-    if (constrained) mode->contact.project = std::ref(self->projection);
+    if (constrained) {
+        mode->contact.project = std::ref(self->projection);
+        mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
+    }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         on_step_(*self, t, state, rate);
     };

@@ -4,16 +4,19 @@
 /// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A scene
 /// without unilateral constraints has the one mode {}.
 ///
-///     Modes modes(request, derived, start, first, Work::left_out, on_step);
+///     Modes modes(request, derived, start, first, Work::left_out, method, on_step);
 ///     const LoadedMode& lying = modes({0});
 ///     lying.contact.rhs(t, state, rate);
 
 #include <map>
 #include <memory>
 
+#include "alembert/compile.hpp"
 #include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
+#include "analysis/contacts.hpp"
+#include "commands/method.hpp"
 #include "commands/pipeline.hpp"
 #include "emit/emit.hpp"
 
@@ -28,13 +31,25 @@ struct LoadedMode {
     Projection projection;
     ContactMode contact;
     bool from_cache = false;
+    std::optional<int> jacobian_operations = {};  ///< where it is emitted
+    std::optional<Rhs> when_stiff = {};           ///< once the motion was found stiff
 };
+
+/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it, and it is not too
+/// long to be written out; else as it is. `with_power`: of the power too.
+Program with_jacobian(Program program, Method method, bool with_power);
+
+/// Contacts as the runtime asks for them: gaps and rows by interpretation. `view` must outlive them.
+Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view);
 
 class Modes {
 public:
     /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode of each step.
+    /// Implicit methods have the solvers emitted with their Jacobian, unless it would take long to compile; those that turn to one
+    /// where the motion is stiff have it emitted then. taylor has the series emitted.
     using OnModeStep = std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
-    Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work, OnModeStep on_step);
+    Modes(const Request& request, const Derived& derived, const Start& start, const State<double>& first, Work work, const MethodChoice& method,
+          OnModeStep on_step);
 
     /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what the
     /// stages throw.
@@ -50,12 +65,15 @@ public:
 
 private:
     std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
+    Rhs with_jacobian(LoadedMode& mode);
+    CompileOptions options_of_compiler() const;
 
     const Request& request_;
     const Derived& derived_;
     const Start& start_;
     const State<double>& first_;
     Work work_;
+    const MethodChoice& method_;
     OnModeStep on_step_;
     std::optional<Program> free_;
     std::map<std::vector<int>, std::unique_ptr<LoadedMode>> loaded_;

@@ -21,6 +21,7 @@
 #include "analysis/speeds.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
+#include "formalism/joint_tree.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -43,6 +44,27 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
     if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
+}
+
+constexpr int many_pairs = 128;  // of bodies above each other: 16 in a row
+
+/// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are as many operations for
+/// all formalisms but articulated bodies.
+std::optional<Equations> recursive_for_large_trees(const Mechanism& m) {
+    if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m)) return {};
+    try {
+        const JointTree tree = joint_tree(m);
+        std::vector<int> depth;
+        int pairs = 0;
+        for (const TreeJoint& joint : tree.joints) {
+            depth.push_back(joint.link.parent < 0 ? 1 : depth[static_cast<std::size_t>(joint.link.parent)] + 1);
+            pairs += depth.back();
+        }
+        if (pairs < many_pairs) return {};
+        return formalism("recursive").derive(m);
+    } catch (const ModelError&) {  // it does not apply
+        return {};
+    }
 }
 
 /// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
@@ -76,7 +98,7 @@ void check_bodies(const Scene& scene, const Mechanism& mechanism, const Override
     if (!errors.empty()) fail(scene, std::move(errors));
 }
 
-Derived derived(const Request& request) {
+Derived derived(const Request& request, Use use) {
     const double start = process_seconds();
     Scene scene = read_scene(request.scene);
     if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
@@ -99,7 +121,9 @@ Derived derived(const Request& request) {
     refuse_contradiction(mechanism);
     if (request.reactions) add_reactions(mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
-    Equations equations = equations_by(request.by, mechanism);
+    std::optional<Equations> at_once;
+    if (use == Use::run && request.by.empty()) at_once = recursive_for_large_trees(mechanism);
+    Equations equations = at_once ? *std::move(at_once) : equations_by(request.by, mechanism);
     if (mechanism.speeds.empty() && !equations.poles.empty())
         std::cerr << "warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
                      "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n";

@@ -24,9 +24,12 @@ struct Derived {
 /// for a mass or a principal moment that is negative there.
 void check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& overrides);
 
-/// Reads, builds and derives. Prints the scene's warnings to standard error. Throws what the stages throw;
+/// What equations are for: to be read (without --by the ones that a teacher would choose) or to be run.
+enum class Use { shown, run };
+
+/// Reads, builds and derives. To be run, a large tree of joints gets the recursive equations at once, which are the fastest there. Prints the scene's warnings to standard error. Throws what the stages throw;
 /// ModelError for a formalism that does not exist or does not apply.
-Derived derived(const Request& request);
+Derived derived(const Request& request, Use use = Use::shown);
 
 /// The same scene with another mechanism (constraints added); by the formalism of that name, or the teacher's choice.
 Derived derived_again(const Derived& derived, Mechanism mechanism, const std::string& by);

@@ -20,7 +20,8 @@ const char* word(ContactEvent::Kind kind) {
 }
 
 /// One phase's rows, without the last one if it is said again by the next.
-void add_rows(std::string& text, const Phase& phase, const LoadedMode& mode, const Derived& d, std::size_t rows) {
+void add_rows(std::string& text, const Phase& phase, const LoadedMode& mode, const Derived& d, std::size_t rows, const JointReactions* reactions,
+              State<double> at) {
     const alembert_solver_table& table = mode.module.table();
     const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size(),
                redundant = d.mechanism.redundant.size(), held = static_cast<std::size_t>(table.constraints);
@@ -44,13 +45,19 @@ void add_rows(std::string& text, const Phase& phase, const LoadedMode& mode, con
         for (const double value : all) text += fmt::format(",{:.17g}", value);
         text += fmt::format(",{:.17g}", energy[2]);
         for (const double value : out) text += fmt::format(",{:.17g}", value);
+        if (reactions != nullptr) {
+            at.t = t;
+            std::copy_n(state.begin(), at.q.size(), at.q.begin());
+            std::copy_n(state.begin() + static_cast<std::ptrdiff_t>(at.q.size()), at.qdot.size(), at.qdot.begin());
+            for (const JointLoad& load : reactions->at(mode.program, at)) text += fmt::format(",{:.17g},{:.17g}", fmt::join(load.force, ","), fmt::join(load.moment, ","));
+        }
         text += "\n";
     }
 }
 
 }  // namespace
 
-std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes) {
+std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, const JointReactions* reactions, const State<double>& first) {
     std::string text = "t";
     for (const GiNaC::symbol& q : d.mechanism.q) text += "," + q.get_name();
     for (const GiNaC::symbol& q : d.mechanism.q) text += "," + q.get_name() + "'";
@@ -61,6 +68,8 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes) {
     for (const Part& output : d.mechanism.outputs) text += "," + output.label;
     for (const Root& root : modes({}).program.roots)
         if (root.group == "speed") text += "," + root.name;
+    for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
+        for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"}) text += fmt::format(",{}.{}", reactions->joints[k], part);
     text += "\n";
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
         const Phase& phase = motion.phases[k];
@@ -74,7 +83,7 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes) {
                 }))
                 --rows;
         }
-        add_rows(text, phase, modes(phase.closed), d, rows);
+        add_rows(text, phase, modes(phase.closed), d, rows, reactions, first);
     }
     return text;
 }

@@ -4,11 +4,11 @@
 /// How a motion is to be integrated, for the commands that integrate one.
 
 #include "alembert/integrate.hpp"
-#include "commands/pipeline.hpp"
+#include "commands/method.hpp"
 
 namespace alembert {
 
-/// The scene's wishes, those of the command line first. Throws ModelError for a method that does not exist.
-Options options_of(const Request& request, const Mechanism& mechanism, const Start& start);
+/// The scene's wishes, those of the command line first.
+Options options_of(const Request& request, const MethodChoice& choice, const Start& start);
 
 }  // namespace alembert

@@ -8,30 +8,34 @@
 #include "alembert/drift.hpp"
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
+#include "analysis/joint_reactions.hpp"
 #include "commands/estimate.hpp"
+#include "commands/method.hpp"
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
 #include "commands/run_options.hpp"
-#include "commands/separable.hpp"
 
 namespace alembert {
 
-Options options_of(const Request& request, const Mechanism& mechanism, const Start& start) {
-    std::string method = request.method.empty() ? mechanism.run.method : request.method;
-    if (method == "auto") method = start.step > 0 || request.step > 0 ? "rk4" : "dop853";
-    const auto known = method_named(method);
-    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, {}", method, method_names()));
+Options options_of(const Request& request, const MethodChoice& choice, const Start& start) {
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
-    return {.method = *known,
+    return {.method = choice.method,
             .start = start.t,
             .duration = wish(request.duration, start.duration),
             .tolerance = wish(request.tolerance, start.tolerance),
             .step = wish(request.step, start.step),
             .sample = wish(request.sample, start.sample),
-            .budget = request.budget};
+            .budget = request.budget,
+            .when_stiff = choice.when_stiff};
 }
 
 namespace {
+
+/// "radau from t = 0.31 on: …", for a person.
+std::string described(const Switch& s) {
+    return fmt::format("{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} s)",
+                       s.method, s.time, s.largest_eigenvalue, s.step);
+}
 
 /// The state where the numbers failed.
 State<double> state_at(State<double> state, const Failure& failure) {
@@ -40,20 +44,6 @@ State<double> state_at(State<double> state, const Failure& failure) {
     state.q.assign(failure.state.begin(), middle);
     state.qdot.assign(middle, middle + static_cast<std::ptrdiff_t>(state.qdot.size()));
     return state;
-}
-
-/// Contacts as the runtime asks for them: gaps and rows by interpretation.
-Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
-    return {.names = view.names(),
-            .restitution = restitutions(d.mechanism, start.parameters),
-            .situation =
-                [&view, state = start.state()](double t, const double* y) mutable {
-                    state.t = t;
-                    std::copy_n(y, state.q.size(), state.q.begin());
-                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
-                    return view.at(state);
-                },
-            .on_jump = {}};
 }
 
 /// Does E stay with the system? Not where an impact has taken some of it.
@@ -70,6 +60,7 @@ struct Account {
     double constraint_drift = 0, impact_loss = 0;
     Modes::Seconds seconds;
     double integrate_seconds = 0, estimate_seconds = 0;
+    std::string why_method;  ///< empty where it was given
     bool closed = false;  ///< what runs now is not the result
     std::optional<ErrorEstimate> estimate = {};
 };
@@ -111,6 +102,10 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     for (std::size_t k = 0; k < mode.program.speeds.size() && !d.mechanism.speeds.empty(); ++k)
         result["final"]["speeds"][mode.program.speeds[k].name] = end[d.mechanism.q.size() + k];
     result["method"] = motion.statistics.method;
+    if (!account.why_method.empty()) result["method_why"] = account.why_method;
+    if (const auto& s = motion.statistics.switched)
+        result["switched"] = {{"time", s->time}, {"method", s->method}, {"largest_eigenvalue", s->largest_eigenvalue}, {"step", s->step}};
+    if (mode.jacobian_operations) result["jacobian_operations"] = *mode.jacobian_operations;
     result["formulation"] = mode.source.formulation;
     result["steps"] = motion.statistics.steps;
     result["rejected"] = motion.statistics.rejected;
@@ -146,6 +141,9 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
     fmt::print("{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", mode.source.formulation,
                motion.statistics.method, motion.statistics.steps, motion.statistics.rejected, motion.statistics.evaluations,
                mode.source.operations.total());
+    if (!account.why_method.empty()) fmt::print("{}: {}\n", motion.statistics.method, account.why_method);
+    if (motion.statistics.switched) fmt::print("{}\n", described(*motion.statistics.switched));
+    if (mode.jacobian_operations) fmt::print("the Jacobian is emitted: {} operations\n", *mode.jacobian_operations);
     for (const EventRecord& event : motion.events)
         fmt::print("event {} at t = {:.15g}\n", d.mechanism.events[event.index].label, event.time);
     fmt::print("{}", contacts_as_text(motion.contacts, contacts.names));
@@ -179,7 +177,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
 }  // namespace
 
 int simulate(const Request& request) {
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                  request.scene);
@@ -191,8 +189,8 @@ int simulate(const Request& request) {
     Start start = start_of(d.mechanism);
     const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), {});
     const State<double> first = state_of(start, d.mechanism, d.equations);
-    Options options = options_of(request, d.mechanism, start);
-    if (needs_separable(options.method)) need_separable(d, name(options.method));
+    const MethodChoice choice = method_for(request, d, program, start);
+    Options options = options_of(request, choice, start);
     std::optional<ContactView> view;
     Contacts contacts;
     if (has_contacts) {
@@ -203,9 +201,9 @@ int simulate(const Request& request) {
     }
     const bool work = !energy.conserved;
     const int n = d.mechanism.size();
-    Account account{.drift = Drift(n, static_cast<int>(first.qdot.size()), work), .seconds = {.derive = d.seconds, .emit = process_seconds() - begin, .compile = 0}};
+    Account account{.drift = Drift(n, static_cast<int>(first.qdot.size()), work), .seconds = {.derive = d.seconds, .emit = process_seconds() - begin, .compile = 0}, .why_method = choice.why};
     Progress progress("integrating");
-    Modes modes(request, d, start, first, work ? Work::integrated : Work::left_out,
+    Modes modes(request, d, start, first, work ? Work::integrated : Work::left_out, choice,
                 [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                     if (account.closed) return;
                     account.drift(mode.module.table(), mode.par, t, state, rate);
@@ -245,7 +243,9 @@ int simulate(const Request& request) {
         account.estimate_seconds = process_seconds() - again;
     }
 
-    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes));
+    std::optional<JointReactions> reactions;
+    if (request.reactions && !request.output.empty() && !d.mechanism.joints.empty()) reactions = joint_reactions(d.scene, d.mechanism);
+    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first));
     if (request.json)
         std::cout << as_json(motion, contacts, d, free, account, moved).dump(2) << "\n";
     else

@@ -13,7 +13,6 @@
 #include "commands/grid.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"
-#include "commands/separable.hpp"
 #include "emit/emit.hpp"
 
 namespace alembert {
@@ -196,7 +195,7 @@ Sum sum_of(const Table& table, const Grid& grid) {
 
 int sweep(const Request& request) {
     const Grid grid = grid_of(request.vary);
-    const Derived d = derived(request);
+    const Derived d = derived(request, Use::run);
     if (!d.mechanism.unilateral.empty())
         throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
     if (!d.mechanism.impulses.empty())
@@ -208,8 +207,10 @@ int sweep(const Request& request) {
         const State<double> first = state_of(start_of(d.mechanism), d.mechanism, d.equations);
         throw IntegrationError(failure_at(d, first).value_or("the mass matrix is singular"), first.t, first.q);
     }
-    const Options options = options_of(request, d.mechanism, start_of(d.mechanism));
-    if (needs_separable(options.method)) need_separable(d, name(options.method));
+    const Start first_start = start_of(d.mechanism);
+    const bool steps_given = request.step > 0 || first_start.step > 0;
+    const Options options =
+        options_of(request, {.method = given_method(request, d).value_or(steps_given ? Method::rk4 : Method::dop853)}, first_start);
 
     const Source source = emit(program, {.batch = true});
     const double compile_begin = process_seconds();

@@ -67,6 +67,7 @@ public:
         mustache::data file;
         functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()
                   << multipliers();
+        add_projection(functions, file);
         add_derivatives(functions, file);
         file.set("scene", ascii_identifier(p_.name));
         file.set("formulation", p_.formulation);
@@ -369,6 +370,28 @@ private:
                         "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
                         "[[maybe_unused]] Real* lambda",
                         all, results);
+    }
+
+    void add_projection(mustache::data& functions, mustache::data& file) {
+        const std::vector<Goal> moved = goals("projected", "The state at the constraints"), gamma = goals("gamma", "Constraints");
+        file.set("has_projection", !moved.empty());
+        if (moved.empty()) return;
+        std::vector<Goal> all;
+        std::vector<Result> results, right;
+        for (std::size_t i = 0; i < moved.size(); ++i) results.push_back({fmt::format("out[{}]", i), moved[i].node});
+        const std::vector<int> position = p_.nodes_of("position");
+        for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
+        for (std::size_t k = 0; const int node : p_.nodes_of("pivot")) results.push_back({fmt::format("pivots[{}]", k++), node});
+        for (const Result& result : results) all.push_back({"Projection", "", result.node});
+        for (std::size_t k = 0; k < gamma.size(); ++k) right.push_back({fmt::format("out[{}]", k), gamma[k].node});
+        functions << function("project", "One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.",
+                              "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, "
+                              "Real* position, [[maybe_unused]] Real* pivots",
+                              all, results);
+        functions << function("gamma_at", "gamma of A q'' = gamma.",
+                              "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
+                              "Real* out",
+                              gamma, right);
     }
 
     /// Of the entries that are not zero: rows and columns as text, and where each goes.

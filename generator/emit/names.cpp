@@ -35,7 +35,7 @@ constexpr std::array own{"Real",   "t",       "state",  "par",  "rate",  "mass",
                          "acos",   "atan",    "sinh",   "cosh", "tanh",  "exp",  "log",     "sqrt",   "abs",
                          "sign",   "pow",     "atan2",  "min",  "max",   "pi",   "std",     "main",   "mass_forcing",
                          "outputs_at", "events_at", "constraints_at", "multipliers_at", "position", "velocity",
-                         "rows", "lambda", "table", "solver", "real2", "real4", "real8", "bits2", "bits4", "bits8", "sines", "sine", "cosine", "is_near",
+                         "rows", "pivots", "project", "gamma_at", "lambda", "table", "solver", "real2", "real4", "real8", "bits2", "bits4", "bits8", "sines", "sine", "cosine", "is_near",
                          "sines_near", "sines_far", "sincos_in"};
 
 constexpr std::array<std::string_view, 25> greek{

@@ -47,7 +47,9 @@ std::string exact_text(const Rational& value) {
 }
 
 constexpr std::size_t least_lanes = 4;   // of a pack
-constexpr std::size_t most_loaded = 20;  // arrays in one loop; there are 32 registers
+// Measured on chains, planets and a governor; 1 is what a step takes beside its series.
+constexpr double operation_cost = 0.0008, product_cost = 0.0055;
+constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
 
@@ -59,13 +61,13 @@ public:
           n_(static_cast<int>(p_.coordinates.size())),
           s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())),
           with_work_(with_work) {
-        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "add", "loaded", "wide", "stride", "block", "to", "from", "lanes", "first_block", "last_block", "columns", "columns_count", "l", "put", "convolved", "squared", "pad", "room",
+        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "loaded", "wide", "lanes", "columns", "columns_count", "l", "put", "convolved", "squared", "gather", "gathered", "left", "right", "room",
                                 "series", "quad", "clear", "solve", "terms"})
             names_.fresh(own);
         name_everything();
         for (int id = 0; id < size(); ++id) products_.push_back(products_of(id));
         find_packs();
-        find_arrays();
+        find_lanes();
     }
 
     Source emit() {
@@ -80,9 +82,9 @@ public:
         set("given", given());
         set("gathering", gathering());
         set("chain", chain());
-        set("spreading", spreading());
-        set("middles", middles());
         set("storing", storing());
+        set("ones", ones());
+        set("edges", edges());
         set("last", last());
         set("arrays", arrays());
         std::string rates;
@@ -104,8 +106,8 @@ public:
         number("most_order", static_cast<std::size_t>(most_order));
         number("most_order_quad", static_cast<std::size_t>(most_order_quad));
         number("k", constants_.size());
-        number("arrays_count", static_cast<std::size_t>(arrays_count_));
-        number("sums_count", static_cast<std::size_t>(sums_count_));
+        file.set("order_cost", fmt::format("{:.3g}", operation_cost * static_cast<double>(operations_at_an_order())));
+        file.set("product_cost", fmt::format("{:.3g}", product_cost * products_eight_wide()));
         number("columns_count", static_cast<std::size_t>(columns_count_));
         number("single_count", static_cast<std::size_t>(single_count_));
         std::string values;
@@ -124,14 +126,21 @@ public:
 private:
     struct Named {
         std::string now, first;            ///< the coefficient of this order; of order 0
-        std::string series, rates, sums;   ///< arrays: coefficients, j times these, sums of products; empty: not needed
-        std::string rate;                  ///< k times the coefficient of this order
+        std::string rate;                  ///< k times the coefficient of this order; empty: not needed
         std::string inverse;               ///< of the first coefficient
     };
     struct Product {
         Weight weight;
         int a, b;
         bool a_rate = false, b_rate = false;
+        bool weighed = false;  ///< the sum of a power, Σ (α(k−j) − j) a_{k−j} z_j
+    };
+
+    /// What is multiplied in one lane of the columns `left` and `right`.
+    struct Lane {
+        int a, b;
+        bool a_rate, b_rate;
+        auto operator<=>(const Lane&) const = default;
     };
 
     struct Piece {
@@ -154,6 +163,31 @@ private:
     struct Place {
         int pack = -1, lane = 0;
     };
+
+    /// Operations in the lines of one order, on numbers or on eight lanes.
+    std::size_t operations_at_an_order() {
+        std::size_t count = 0;
+        for (const Lines& part : {given(), chain(), storing()})
+            for (const std::string& line : part) {
+                std::size_t here = 0, blocks = 1;
+                for (const char* sign : {" * ", " + ", " - ", " = "})
+                    for (std::size_t at = line.find(sign); at != std::string::npos; at = line.find(sign, at + 1)) ++here;
+                if (const std::size_t lanes = line.find("l < "); lanes != std::string::npos) blocks = std::stoul(line.substr(lanes + 4)) / 8;
+                count += here * blocks;
+            }
+        return count;
+    }
+
+    /// Multiplications of eight lanes in all sums of products, over the square of the order.
+    double products_eight_wide() const {
+        double count = 0.5 * static_cast<double>(lanes_padded() / 8);
+        for (const Pack& pack : packs_) {
+            if (pack.is_copy) continue;
+            for (const Product& x : products_[pack.nodes[0]])
+                count += (x.a == x.b && x.a_rate == x.b_rate ? 0.25 : 0.5) * static_cast<double>(pack.padded() / 8);
+        }
+        return count;
+    }
 
     int width() const { return n_ + s_ + (with_work_ ? 1 : 0); }
     const SeriesNode& node(int id) const { return r_.nodes[id]; }
@@ -226,23 +260,43 @@ private:
 
     bool is_packed(int id) const { return place_[id].pack >= 0; }
 
-    void find_arrays() {
+    void find_lanes() {
         for (int id = 0; id < size(); ++id) {
-            if (products_[id].empty() || is_packed(id)) continue;
-            named_[id].sums = names_.fresh(named_[id].now + "_sums");
+            if (is_packed(id)) continue;
             for (const Product& product : products_[id]) {
-                need(product.a, product.a_rate);
-                need(product.b, product.b_rate);
+                const Lane lane = lane_of(product);
+                if (lanes_.try_emplace(lane, static_cast<int>(lanes_.size())).second) lanes_in_order_.push_back(lane);
+                for (const auto& [arg, rate] : {std::pair(lane.a, lane.a_rate), std::pair(lane.b, lane.b_rate)})
+                    if (rate && named_[arg].rate.empty()) named_[arg].rate = names_.fresh(named_[arg].now + "_times");
             }
         }
+        for (const Lane& lane : lanes_in_order_)
+            for (const auto& factor : {std::pair(lane.a, lane.a_rate), std::pair(lane.b, lane.b_rate)})
+                if (has_edges() && !edges_.contains(factor)) {
+                    const std::string name = named_[factor.first].now + (factor.second ? "_rate" : "");
+                    edges_[factor] = {names_.fresh(name + "_one"), names_.fresh(name + "_before")};
+                }
     }
 
-    void need(int id, bool rate) {
-        Named& name = named_[id];
-        std::string& array = rate ? name.rates : name.series;
-        if (array.empty()) array = names_.fresh(name.now + (rate ? "_rates" : "_series"));
-        if (rate && name.rate.empty()) name.rate = names_.fresh(name.now + "_times");
+    static Lane lane_of(const Product& x) {
+        return std::pair(x.a, x.a_rate) <= std::pair(x.b, x.b_rate) ? Lane{x.a, x.b, x.a_rate, x.b_rate} : Lane{x.b, x.a, x.b_rate, x.a_rate};
     }
+
+    /// The first and the last term of each sum are added one by one: the coefficients of the order before need not come back from memory.
+    bool has_edges() const { return lanes_in_order_.size() <= most_edges; }
+
+    /// The sum of a product over orders below k.
+    std::string inner_sum(const Product& product) const {
+        const Lane lane = lane_of(product);
+        const std::string middle = fmt::format("gathered[{}]", lanes_.at(lane));
+        if (!has_edges()) return middle;
+        const auto& [a_one, a_before] = edges_.at({lane.a, lane.a_rate});
+        const auto& [b_one, b_before] = edges_.at({lane.b, lane.b_rate});
+        if (a_one == b_one) return fmt::format("({} + Real(2) * {} * {})", middle, a_one, a_before);
+        return fmt::format("({} + {} * {} + {} * {})", middle, a_one, b_before, a_before, b_one);
+    }
+
+    std::size_t lanes_padded() const { return (lanes_in_order_.size() + 7) / 8 * 8; }
 
     // Packs.
 
@@ -308,6 +362,9 @@ private:
                 parts[part].push_back(id);
                 for (std::size_t k = 0; k < mine.size(); ++k) taken[part].insert({k, mine[k]});
             }
+            for (std::size_t part = 1; part < parts.size(); ++part)
+                for (std::size_t before = 0; before < part; ++before)
+                    if (follow(parts[before], parts[part])) break;
             for (const std::vector<int>& part : parts) {
                 const bool is_linear = products_[part[0]].empty();  // worth a pack only as an argument of one
                 if (part.size() >= least_lanes && !is_linear) add_pack(part);
@@ -319,7 +376,29 @@ private:
         for (std::size_t p = 0; p < packs_.size(); ++p)
             if (packs_[p].column.empty()) arrange(static_cast<int>(p));
         for (Pack& pack : packs_)
+            if (const SeriesNode& x = node(pack.nodes[0]); x.kind == Kind::power && !pack.is_copy && !pack.by_lanes && x.exponent.constant < 0)
+                for (const int id : pack.nodes) products_[id] = {{{1, -1}, node(id).a, id, false, false, true}};
+        for (Pack& pack : packs_)
             if (!pack.is_copy) find_weights(pack);
+    }
+
+    /// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false: there is no
+    /// such order. What both take from the lanes of a third pack then stands in one order for both.
+    bool follow(const std::vector<int>& leader, std::vector<int>& part) const {
+        if (leader.size() != part.size()) return false;
+        const std::size_t count = positions(leader[0]).size();
+        if (positions(part[0]).size() != count) return false;
+        for (std::size_t k = 0; k < count; ++k) {
+            std::map<int, int> with;
+            for (const int id : part) with[positions(id)[k]] = id;
+            std::vector<int> ordered;
+            for (const int id : leader)
+                if (const auto found = with.find(positions(id)[k]); found != with.end() && can_be_packed(found->first)) ordered.push_back(found->second);
+            if (with.size() != part.size() || ordered.size() != part.size()) continue;
+            part = ordered;
+            return true;
+        }
+        return false;
     }
 
     int add_pack(const std::vector<int>& nodes) {
@@ -444,12 +523,19 @@ private:
         std::string sums;
     };
 
+    std::string sums_of(int id) {
+        if (products_[id].empty() || is_packed(id)) return "";
+        std::vector<Piece> pieces;
+        for (const Product& product : products_[id]) pieces.push_back(piece(product.weight, inner_sum(product)));
+        return bracketed(joined(pieces));
+    }
+
     View view(int id) {
         return {.now = [this](int arg) { return now(arg); },
                 .first = [this](int arg) { return first(arg); },
                 .inverse = [this](int arg) { return named_[arg].inverse; },
                 .piece = [this](std::size_t, const Weight& weight, const std::string& factor) { return piece(weight, factor); },
-                .sums = named_[id].sums.empty() ? "" : named_[id].sums + "[k]"};
+                .sums = sums_of(id)};
     }
 
     View view(const Pack& pack) {
@@ -474,6 +560,15 @@ private:
 
     // Order 0.
 
+    /// Small halves without `pow`.
+    std::string power_at_zero(const Weight& exponent, const std::string& base) {
+        const Rational size = cln::abs(exponent.number);
+        if (exponent.constant >= 0 || !cln::equal(cln::denominator(size), 2) || size > 4) return fmt::format("pow({}, {})", base, joined({piece(exponent, "")}));
+        std::string text = fmt::format("sqrt({})", base);
+        for (Rational rest = size; rest > 1; rest = rest - 1) text = base + " * " + text;
+        return cln::minusp(exponent.number) ? fmt::format("Real(1) / ({})", text) : text;
+    }
+
     std::string value_at_zero(int id, const View& v) {
         const SeriesNode& x = node(id);
         const auto first = [&](int arg) { return v.first(arg); };
@@ -486,7 +581,7 @@ private:
         switch (x.kind) {
             case Kind::quotient: return bracketed(joined(pieces)) + " / " + first(x.w);
             case Kind::root: return call("sqrt");
-            case Kind::power: return fmt::format("pow({}, {})", first(x.a), joined({piece(x.exponent, "")}));
+            case Kind::power: return power_at_zero(x.exponent, first(x.a));
             case Kind::sine: return call("sin");
             case Kind::cosine: return call("cos");
             case Kind::hyperbolic_sine: return call("sinh");
@@ -525,9 +620,12 @@ private:
                     if (!std::all_of(packs_[pack].nodes.begin(), packs_[pack].nodes.end(), ready)) continue;
                     add_copies(lines, packs_[pack], true);
                     const View v = view(packs_[pack]);
-                    if (node(id).kind == Kind::root)
-                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = sqrt({}[l]);", packs_[pack].padded(), packs_[pack].column,
-                                                    packs_[source_of(packs_[pack], node(packs_[pack].nodes[0]).a)].column));
+                    if (node(id).kind == Kind::root || node(id).kind == Kind::power) {
+                        const SeriesNode& leader = node(packs_[pack].nodes[0]);
+                        const std::string base = packs_[source_of(packs_[pack], leader.a)].column + "[l]";
+                        lines.push_back(fmt::format("for (int l = 0; l < {}; ++l) {}[l] = {};", packs_[pack].padded(), packs_[pack].column,
+                                                    leader.kind == Kind::root ? "sqrt(" + base + ")" : power_at_zero(leader.exponent, base)));
+                    }
                     else
                         lines.push_back(over_lanes(packs_[pack], packs_[pack].column + " + l", value_at_zero(packs_[pack].nodes[0], v)));
                     for (const int lane : packs_[pack].nodes) done[lane] = 1;
@@ -560,7 +658,7 @@ private:
     bool is_vector_at_zero(const Pack& pack) const {
         const SeriesNode& x = node(pack.nodes[0]);
         const auto plain = [&](int id) { return node(id).constants.empty(); };
-        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root) &&
+        return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root || x.kind == Kind::power) &&
                std::all_of(pack.nodes.begin(), pack.nodes.end(), plain);
     }
 
@@ -762,6 +860,7 @@ private:
     /// Sums of products in packs: all of orders below k, needed by nothing but this order.
     Lines gathering() {
         Lines lines;
+        if (!lanes_in_order_.empty()) lines.push_back(fmt::format("gather<{}, {}>(gathered, left, right, k);", lanes_padded(), has_edges() ? 2 : 1));
         for (const Pack& pack : packs_) {
             if (pack.is_copy) continue;
             for (std::size_t t = 0; t < pack.term_sums.size(); ++t) {
@@ -770,7 +869,10 @@ private:
                     const Pack& source = packs_[source_of(pack, arg)];
                     return rate ? source.rates : source.column;
                 };
-                if (x.a == x.b && x.a_rate == x.b_rate)
+                if (x.weighed)
+                    lines.push_back(fmt::format("weighed<{}>({}, {}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, false), array(x.b, false),
+                                                joined({piece(node(pack.nodes[0]).exponent, "")})));
+                else if (x.a == x.b && x.a_rate == x.b_rate)
                     lines.push_back(fmt::format("squared<{}>({}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate)));
                 else
                     lines.push_back(fmt::format("convolved<{}>({}, {}, {}, k);", pack.padded(), pack.term_sums[t], array(x.a, x.a_rate), array(x.b, x.b_rate)));
@@ -852,82 +954,35 @@ private:
         return lines;
     }
 
-    /// Loops over blocks of later orders, several sums each, so that what they read in common is loaded once.
-    Lines spreading() {
-        Lines lines;
-        std::vector<std::string> loaded;
-        Lines loads, sums;
-        const auto flush = [&] {
-            if (sums.empty()) return;
-            lines.emplace_back("for (int block = first_block; block <= last_block; ++block) {");
-            lines.emplace_back("    const int to = lanes<Real> * block, from = to - k;");
-            for (const Lines* part : {&loads, &sums})
-                for (const std::string& line : *part) lines.push_back("    " + line);
-            lines.emplace_back("}");
-            loaded.clear(), loads.clear(), sums.clear();
-        };
-        for (int id = 0; id < size(); ++id) {
-            if (products_[id].empty() || is_packed(id)) continue;
-            std::vector<Piece> pieces;
-            for (const Product& x : products_[id]) {
-                const auto array = [&](int arg, bool rate) {
-                    const std::string& name = rate ? named_[arg].rates : named_[arg].series;
-                    const std::string block = name + "_block";
-                    if (std::find(loaded.begin(), loaded.end(), name) == loaded.end()) {
-                        loaded.push_back(name);
-                        loads.push_back(fmt::format("const auto {} = loaded({} + from);", block, name));
-                    }
-                    return block;
-                };
-                const auto add = [&](const Weight& weight, const std::string& factor, const std::string& block) {
-                    const Piece scale = piece(weight, factor);
-                    pieces.push_back({scale.negative, bracketed(scale.text) + " * " + block});
-                };
-                if (x.a == x.b && x.a_rate == x.b_rate) {
-                    add({2 * x.weight.number, x.weight.constant}, scalar(x.a, x.a_rate), array(x.a, x.a_rate));
-                } else {
-                    add(x.weight, scalar(x.a, x.a_rate), array(x.b, x.b_rate));
-                    add(x.weight, scalar(x.b, x.b_rate), array(x.a, x.a_rate));
-                }
-            }
-            std::string text = fmt::format("add({} + to, ", named_[id].sums) + joined(pieces) + ");";
-            sums.push_back(std::move(text));
-            if (loaded.size() > most_loaded) flush();
-        }
-        flush();
-        return lines;
-    }
-
-    /// The products of two coefficients of order k.
-    Lines middles() {
-        Lines lines;
-        for (int id = 0; id < size(); ++id) {
-            if (products_[id].empty() || is_packed(id)) continue;
-            std::vector<Piece> pieces;
-            for (const Product& x : products_[id]) pieces.push_back(piece(x.weight, scalar(x.a, x.a_rate) + " * " + scalar(x.b, x.b_rate)));
-            lines.push_back(fmt::format("{}[2 * k] += {};", named_[id].sums, joined(pieces)));
-        }
-        return lines;
-    }
-
     std::string scalar(int id, bool rate) const { return rate ? named_[id].rate : now(id); }
 
     Lines storing() const {
         Lines lines;
-        for (int id = 0; id < size(); ++id) {
-            if (!named_[id].series.empty()) lines.push_back(fmt::format("{}[k] = {};", named_[id].series, now(id)));
-            if (!named_[id].rates.empty()) lines.push_back(fmt::format("{}[k] = {};", named_[id].rates, named_[id].rate));
+        for (std::size_t l = 0; l < lanes_in_order_.size(); ++l) {
+            const Lane& lane = lanes_in_order_[l];
+            lines.push_back(fmt::format("left[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.a, lane.a_rate)));
+            lines.push_back(fmt::format("right[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.b, lane.b_rate)));
         }
+        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, scalar(factor.first, factor.second)));
+        return lines;
+    }
+
+    /// The first coefficients for the edges, half at order 1: the only term of order 2 is then counted once.
+    Lines ones() const {
+        Lines lines;
+        for (const auto& [factor, names] : edges_)
+            lines.push_back(fmt::format("{} = k == 1 ? Real(0.5) * {} : Real(2) * {};", names.first, scalar(factor.first, factor.second), names.first));
+        return lines;
+    }
+
+    Lines edges() const {
+        Lines lines;
+        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("Real {} = 0, {} = 0;", names.first, names.second));
         return lines;
     }
 
     Lines arrays() {
         Lines lines;
-        for (const Named& name : named_)
-            for (const std::string* array : {&name.series, &name.rates})
-                if (!array->empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + pad;", *array, arrays_count_++));
-        for (const Named& name : named_)
-            if (!name.sums.empty()) lines.push_back(fmt::format("Real* const {} = work + {} * stride + {} * room;", name.sums, arrays_count_, sums_count_++));
         std::size_t columns = 0, single = 0;
         const auto place = [&](const std::string& name, std::size_t rows, std::size_t& count) {
             if (name.empty()) return;
@@ -936,6 +991,11 @@ private:
         };
         for (const Pack& pack : packs_)
             for (const std::string* name : {&pack.column, &pack.rates}) place(*name, pack.padded(), columns);
+        if (!lanes_in_order_.empty()) {
+            place("left", lanes_padded(), columns);
+            place("right", lanes_padded(), columns);
+            place("gathered", lanes_padded(), single);
+        }
         for (const Pack& pack : packs_) {
             place(pack.inverse, pack.padded(), single);
             for (const auto* list : {&pack.term_sums, &pack.weight_arrays})
@@ -994,7 +1054,10 @@ private:
     std::vector<Named> named_;                    // of each node
     std::vector<std::vector<Product>> products_;  // that each node sums up
     std::vector<int> constants_;                  // of the Program, in the order of `par`
-    int arrays_count_ = 0, sums_count_ = 0, columns_count_ = 0, single_count_ = 0;
+    int columns_count_ = 0, single_count_ = 0;
+    std::map<Lane, int> lanes_;
+    std::vector<Lane> lanes_in_order_;
+    std::map<std::pair<int, bool>, std::pair<std::string, std::string>> edges_;  ///< coefficient of order 1, of the order before
     std::vector<Pack> packs_;
     std::vector<Place> place_;                    // of each node
     std::vector<int> levels_;

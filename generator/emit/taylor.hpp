@@ -7,8 +7,9 @@
 ///
 /// The file has one function, `series`, a template over the number type (double, __float128), with the order as an argument;
 /// the table at its end is lib/alembert/series.hpp. Shape in templates/taylor.cpp.mustache, mathematics in lower/recurrence.hpp.
-/// Each Cauchy product is kept as running sums: as soon as two coefficients are known, their products are added to all later
-/// orders that need them, eight at a time; on the way from one order to the next lie a few scalar operations only.
+/// Eight Cauchy products are computed side by side, whatever nodes they belong to: their factors stand in lanes of two columns,
+/// [order][lane]. Where there are few, the first and the last term of each sum are added as scalars, so that no order waits for what
+/// the one before it has just written. Nodes of one shape (distances of many bodies) are vectors from end to end.
 ///
 /// Throws ModelError for a program without accelerations (a singular system) and for functions without a power series.
 

@@ -9,6 +9,26 @@ namespace alembert {
 
 using GiNaC::ex;
 
+namespace {
+
+/// Gravity is an acceleration of the ground here; all other potentials are forces.
+std::vector<ex> potential_forces(const Mechanism& m) {
+    std::vector<std::pair<ex, ex>> targets;
+    for (const Part& part : m.potential)
+        if (!part.label.starts_with("gravity on ")) targets.emplace_back(part.value, -1);
+    return m.z->pull_back(targets, m.q);
+}
+
+}  // namespace
+
+JointTree loaded_tree(const Mechanism& m) {
+    check_masses_known(m, "The recursive equations");
+    JointTree joints = joint_tree(m);
+    const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true), others = m.generalized_forces(false);
+    for (int a = 0; a < m.size(); ++a) joints.forces.push_back(m.z->name(springs[a] + dampers[a] + others[a]));
+    return joints;
+}
+
 Equations recursive(const Mechanism& m) {
     check_masses_known(m, "The recursive equations");
     JointTree joints = joint_tree(m);
@@ -37,11 +57,7 @@ Equations recursive(const Mechanism& m) {
             });
         }
     }
-    // Gravity is an acceleration of the ground here; all other potentials are forces.
-    std::vector<std::pair<ex, ex>> targets;
-    for (const Part& part : m.potential)
-        if (!part.label.starts_with("gravity on ")) targets.emplace_back(part.value, -1);
-    joints.forces = z.pull_back(targets, m.q);
+    joints.forces = potential_forces(m);
     equations.dissipative = m.generalized_forces(true);
     equations.applied = m.generalized_forces(false);
     for (int a = 0; a < n; ++a) {

@@ -13,4 +13,7 @@ namespace alembert {
 /// Throws ModelError for a scene that is no tree of links with joints (see joint_tree.hpp), with what is missing.
 Equations recursive(const Mechanism& mechanism);
 
+/// The tree with all forces but gravity's along its coordinates: what is needed where M is not.
+JointTree loaded_tree(const Mechanism& mechanism);
+
 }  // namespace alembert

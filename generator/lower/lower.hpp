@@ -8,9 +8,11 @@
 ///
 /// Groups of roots: "mass" (lower triangle, row by row), "forcing", "acceleration", "kinetic", "potential",
 /// "energy", "power", "jacobi", "output", "event"; of constraints "row" (A, n each), "position", "velocity", "gamma" (of those
-/// with a multiplier), "multiplier"; of a scene with speeds "speed", "speed_rate".
+/// with a multiplier), "multiplier"; where the speeds are the rates "projected" (q, q' at the constraints), "pivot" (solve.hpp); of a scene with speeds "speed", "speed_rate".
 /// Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u',
 /// and there are "rate" (q'), "second_rate" (q'') and "speed_row" (A in speeds; zeros for eliminated constraints).
+
+#include <functional>
 
 #include "formalism/equations.hpp"
 #include "lower/program.hpp"
@@ -37,5 +39,12 @@ int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::
 /// The same for several expressions, in the state too. `given`: symbols that are no part of the scene's state, each with its node.
 std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism, const std::vector<GiNaC::ex>& list,
                                    const std::vector<std::pair<GiNaC::symbol, int>>& given = {});
+
+/// The same one by one, each with all that it is defined by. What it is given must outlive it.
+std::function<int(const GiNaC::ex&)> lowering_into(Program& program, const Mechanism& mechanism,
+                                                   const std::vector<std::pair<GiNaC::symbol, int>>& given = {});
+
+/// Names and parameters of a program, no nodes yet.
+Program begun(const Mechanism& mechanism, bool fold = false);
 
 }  // namespace alembert

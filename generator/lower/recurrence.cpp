@@ -221,7 +221,9 @@ private:
                 for (std::size_t k = 0; k < node.args.size(); ++k) add_to(f, {node.coefficients[k], -1}, form(node.args[k]));
                 return f;
             }
-            case Op::product: return product(node);
+            case Op::product:
+                if (auto with_roots = product_with_roots(id)) return *std::move(with_roots);
+                return product(node);
             default: return function(node);
         }
     }
@@ -257,6 +259,10 @@ private:
                 }
             }
         }
+        return assembled(weight, factors, divisors);
+    }
+
+    Form assembled(Weight weight, const std::vector<int>& factors, const std::vector<Scaled>& divisors) {
         Form f;
         if (factors.empty())
             f.constants = {{}};
@@ -275,6 +281,63 @@ private:
         Form result;
         add_to(result, weight, f);
         return result;
+    }
+
+    /// Factors of factors and what stands under their roots, each with its exponent in `exponents`.
+    void flatten(int id, const Rational& exponent, std::map<int, Rational>& exponents) const {
+        const Node& x = result_.program[id];
+        if (x.is_constant() || (x.op != Op::sqrt && x.op != Op::product)) {
+            exponents.try_emplace(id, 0).first->second = exponents[id] + exponent;
+        } else if (x.op == Op::sqrt) {
+            flatten(x.args[0], exponent / 2, exponents);
+        } else {
+            for (std::size_t k = 0; k < x.args.size(); ++k) flatten(x.args[k], exponent * x.exponents[k], exponents);
+        }
+    }
+
+    /// A product in which something stands under roots with an exponent beyond 1, as in r^(-3): one recurrence instead of a
+    /// quotient for each r. Nothing where there is no such thing.
+    std::optional<Form> product_with_roots(int id) {
+        std::map<int, Rational> exponents;
+        flatten(id, 1, exponents);
+        const auto is_whole = [](const Rational& e) { return cln::equal(cln::denominator(e), 1); };
+        const auto is_root = [&](const auto& one) {
+            return !p()[one.first].is_constant() && cln::equal(cln::denominator(one.second), 2) && cln::abs(one.second) > 1;
+        };
+        const auto is_plain = [&](const auto& one) { return is_root(one) || (is_whole(one.second) && cln::abs(one.second) <= 16); };
+        if (std::none_of(exponents.begin(), exponents.end(), is_root) || !std::all_of(exponents.begin(), exponents.end(), is_plain)) return std::nullopt;
+        Weight weight;
+        std::vector<int> factors, powers;
+        std::vector<Scaled> divisors;
+        for (const auto& [base, exponent] : exponents) {
+            if (is_root(std::pair(base, exponent))) {
+                powers.push_back(power_of(base, exponent));
+                continue;
+            }
+            for (Rational rest = cln::abs(exponent); rest > 0; rest = rest - 1) {
+                if (p()[base].is_constant()) {
+                    weight = cln::minusp(exponent) ? over(weight, tidy(1, base)) : times(weight, tidy(1, base));
+                } else if (cln::minusp(exponent)) {
+                    divisors.push_back(divisor(base));
+                } else {
+                    const Scaled factor = scaled(form(base));
+                    weight = times(weight, factor.weight);
+                    factors.push_back(factor.node);
+                }
+            }
+        }
+        factors.insert(factors.begin(), powers.begin(), powers.end());
+        return assembled(weight, factors, divisors);
+    }
+
+    int power_of(int base, const Rational& exponent) {
+        const auto [place, is_new] = powers_.try_emplace({base, exponent}, -1);
+        if (is_new) {
+            SeriesNode made{.kind = Kind::power, .a = node_of(form(base))};
+            made.exponent = {exponent, -1};
+            place->second = add(std::move(made));
+        }
+        return place->second;
     }
 
     /// Divided by as often as its reciprocal is used, which its own count of uses does not show.
@@ -374,6 +437,12 @@ private:
     std::map<Variable, int, Less> given_;
     std::map<std::pair<int, int>, int> products_, quotients_;
     std::map<std::pair<int, bool>, int> pairs_;
+    struct Smaller {
+        bool operator()(const std::pair<int, Rational>& a, const std::pair<int, Rational>& b) const {
+            return a.first != b.first ? a.first < b.first : a.second < b.second;
+        }
+    };
+    std::map<std::pair<int, Rational>, int, Smaller> powers_;
 };
 
 double of(const std::vector<SeriesNode::Bilinear>& list) {

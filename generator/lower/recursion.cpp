@@ -155,4 +155,20 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     return result;
 }
 
+std::vector<int> inverse_recursion(Program& program, const JointTree& joints, Intermediates& z, const std::vector<GiNaC::symbol>& qddot,
+                                   const std::function<int(const GiNaC::ex&)>& lowering) {
+    const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
+    BodyTree<Symbolic> tree = regrouped(dressed<Symbolic>(joints, LinkAxes::own, z, value));
+    for (std::size_t j = 0; j < joints.joints.size(); ++j) {
+        GiNaC::ex w = joints.joints[j].drift;
+        for (std::size_t a = 0; a < qddot.size(); ++a) w += joints.joints[j].row[a] * qddot[a];
+        tree.links[j].drift = value(z.name(w));
+    }
+    std::vector<int> loads;
+    for (const Symbolic& s : joint_loads(tree, Bias<Symbolic>(tree).wrenches)) loads.push_back(s.node(program));
+    loads = Change(program, joints, LinkAxes::own).forces(loads);
+    for (std::size_t a = 0; a < loads.size(); ++a) loads[a] = program.sum(0, {{1, loads[a]}, {-1, lowering(joints.forces[a])}});
+    return loads;
+}
+
 }  // namespace alembert

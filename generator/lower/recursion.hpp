@@ -24,4 +24,9 @@ struct RecursionNodes {
 RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form,
                          const std::function<int(const GiNaC::ex&)>& lowering);
 
+/// The loads along the coordinates that accelerations q'' need beside those of the tree: Newton-Euler outwards at these
+/// accelerations, and inwards; M is never made. `qddot`: the symbols of q''.
+std::vector<int> inverse_recursion(Program& program, const JointTree& tree, Intermediates& z, const std::vector<GiNaC::symbol>& qddot,
+                                   const std::function<int(const GiNaC::ex&)>& lowering);
+
 }  // namespace alembert

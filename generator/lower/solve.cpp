@@ -3,6 +3,7 @@
 // (Golub & Van Loan, Matrix Computations, §4.1).
 #include "lower/solve.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace alembert {
@@ -12,7 +13,7 @@ namespace {
 class Elimination {
 public:
     Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides, int preferred)
-        : p_(program), preferred_(preferred), n_(static_cast<int>(sides[0].size())), b_(std::move(sides)), rows_(n_, std::vector<int>(n_)) {
+        : p_(program), preferred_(preferred), n_(static_cast<int>(sides[0].size())), b_(std::move(sides)), rows_(n_, std::vector<int>(n_)), later_pivots_(n_ - preferred, -1) {
         for (int i = 0, k = 0; i < n_; ++i)
             for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
     }
@@ -24,12 +25,16 @@ public:
             const int place = next_pivot(left);
             if (place < 0) return with_exchanges(left);
             const int k = left[place];
+            if (k >= preferred_) later_pivots_[k - preferred_] = p_.product(-1, {{rows_[k][k], 1}});
             left.erase(left.begin() + place);
             eliminate(k, left);
             order_.push_back(k);
         }
         return back_substituted({b_.size(), std::vector<int>(n_, -1)});
     }
+
+    /// After `solve`.
+    const std::vector<int>& later_pivots() const { return later_pivots_; }
 
 private:
     int times(int a, int b) { return p_.product(1, {{a, 1}, {b, 1}}); }
@@ -115,6 +120,7 @@ private:
     std::vector<std::vector<int>> b_;  // right-hand sides, one after the other
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
+    std::vector<int> later_pivots_;  // with the sign changed; −1 where rows were exchanged
 };
 
 }  // namespace
@@ -124,6 +130,14 @@ std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vec
     auto solutions = Elimination(program, lower, {f}, preferred).solve();
     if (!solutions) return std::nullopt;
     return std::move(solutions->front());
+}
+
+std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred) {
+    Elimination elimination(program, lower, {std::vector<int>(size, program.number(0))}, preferred);
+    elimination.solve();
+    std::vector<int> pivots = elimination.later_pivots();
+    if (std::count(pivots.begin(), pivots.end(), -1) > 0) pivots.clear();
+    return pivots;
 }
 
 std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,

@@ -23,4 +23,8 @@ std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vec
 std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
                                                              const std::vector<std::vector<int>>& sides, int preferred);
 
+/// What the same elimination divides by for the unknowns that are not preferred, in their order; for [M Aᵀ; A 0] with the sign
+/// changed the pivots of A M⁻¹Aᵀ, of which some vanish where rows of A depend on each other. Empty where rows had to be exchanged.
+std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred);
+
 }  // namespace alembert

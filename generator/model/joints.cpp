@@ -153,6 +153,7 @@ JointArc arc_of(const Joint& joint, Places& places) {
     const Motion motion = motion_of(joint, places);
     const Orientation inner = axes_of(forwards ? joint.parent : joint.child, places), parent = axes_of(joint.parent, places),
                       relative = turned(Orientation(), forwards ? motion.turns : backwards(motion.turns), places);
+    arc.shift = motion.shift;
     arc.turning = relative.to_inertial(relative.angular_velocity(), z);
     // Not as differences of positions, which lose digits far from O.
     const auto arm = [&](const Joint::Side& side) {

@@ -64,7 +64,8 @@ struct JointArc {
     Vector3 to_pivot = {};                   ///< from the inner mass centre (from O) to the joint's point of the child, along N
     Vector3 from_pivot = {};                 ///< on to the outer mass centre (to O)
     std::array<Vector3, 3> slide_axes = {};  ///< the joint's axes in the parent, along N
-    Vector3 sliding = {};                    ///< rate of the child's point against the parent's, along `slide_axes`
+    Vector3 shift = {};                      ///< of the child's point against the parent's, along `slide_axes`
+    Vector3 sliding = {};                    ///< its rate
 
     int inner() const { return role == Role::places_parent ? child : parent; }
     int outer() const { return role == Role::places_parent ? parent : child; }

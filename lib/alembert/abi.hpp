@@ -69,6 +69,17 @@ struct alembert_derivative_table {
     void (*parameter_jacobian)(double t, const double* state, const double* par, double* values);  ///< null if not asked for
 };
 
+/// What `alembert_projection()` returns, of an emitted file of a system with constraints in coordinates and their rates.
+struct alembert_projection_table {
+    int abi;
+    /// moved: n + s, the state after one step of Newton's method to the constraints, in the metric of M; position: m, f at the
+    /// state given; pivots: m, of A M⁻¹Aᵀ, in some order of elimination, where none vanishes at every state.
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    /// gamma: m, of A u' = γ.
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
 /// What `alembert_pack()` of a file emitted with `--batch` returns: the functions of the same name above for `lanes`
 /// systems at once. Each number of theirs becomes `lanes` of them side by side, one of each system (its own time and
 /// parameters too): q₁ is at state[lanes] … state[2·lanes − 1]. Arrays begin at multiples of 64 bytes. What happens in one

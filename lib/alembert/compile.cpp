@@ -100,6 +100,8 @@ std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOp
                                       "-march=native",   "-ffp-contract=fast",
                                       "-fno-math-errno", "-fno-trapping-math",
                                       "-nostdlib",       "-pipe"};
+    // g++ 12 permutes lanes wrongly where it vectorizes copies between arrays with AVX-512; straight-line code gains nothing by it.
+    flags.emplace_back("-fno-tree-slp-vectorize");
     // At -O1 g++ leaves out vzeroupper: the host's own SSE code would then run many times slower after a call.
     if (source_size > large_source) flags.emplace_back("-fexpensive-optimizations");
     if (options.fast_math)

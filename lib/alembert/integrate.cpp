@@ -75,6 +75,41 @@ Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options
     return Run<AnyStep>(rhs, initial, options, events).go();
 }
 
+/// The rest of a run that was found to be stiff, rows on the same grid.
+void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Events& events) {
+    const double end = options.start + options.duration, interval = sample_interval(options);
+    Options rest = options;
+    rest.method = *options.when_stiff;
+    rest.when_stiff = {};
+    rest.rhs_when_stiff = {};
+    rest.start = first.times.back();
+    rest.duration = end - rest.start;
+    rest.step = 0;
+    rest.sample = interval;
+    rest.grid = options.grid.value_or(options.start);
+    rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
+    const std::vector<double> state(first.final_state().begin(), first.final_state().end());
+    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
+    const double rows = (rest.start - *rest.grid) / interval;
+    if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && second.rows() > 1) {
+        first.times.pop_back();
+        first.states.resize(first.states.size() - static_cast<std::size_t>(first.dimension));
+    }
+    first.times.insert(first.times.end(), second.times.begin() + 1, second.times.end());
+    first.states.insert(first.states.end(), second.states.begin() + first.dimension, second.states.end());
+    first.events.insert(first.events.end(), second.events.begin(), second.events.end());
+    first.statistics.steps += second.statistics.steps;
+    first.statistics.rejected += second.statistics.rejected;
+    first.statistics.evaluations += second.statistics.evaluations;
+    first.ending = second.ending;
+    first.failure = std::move(second.failure);
+    if (first.failure && first.failure->kind == FailureKind::budget_used_up)
+        first.failure->message = fmt::format(
+            "{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget (--budget), loosen the "
+            "tolerance or shorten the duration",
+            options.budget, first.failure->time);
+}
+
 struct MethodEntry {
     Method method;
     std::string_view name;
@@ -134,6 +169,10 @@ std::string method_names() {
     return names;
 }
 
+bool uses_jacobian(Method method) {
+    return (method >= Method::radau && method <= Method::radau13) || method == Method::bdf || method == Method::gauss;
+}
+
 bool needs_series(Method method) {
     return method == Method::taylor;
 }
@@ -147,6 +186,7 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
     check_options(rhs, initial, options);
     const double start = thread_seconds();
     Trajectory result = entry(options.method).run(rhs, initial, options, events);
+    if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;
     return result;
 }

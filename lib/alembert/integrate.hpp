@@ -16,7 +16,7 @@
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
-/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉, 22 at 1e-18 | adaptive, or fixed with `step` | its order | it grows with the order: to hλ = -8 at order 16 |
+/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉ or, where that is faster, more; at most 32 | adaptive, or fixed with `step` | its order | to about hλ = -1.3 - 0.37 order |
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
@@ -28,7 +28,7 @@
 /// | radau | 5, 9 or 13, as the steps suggest | adaptive, stiff | 3, 5 or 7 | likewise |
 ///
 /// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
-/// as given, at any size; below about 1e-15 rounding is larger than that and only makes the run slow. In a step
+/// as given; below 4.4e-16, where an estimate is rounding alone and a shorter step no better, as 4.4e-16 (taylor: at any size). In a step
 /// that a row or an event falls in, dense output adds its own error, for dop853 somewhat more than the tolerance;
 /// the last row of a run that completes is the end of a step.
 ///
@@ -54,6 +54,8 @@ enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet,
 std::string_view name(Method method);
 std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
+/// Implicit methods that solve their equations with ∂f/∂y.
+bool uses_jacobian(Method method);
 /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
 bool needs_separable(Method method);
 /// Only for right-hand sides with Rhs::series.
@@ -76,6 +78,9 @@ struct Options {
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
+    /// Where the steps of an explicit method are found to be held down by stiffness (stiffness.hpp), the run goes on with this one.
+    std::optional<Method> when_stiff = {};
+    std::function<Rhs()> rhs_when_stiff = {};  ///< the same system, with its Jacobian; asked for then; empty: the same Rhs
     OnStep on_step = {};       ///< may be empty
     /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
     std::function<void(double t, double* state)> project = {};

@@ -38,12 +38,18 @@ Module load(const std::filesystem::path& object) {
             fmt::format("{} was emitted for version {} of the solver ABI, this program has version {}; "
                         "emit it again",
                         object.string(), table->abi, abi_version));
-    using Further = const alembert_derivative_table* (*)();
-    using PackEntry = const alembert_pack_table* (*)();
-    const auto further = reinterpret_cast<Further>(file.find("alembert_derivatives"));
-    const auto pack_entry = reinterpret_cast<PackEntry>(file.find("alembert_pack"));
-    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), further != nullptr ? further() : nullptr,
-                  pack_entry != nullptr ? pack_entry() : nullptr);
+    const auto further = [&]<class Table>(const char* name, const Table*& place) {
+        using Make = const Table* (*)();
+        const auto make = reinterpret_cast<Make>(file.find(name));
+        place = make != nullptr ? make() : nullptr;
+    };
+    const alembert_derivative_table* derivatives = nullptr;
+    const alembert_projection_table* projection = nullptr;
+    const alembert_pack_table* pack = nullptr;
+    further("alembert_derivatives", derivatives);
+    further("alembert_projection", projection);
+    further("alembert_pack", pack);
+    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection, pack);
 }
 
 std::vector<double> prepared(const Module& module, const std::vector<double>& values) {

@@ -34,15 +34,19 @@ public:
     const alembert_solver_table& table() const { return *table_; }
     /// Null where the file was emitted without.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
+    /// Null where the system has no constraints, or the speeds are not the rates.
+    const alembert_projection_table* projection() const { return projection_; }
     /// Null where the file was emitted without `--batch`.
     const alembert_pack_table* pack() const { return pack_; }
 
 private:
     friend Module load(const std::filesystem::path& object);
-    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives, const alembert_pack_table* pack)
-        : table_(std::move(table)), derivatives_(derivatives), pack_(pack) {}
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives, const alembert_projection_table* projection,
+           const alembert_pack_table* pack)
+        : table_(std::move(table)), derivatives_(derivatives), projection_(projection), pack_(pack) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
     const alembert_derivative_table* derivatives_;        ///< in it
+    const alembert_projection_table* projection_;         ///< in it
     const alembert_pack_table* pack_;                     ///< in it
 };
 

@@ -116,6 +116,7 @@ private:
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
         here.project = mode.project;
+        here.rhs_when_stiff = mode.rhs_when_stiff;
         here.on_step = mode.on_step;
         const Events events = count_ > 0 ? watched(mode) : mode.events;
         Trajectory motion = integrate(mode.rhs, state_, here, events);
@@ -154,6 +155,7 @@ private:
         sum.evaluations += s.evaluations;
         sum.seconds += s.seconds;
         sum.method = s.method;
+        if (!sum.switched) sum.switched = s.switched;
     }
 
     /// The mode's events, those of the contacts held against their bounds and stopping the phase.

@@ -22,6 +22,7 @@ namespace alembert {
 struct ContactMode {
     Rhs rhs = {};
     Events events = {};  ///< the scene's; then one for each contact: its reaction where closed, its gap where open
+    std::function<Rhs()> rhs_when_stiff = {};  ///< with the Jacobian (Options); may be empty
     std::function<void(double t, double* state)> project = {};  ///< to the constraints of the mode; may be empty
     OnStep on_step = {};                                        ///< may be empty
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "alembert/project.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace alembert {
@@ -8,6 +9,14 @@ namespace alembert {
 namespace {
 
 constexpr int most_rounds = 8;  // Newton's method from the end of an accepted step needs one or two
+constexpr double small_change = 1e-8;  // its square is rounding
+constexpr double singular_pivot = 1e-5;
+constexpr double held = 5e-5;
+
+struct Guard {
+    Rhs rhs;
+    Projection* projection;
+};
 
 }  // namespace
 
@@ -20,21 +29,82 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       position_(m_),
       velocity_(m_),
       forcing_(s_),
+      gamma_(m_),
       mass_(s_, s_),
-      rows_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(n_ + s_)) {}
+      rows_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(n_ + s_)),
+      moved_(static_cast<std::size_t>(n_ + s_)),
+      misfit_(static_cast<std::size_t>(m_)),
+      pivots_(misfit_.size(), 1),
+      largest_pivots_(misfit_.size()) {}
 
 void Projection::evaluate(double t, const double* state) {
     module_.table().constraints_at(t, state, par_.data(), position_.data(), velocity_.data(), rows_.data());
     module_.table().mass_forcing(t, state, par_.data(), mass_.data(), forcing_.data());
 }
 
-/// M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ misfit
+/// Of those that the emitted step has met.
+bool Projection::pivots_are_small() {
+    bool small = false;
+    for (std::size_t k = 0; k < pivots_.size(); ++k) {
+        largest_pivots_[k] = std::max(largest_pivots_[k], pivots_[k]);
+        small = small || !(pivots_[k] > singular_pivot * largest_pivots_[k]);
+    }
+    return small;
+}
+
+/// x of least norm with B x = r; near a singular pose x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), rows measured with the largest that they
+/// have been: with a direction held by σ it changes by σ²/(σ² + τ²), smoothly.
+Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
+    if (!is_near_singular_) return B.completeOrthogonalDecomposition().solve(r);
+    for (Eigen::Index k = 0; k < B.rows(); ++k) {
+        const double length = std::sqrt(largest_pivots_[static_cast<std::size_t>(k)]);
+        if (!(length > 0)) continue;
+        B.row(k) /= length;
+        r[k] /= length;
+    }
+    Eigen::MatrixXd G = B * B.transpose();
+    G.diagonal().array() += held * held;
+    return B.transpose() * G.llt().solve(r);
+}
+
+/// By the emitted step; false where that is not to be trusted.
+bool Projection::unrolled(double t, double* state) {
+    if (module_.projection() == nullptr) return false;
+    is_near_singular_ = false;
+    double former = HUGE_VAL;
+    for (int round = 0; round < most_rounds; ++round) {
+        module_.projection()->project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
+        double size = 0, change = 0, zero = 0;
+        for (int k = 0; k < m_; ++k) size = std::max(size, std::abs(misfit_[static_cast<std::size_t>(k)]));
+        for (std::size_t i = 0; i < moved_.size(); ++i) {
+            change = i < static_cast<std::size_t>(n_) ? std::max(change, std::abs(moved_[i] - state[i]) / std::max(1.0, std::abs(state[i]))) : change;
+            zero += moved_[i] * 0;
+        }
+        if (zero != 0 || pivots_are_small()) {
+            is_near_singular_ = true;
+            return false;
+        }
+        if (!(size < former / 2) && size > 0) return true;
+        former = size;
+        std::copy(moved_.begin(), moved_.end(), state);
+        if (change < small_change) return true;
+    }
+    return true;
+}
+
+/// M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ misfit = L⁻ᵀ (A L⁻ᵀ)⁺ misfit
 Eigen::VectorXd Projection::correction(const Rows& A, bool weighed, const Eigen::VectorXd& misfit) const {
-    const Eigen::MatrixXd across = weighed ? Eigen::MatrixXd(mass_.ldlt().solve(A.transpose())) : Eigen::MatrixXd(A.transpose());
-    return across * (A * across).completeOrthogonalDecomposition().solve(misfit);
+    if (!weighed) return least(A, misfit);
+    const Eigen::LLT<Eigen::MatrixXd> factors(mass_);
+    if (factors.info() != Eigen::Success) {
+        const Eigen::MatrixXd across = mass_.ldlt().solve(A.transpose());
+        return across * (A * across).completeOrthogonalDecomposition().solve(misfit);
+    }
+    return factors.matrixU().solve(least(factors.matrixL().solve(A.transpose()).transpose(), misfit));
 }
 
 void Projection::operator()(double t, double* state) {
+    if (unrolled(t, state)) return;
     Eigen::Map<Eigen::VectorXd> q(state, n_), u(state + n_, s_);
     const bool own_speeds = module_.table().speed_names != nullptr;
     const Eigen::Map<const Rows> in_rates(rows_.data(), m_, n_), in_speeds(rows_.data() + (own_speeds ? m_ * n_ : 0), m_, s_);
@@ -60,6 +130,44 @@ void Projection::operator()(double t, double* state) {
 double Projection::residual(double t, const double* state) {
     evaluate(t, state);
     return m_ == 0 ? 0 : std::max(position_.lpNorm<Eigen::Infinity>(), velocity_.lpNorm<Eigen::Infinity>());
+}
+
+/// u' = L⁻ᵀ (L⁻¹ f + x), x of least norm with (A L⁻ᵀ) x = γ − A M⁻¹ f
+bool Projection::accelerations(double t, const double* state, double* acceleration) {
+    evaluate(t, state);
+    module_.projection()->gamma_at(t, state, par_.data(), gamma_.data());
+    const Eigen::LLT<Eigen::MatrixXd> factors(mass_);
+    if (factors.info() != Eigen::Success) return false;
+    const Eigen::Map<const Rows> A(rows_.data(), m_, n_);
+    const Eigen::MatrixXd across = factors.matrixL().solve(A.transpose());
+    const Eigen::VectorXd free = factors.matrixL().solve(forcing_);
+    const Eigen::VectorXd found = factors.matrixU().solve(free + least(across.transpose(), gamma_ - across.transpose() * free));
+    std::copy_n(found.data(), s_, acceleration);
+    return true;
+}
+
+void Projection::careful(const void* context, double t, const double* state, double* rate) {
+    const Guard& guard = *static_cast<const Guard*>(context);
+    Projection& self = *guard.projection;
+    guard.rhs(t, state, rate);
+    if (!self.is_near_singular_ || !self.accelerations(t, state, rate + self.n_)) return;
+    if (guard.rhs.dimension == self.n_ + self.s_) return;
+    double energy[4], jacobi = 0;
+    self.module_.table().energy(t, state, rate, self.par_.data(), energy, &jacobi);
+    rate[self.n_ + self.s_] = energy[3];
+}
+
+Rhs Projection::guarded(Rhs rhs) {
+    if (module_.projection() == nullptr) return rhs;
+    Rhs result = rhs;
+    result.context = std::make_shared<const Guard>(Guard{std::move(rhs), this});
+    result.call = careful;
+    if (result.jacobian != nullptr)
+        result.jacobian = [](const void* context, double t, const double* state, double* values) {
+            const Rhs& inner = static_cast<const Guard*>(context)->rhs;
+            inner.jacobian(inner.context.get(), t, state, values);
+        };
+    return result;
 }
 
 }  // namespace alembert

@@ -61,7 +61,8 @@ Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {
             .call = [](const void* context, double t, const double* state,
                        double* rate) { static_cast<const Both*>(context)->first(t, state, rate); },
             .jacobian = [](const void* context, double t, const double* state,
-                           double* values) { static_cast<const Both*>(context)->second(t, state, values); }};
+                           double* values) { static_cast<const Both*>(context)->second(t, state, values); },
+            .series = {}};
 }
 
 /// Any function f(t, const double* state, double* rate).

@@ -26,6 +26,7 @@
 #include "alembert/integrate.hpp"
 #include "alembert/step.hpp"
 #include "alembert/step_size.hpp"
+#include "alembert/stiffness.hpp"
 
 namespace alembert {
 
@@ -43,8 +44,10 @@ public:
           end_(options.start + options.duration),
           grid_(options.grid.value_or(options.start)),
           events_(events),
-          step_(rhs, options.start, initial, options.tolerance),
+          tolerance_(tolerance_within_rounding(options.tolerance)),
+          step_(rhs, options.start, initial, tolerance_),
           watch_(events, rhs),
+          stiffness_(stable_interval()),
           row_(initial.size()),
           event_rate_(initial.size()) {
         result_.dimension = rhs.dimension;
@@ -77,8 +80,10 @@ public:
     }
 
 private:
-    long evaluations() const { return step_.evaluations() + watch_.evaluations() + further_evaluations_; }
-    bool ended() const { return result_.ending != Ending::completed; }
+    long evaluations() const {
+        return step_.evaluations() + watch_.evaluations() + stiffness_.evaluations() + further_evaluations_;
+    }
+    bool ended() const { return result_.ending != Ending::completed || result_.statistics.switched; }
 
     void steps() {
         if constexpr (AnyStep::has_fixed_step)
@@ -87,6 +92,17 @@ private:
             fixed_steps();
         else
             adaptive_steps();
+    }
+
+    /// An estimate that is rounding alone does not get smaller with the step. A series has no such estimate.
+    static double tolerance_within_rounding(double tolerance) {
+        if constexpr (requires(AnyStep s) { s.first_length(); }) return tolerance;
+        return std::max(tolerance, 2 * std::numeric_limits<double>::epsilon());
+    }
+
+    double stable_interval() const {
+        if constexpr (requires { step_.stable_interval(); }) return step_.stable_interval();
+        return StiffnessWatch::stable_interval(options_.method);
     }
 
     bool takes_fixed_steps() const {
@@ -111,7 +127,7 @@ private:
         if constexpr (requires { step_.first_length(); }) {
             h = step_.first_length();
         } else if (h == 0) {
-            h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), options_.tolerance,
+            h = starting_step(step_.rhs(), step_.time(), step_.state(), step_.rate(), tolerance_,
                               AnyStep::estimate_order, longest);
             ++further_evaluations_;
         }
@@ -124,13 +140,13 @@ private:
                 return fail_underflow(misfit, h);
             step_.attempt(step_.time() + 1.01 * h < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
-            if (misfit <= options_.tolerance && !finish()) misfit = HUGE_VAL;
-            const bool good = misfit <= options_.tolerance;
+            if (misfit <= tolerance_ && !finish()) misfit = HUGE_VAL;
+            const bool good = misfit <= tolerance_;
             if (good)
                 accept();
             else
                 ++result_.statistics.rejected;
-            if (step_.time() < end_) h = next_length(control, good, misfit / options_.tolerance);
+            if (step_.time() < end_) h = next_length(control, good, misfit / tolerance_);
         }
     }
 
@@ -162,7 +178,16 @@ private:
         add_rows_before(step_.end_time());
         step_.advance();
         tell(step_.time(), step_.state(), step_.rate());
-        if (step_.time() == end_) add_row(end_, step_.state());
+        if (step_.time() == end_) {
+            add_row(end_, step_.state());
+        } else if (options_.when_stiff && evaluations() < options_.budget &&
+                   stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length())) {
+            result_.statistics.switched = Switch{.time = step_.time(),
+                                                 .method = std::string(name(*options_.when_stiff)),
+                                                 .largest_eigenvalue = stiffness_.largest_eigenvalue(),
+                                                 .step = step_.length()};
+            if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
+        }
     }
 
     std::vector<Crossing> look_for_events() {
@@ -215,7 +240,8 @@ private:
     }
 
     bool is_over_budget() {
-        if (evaluations() + step_.most_evaluations() <= options_.budget) return false;
+        const int watched = options_.when_stiff ? 1 : 0;
+        if (evaluations() + step_.most_evaluations() + watched <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
              fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget "
                          "(--budget), loosen the tolerance or shorten the duration",
@@ -248,7 +274,7 @@ private:
                 ? fmt::format(
                       "{}: {} is the stiffest component, its error was {:.3g} times the tolerance; there may be a "
                       "singularity here, or the tolerance is beyond double precision",
-                      where, component, misfit / options_.tolerance)
+                      where, component, misfit / tolerance_)
                 : fmt::format(
                       "{}: {} or its rate is not finite, however short the step; there is a singularity here",
                       where, component));
@@ -270,8 +296,10 @@ private:
     const double end_;
     const double grid_;  ///< where rows are counted from
     const Events& events_;
+    const double tolerance_;
     AnyStep step_;
     EventWatch watch_;
+    StiffnessWatch stiffness_;
     Trajectory result_;
     std::vector<double> row_;
     std::vector<double> event_rate_;

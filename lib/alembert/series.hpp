@@ -21,7 +21,7 @@ __extension__ using Quad = __float128;
 using Quad = long double;
 #endif
 
-inline constexpr int series_abi_version = 1;
+inline constexpr int series_abi_version = 2;
 inline constexpr int most_order = 32;       ///< of coefficients in double
 inline constexpr int most_order_quad = 40;
 
@@ -35,6 +35,7 @@ struct alembert_series_table {
     int abi;  ///< alembert::series_abi_version of the emitter
     int coordinates, speeds, extra, parameters, constants;
     int workspace, workspace_quad;
+    double order_cost, product_cost;  ///< a series of order p takes order_cost p + product_cost p², a step's own work taking about 1
     const char* scene;
     const double* parameter_values;
     void (*prepare)(double* par);
@@ -57,7 +58,7 @@ struct Series {
     SeriesModule module = {};
     std::shared_ptr<const std::vector<double>> par = {};
     int width = 0;      ///< of the state
-    int workspace = 0;  ///< doubles
+    int workspace = 0;  ///< doubles, 0 at first
 
     explicit operator bool() const { return module != nullptr; }
     void operator()(double t, const double* state, int order, double* out, double* work) const {

@@ -108,6 +108,11 @@ public:
     const Rhs& rhs() const { return ends_.rhs; }
     int most_evaluations() const { return formula_.most_evaluations() + 1; }
     bool solved() const { return solved_; }
+    double stable_interval() const
+        requires requires(const Formula f) { f.stable_interval(); }
+    {
+        return formula_.stable_interval();
+    }
 
     void attempt(double end) {
         ends_.end = end;

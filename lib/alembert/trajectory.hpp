@@ -44,12 +44,21 @@ struct EventRecord {
     std::vector<double> state;
 };
 
+/// An explicit method that gave way to one for stiff systems.
+struct Switch {
+    double time = 0;
+    std::string method;         ///< that the run went on with
+    double largest_eigenvalue;  ///< of ∂f/∂y then, in size, 1/s
+    double step;                ///< s, at which the first method had come to be held
+};
+
 struct Statistics {
     long steps = 0;  ///< accepted
     long rejected = 0;
     long evaluations = 0;  ///< of the right-hand side, those for dense output and events included
     double seconds = 0;    ///< processor time of this thread, without set-up of the system
-    std::string method;
+    std::string method;                 ///< the one of the start
+    std::optional<Switch> switched = {};
 };
 
 struct Trajectory {

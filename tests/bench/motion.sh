@@ -1,32 +1,36 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Speed against error for the hard cases, rivals in the same run:
-#   tests/bench/motion.sh [--case NAME] [--json FILE] [--folder FOLDER] [PROGRAM]
-# writes FOLDER/NAME.svg, .csv and .txt for each case, prints the fastest of each party to each error, and with --json a list of
+#   tests/bench/motion.sh [--case NAME] [--json FILE] [--reference-seconds S] [--folder FOLDER] [PROGRAM]
+# writes FOLDER/NAME.svg, .csv and .txt for each case and FOLDER/index.html with all of them, prints the fastest of each party to each error, and with --json a list of
 # {case, method, tolerance, error, microseconds, evaluations, who}. PROGRAM: build/release/generator/alembert; alembert-peers
 # (libsundials-dev, libgsl-dev, libboost-dev) stands beside it.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
-only= json= folder=$root/build/motion program=$root/build/release/generator/alembert
+only= json= seconds= folder=$root/build/motion program=$root/build/release/generator/alembert
 while [ $# -gt 0 ]; do
     case $1 in
     --case) only=$2; shift 2 ;;
     --json) json=$2; shift 2 ;;
+    --reference-seconds) seconds=$2; shift 2 ;;
     --folder) folder=$2; shift 2 ;;
     -*) sed -n '3,7p' "$0" >&2; exit 3 ;;
     *) program=$1; shift ;;
     esac
 done
 mkdir -p "$folder"
-cases="double_pendulum_chaotic pleiades andrews kepler outer_solar_system flyball_governor car_axis slider_crank cartesian_pendulum
-four_bars_2 bricard free_body heavy_top_fast heavy_top_sleeping kapitza chaplygin_sleigh mass_ratio stiff_spring_pendulum"
+cases="double_pendulum_chaotic pleiades andrews kepler outer_solar_system flyball_governor car_axis slider_crank cartesian_pendulum bouncing_ball
+four_bars_2 large/four_bars_40 large/chain_64 bricard free_body heavy_top_fast heavy_top_sleeping kapitza chaplygin_sleigh mass_ratio stiff_spring_pendulum"
 results=()
 for name in ${only:-$cases}; do
     scene=$root/scenes/benchmark/$name.toml
+    [ -f "$scene" ] || scene=$root/scenes/benchmark/large/$name.toml
+    name=${name#large/}
     [ -f "$scene" ] || { [ -z "$only" ] || { echo "no such case: $name" >&2; exit 3; }; continue; }
     # ten periods and more of the long pendulum say the same
     more=()
     [ "$name" = cartesian_pendulum ] && more=(--duration 10)
+    [ -n "$seconds" ] && more+=(--reference-seconds "$seconds")
     echo "== $name"
     if "$program" bench "$scene" --peers --json --svg "$folder/$name.svg" --csv "$folder/$name.csv" ${more[@]+"${more[@]}"} \
         > "$folder/$name.json" 2> "$folder/$name.err"; then
@@ -58,6 +62,19 @@ PYTHON
         cat "$folder/$name.err"
     fi
 done
+# One page of all that the folder holds.
+{
+    echo '<!doctype html><meta charset="utf-8"><title>Speed against error</title><style>body{font:15px sans-serif;max-width:60em;margin:2em auto}pre{background:#f6f6f6;padding:1em}</style>'
+    echo '<h1>Speed against error</h1><p>Processor time of the integration alone, the same emitted function for all. Solid: alembert; dashed: others.</p>'
+    for table in "$folder"/*.txt; do
+        [ -f "$table" ] || continue
+        name=$(basename "$table" .txt)
+        printf '<h2>%s</h2>\n<img src="%s.svg" alt="%s">\n<pre>\n' "$name" "$name" "$name"
+        sed 's/&/\&amp;/g; s/</\&lt;/g' "$table"
+        echo '</pre>'
+    done
+} > "$folder/index.html"
+
 [ -z "$json" ] || python3 - "$json" ${results[@]+"${results[@]}"} <<'PYTHON'
 import json
 import os

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Motions with unilateral contacts measured: the row of the benchmark of a ball that bounces.
+///
+///     const Bounces bounces = measured_bounces(request, derived, start, first);
+///     bounces.runs[0].error;
+///
+/// `error` is the largest of: |y − reference| / max(1, |reference|) at the end, and the same of the times of impacts (those that both runs
+/// have: a loose run lays a ball down earlier), of releases and of comings to rest. The reference is the strictest run of one method, in
+/// doubles; the digits are those in which another method agrees. Seconds: processor time of the whole run, impacts included.
+
+#include "commands/measure.hpp"
+
+namespace alembert {
+
+struct Bounces {
+    std::vector<Measured> runs;
+    std::vector<double> final;  ///< coordinates, then rates
+    int digits = 0;
+    std::string by;
+};
+
+/// Throws IntegrationError where no run comes to the end.
+Bounces measured_bounces(const Request& request, const Derived& derived, const Start& start, const State<double>& first);
+
+}  // namespace alembert

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/method.hpp"
+
+#include <fmt/format.h>
+
+#include "alembert/error.hpp"
+#include "commands/separable.hpp"
+#include "lower/recurrence.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double many_steps = 1e4;
+constexpr double most_products = 300;  // of a series that compiles in about a second
+
+/// Cauchy products at each order; nothing where there is no series.
+std::optional<double> products_of_series(const Program& program, const Derived& d) {
+    if (!d.mechanism.unilateral.empty()) return std::nullopt;
+    if (program.count(program.right_hand_side()).total() > 20 * most_products) return std::nullopt;
+    try {
+        return recurrences(program).products();
+    } catch (const ModelError&) {
+        return std::nullopt;
+    }
+}
+
+MethodChoice automatic(const Request& request, const Derived& d, const Program& program, const Start& start) {
+    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
+    const double step = wish(request.step, start.step), duration = wish(request.duration, start.duration);
+    const double tolerance = wish(request.tolerance, start.tolerance);
+    if (step > 0) {
+        const double steps = duration / step;
+        if (steps >= many_steps && !inseparable(d))
+            return {.method = Method::kahanli8,
+                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in {:.3g} steps the energy must "
+                                       "not drift",
+                                       steps)};
+        return {.method = Method::rk4, .why = "a fixed step was asked for"};
+    }
+    if (tolerance < 1e-12)
+        if (const auto products = products_of_series(program, d); products && *products <= most_products)
+            return {.method = Method::taylor,
+                    .when_stiff = Method::radau,
+                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at each order); if the system turns out "
+                                       "stiff, radau goes on",
+                                       tolerance, *products)};
+    const Method method = tolerance > 1e-5 ? Method::dopri5 : tolerance >= 1e-12 ? Method::dop853 : Method::verner98;
+    return {.method = method,
+            .when_stiff = Method::radau,
+            .why = fmt::format("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
+}
+
+}  // namespace
+
+std::optional<Method> given_method(const Request& request, const Derived& d) {
+    const std::string given = request.method.empty() ? d.mechanism.run.method : request.method;
+    if (given == "auto") return std::nullopt;
+    const auto known = method_named(given);
+    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, {}", given, method_names()));
+    if (needs_separable(*known)) need_separable(d, given);
+    return known;
+}
+
+MethodChoice method_for(const Request& request, const Derived& d, const Program& program, const Start& start) {
+    if (const auto given = given_method(request, d)) return {.method = *given};
+    return automatic(request, d, program, start);
+}
+
+}  // namespace alembert

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lower/inverse.hpp"
+
+#include <fmt/format.h>
+
+#include "formalism/joint_tree.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/recursive.hpp"
+#include "formalism/routh.hpp"
+#include "lower/lower.hpp"
+#include "lower/recursion.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// Nothing for what is no tree of joints.
+std::optional<JointTree> tree_of(const Mechanism& m) {
+    try {
+        return loaded_tree(m);
+    } catch (const ModelError&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+std::vector<int> inverse_loads(Program& program, const Mechanism& m, const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    std::vector<std::pair<GiNaC::symbol, int>> known = given;
+    for (const Mechanism::Unilateral& contact : m.unilateral) known.emplace_back(contact.gap.multiplier, program.number(0));
+    const auto tree = tree_of(m);
+    if (tree) {
+        const auto lowering = lowering_into(program, m, known);
+        return inverse_recursion(program, *tree, *m.z, m.qddot, lowering);
+    }
+    const Equations e = m.constraints.empty() ? lagrange(m) : routh(m);
+    const auto lowering = lowering_into(program, m, known);
+    std::vector<int> loads;
+    for (int i = 0; i < m.size(); ++i) {
+        std::vector<Program::Term> terms{{-1, lowering(e.forcing(i))}};
+        for (int j = 0; j < m.size(); ++j) terms.emplace_back(1, program.product(1, {{lowering(e.M(i, j)), 1}, {lowering(m.qddot[j]), 1}}));
+        loads.push_back(program.sum(0, terms));
+    }
+    return loads;
+}
+
+Program lower_inverse(const Mechanism& m) {
+    Program program = begun(m);
+    const std::vector<int> loads = inverse_loads(program, m);
+    for (int i = 0; i < m.size(); ++i) program.roots.push_back({"load", m.q[i].get_name(), loads[i]});
+    const auto lowering = lowering_into(program, m);
+    for (const Mechanism::Constraint& c : m.constraints) {
+        for (int i = 0; i < m.size(); ++i) program.roots.push_back({"row", fmt::format("{}_{}", c.name, i), lowering(c.row[i])});
+        program.roots.push_back({"gamma", c.name, lowering(c.acceleration)});
+    }
+    return program.canonical();
+}
+
+}  // namespace alembert

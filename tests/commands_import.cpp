@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+// Robots as scenes: accelerations by the recursion on the imported tree against a Newton-Euler of this file, which reads the URDF's
+// numbers by itself, goes link by link (fixed ones too) along the axes of the world, and knows neither merged bodies nor scenes.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+using V3 = Eigen::Vector3d;
+using M3 = Eigen::Matrix3d;
+
+namespace {
+
+std::string contents(const std::string& path) {
+    std::ifstream stream(path);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+V3 three(const std::string& text) {
+    std::istringstream in(text);
+    V3 v = V3::Zero();
+    in >> v[0] >> v[1] >> v[2];
+    return v;
+}
+
+M3 about(const V3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
+M3 of_rpy(const V3& a) { return about(V3::UnitZ(), a[2]) * about(V3::UnitY(), a[1]) * about(V3::UnitX(), a[0]); }
+
+struct Body {
+    double mass = 0;
+    V3 centre = V3::Zero(), centre_rpy = V3::Zero();
+    M3 inertia = M3::Zero();
+};
+/// A simple joint with its child; floating ones are six.
+struct Hinge {
+    std::string name, type, parent, child, leader;
+    V3 xyz = V3::Zero(), rpy = V3::Zero(), axis = V3::UnitX();
+    double damping = 0, factor = 1, offset = 0;
+};
+
+struct Model {
+    std::map<std::string, Body> bodies;
+    std::vector<Hinge> hinges;  ///< parents first
+
+    explicit Model(const std::string& file) {
+        const std::string text = std::regex_replace(contents(file), std::regex("<!--[^]*?-->"), "");
+        const std::regex tag("<(/?)(\\w+)([^>]*?)(/?)>"), attribute("(\\w+)=\"([^\"]*)\"");
+        std::vector<Hinge> list;
+        std::string link;
+        bool in_joint = false, in_inertial = false;
+        int depth = 0;
+        for (std::sregex_iterator it(text.begin(), text.end(), tag), end; it != end; ++it) {
+            const std::string name = (*it)[2], inside = (*it)[3];
+            const bool closes = (*it)[1].length() > 0, alone = (*it)[4].length() > 0;
+            if (closes) --depth;
+            if (closes && name == "inertial") in_inertial = false;
+            if (closes && depth == 1) link.clear(), in_joint = false;
+            if (closes) continue;
+            std::map<std::string, std::string> a;
+            for (std::sregex_iterator k(inside.begin(), inside.end(), attribute); k != end; ++k) a[(*k)[1]] = (*k)[2];
+            const auto number = [&](const char* key, double otherwise) { return a.count(key) ? std::stod(a[key]) : otherwise; };
+            if (depth == 1 && name == "link") bodies[link = a["name"]];
+            if (depth == 1 && name == "joint") {
+                in_joint = !alone;
+                list.push_back({});
+                list.back().name = a["name"];
+                list.back().type = a["type"];
+            }
+            if (!link.empty() && name == "inertial") in_inertial = true;
+            if (in_inertial && name == "origin") bodies[link].centre = three(a["xyz"]), bodies[link].centre_rpy = three(a["rpy"]);
+            if (in_inertial && name == "mass") bodies[link].mass = number("value", 0);
+            if (in_inertial && name == "inertia")
+                bodies[link].inertia << number("ixx", 0), number("ixy", 0), number("ixz", 0), number("ixy", 0), number("iyy", 0), number("iyz", 0), number("ixz", 0),
+                    number("iyz", 0), number("izz", 0);
+            if (in_joint && depth == 2) {
+                Hinge& joint = list.back();
+                if (name == "parent") joint.parent = a["link"];
+                if (name == "child") joint.child = a["link"];
+                if (name == "origin") joint.xyz = three(a["xyz"]), joint.rpy = three(a["rpy"]);
+                if (name == "axis") joint.axis = three(a["xyz"]).normalized();
+                if (name == "dynamics") joint.damping = number("damping", 0);
+                if (name == "mimic") joint.leader = a["joint"], joint.factor = number("multiplier", 1), joint.offset = number("offset", 0);
+            }
+            if (!alone) ++depth;
+            if (alone && depth == 1) link.clear();
+        }
+        std::map<std::string, bool> placed;
+        for (const auto& [name, body] : bodies)
+            if (std::none_of(list.begin(), list.end(), [&, n = name](const Hinge& h) { return h.child == n; })) placed[name] = true;
+        REQUIRE(placed.size() == 1);
+        while (!list.empty()) {
+            const auto next = std::find_if(list.begin(), list.end(), [&](const Hinge& h) { return placed.count(h.parent) > 0; });
+            REQUIRE(next != list.end());
+            placed[next->child] = true;
+            if (next->type == "floating")
+                add_floating(*next);
+            else
+                hinges.push_back(*next);
+            list.erase(next);
+        }
+    }
+
+    void add_floating(const Hinge& joint) {
+        const std::vector<std::string> suffix{"x", "y", "z", "yaw", "pitch", "roll"};
+        const std::vector<V3> axis{V3::UnitX(), V3::UnitY(), V3::UnitZ(), V3::UnitZ(), V3::UnitY(), V3::UnitX()};
+        for (std::size_t k = 0; k < 6; ++k) {
+            Hinge one;
+            one.name = joint.name + "_" + suffix[k];
+            one.type = k < 3 ? "prismatic" : "revolute";
+            one.parent = k == 0 ? joint.parent : joint.child + "/" + suffix[k - 1];
+            one.child = k == 5 ? joint.child : joint.child + "/" + suffix[k];
+            if (k == 0) one.xyz = joint.xyz, one.rpy = joint.rpy;
+            one.axis = axis[k];
+            bodies[one.child];
+            hinges.push_back(one);
+        }
+    }
+
+    const Hinge& named(const std::string& name) const {
+        return *std::find_if(hinges.begin(), hinges.end(), [&](const Hinge& h) { return h.name == name; });
+    }
+
+    using Values = std::map<std::string, double>;
+    /// Position (or rate, with no offsets) of a joint that may follow another.
+    double value(const Hinge& h, const Values& of, bool with_offset) const {
+        if (h.leader.empty()) return of.count(h.name) ? of.at(h.name) : 0;
+        return h.factor * value(named(h.leader), of, with_offset) + (with_offset ? h.offset : 0);
+    }
+
+    /// Σ over all joints that follow it, of the loads that these accelerations need.
+    Values loads(const Values& q, const Values& u, const Values& a, double g, bool damped) const {
+        struct Motion {
+            M3 R = M3::Identity();
+            V3 p = V3::Zero(), w = V3::Zero(), e = V3::Zero(), acc = V3::Zero();
+        };
+        std::map<std::string, Motion> at;
+        struct Wrench {
+            V3 n, f, c;
+        };
+        std::map<std::string, Wrench> needed;
+        std::map<std::string, V3> axis, pivot;
+        for (const Hinge& h : hinges) {
+            const Motion up = at[h.parent];
+            Motion m;
+            const M3 R0 = up.R * of_rpy(h.rpy);
+            const V3 z = R0 * h.axis;
+            const double s = value(h, q, true), sd = value(h, u, false), sdd = value(h, a, false);
+            m.R = R0;
+            m.p = up.p + up.R * h.xyz;
+            m.w = up.w;
+            m.e = up.e;
+            if (h.type == "prismatic") m.p += s * z;
+            const V3 r = m.p - up.p;
+            m.acc = up.acc + up.e.cross(r) + up.w.cross(up.w.cross(r));
+            if (h.type == "prismatic") {
+                m.acc += 2 * up.w.cross(V3(sd * z)) + sdd * z;
+            } else if (h.type != "fixed") {
+                m.R = R0 * about(h.axis, s);
+                m.w += sd * z;
+                m.e += sdd * z + up.w.cross(V3(sd * z));
+            }
+            at[h.child] = m;
+            axis[h.name] = z;
+            pivot[h.name] = m.p;
+            const Body& b = bodies.at(h.child);
+            const V3 c = m.R * b.centre;
+            const M3 turn = m.R * of_rpy(b.centre_rpy), I = turn * b.inertia * turn.transpose();
+            const V3 ac = m.acc + m.e.cross(c) + m.w.cross(m.w.cross(c));
+            needed[h.child] = {I * m.e + m.w.cross(I * m.w), b.mass * (ac + V3(0, 0, g)), m.p + c};
+        }
+        Values result;
+        for (const Hinge& h : hinges) {
+            if (h.type == "fixed") continue;
+            double load = damped ? h.damping * value(h, u, false) : 0;
+            for (const Hinge& other : hinges) {
+                const Hinge* below = &other;
+                while (below->name != h.name) {
+                    const auto up = std::find_if(hinges.begin(), hinges.end(), [&](const Hinge& k) { return k.child == below->parent; });
+                    if (up == hinges.end()) break;
+                    below = &*up;
+                }
+                if (below->name != h.name) continue;
+                const Wrench& w = needed[other.child];
+                load += h.type == "prismatic" ? axis[h.name].dot(w.f) : axis[h.name].dot(w.n + (w.c - pivot[h.name]).cross(w.f));
+            }
+            double factor = 1;
+            const Hinge* leader = &h;
+            for (; !leader->leader.empty(); leader = &named(leader->leader)) factor *= leader->factor;
+            if (leader->type != "fixed") result[leader->name] += factor * load;
+        }
+        return result;
+    }
+};
+
+std::string plain(std::string name) {
+    for (char& c : name)
+        if (c == ' ' || c == '-') c = '_';
+    return name;
+}
+
+struct Random {
+    std::mt19937_64 engine{20261121};
+    double operator()(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine); }
+};
+
+/// The largest difference of accelerations, over the largest of them.
+void compare(const std::string& robot, const std::vector<std::string>& still, std::size_t freedom, const std::vector<std::string>& options = {}) {
+    const std::string file = source_path("tests/robots/" + robot + ".urdf"), scene = temporary(robot + ".toml", "");
+    std::vector<std::string> args{"import", file, "-o", scene, "--json"};
+    args.insert(args.end(), options.begin(), options.end());
+    const auto imported = run(args);
+    CAPTURE(imported.err);
+    REQUIRE(imported.exit == 0);
+    const Model model(file);
+    Random random;
+    for (int trial = 0; trial < 4; ++trial) {
+        Model::Values q, u, none;
+        for (const Hinge& h : model.hinges) {
+            if (!h.leader.empty() || h.type == "fixed" || std::find(still.begin(), still.end(), h.name) != still.end()) continue;
+            q[h.name] = random(-1.2, 1.2);
+            u[h.name] = random(-1, 1);
+        }
+        REQUIRE(q.size() == freedom);
+        const auto n = static_cast<Eigen::Index>(q.size());
+        Eigen::MatrixXd M(n, n);
+        Eigen::VectorXd f(n);
+        const auto column = [&](const Model::Values& loads) {
+            Eigen::VectorXd v(n);
+            Eigen::Index k = 0;
+            for (const auto& [name, value] : q) v[k++] = loads.at(name);
+            return v;
+        };
+        f = -column(model.loads(q, u, none, 9.81, true));
+        Eigen::Index k = 0;
+        for (const auto& [name, value] : q) M.col(k++) = column(model.loads(q, none, {{name, 1.0}}, 0, false));
+        const Eigen::VectorXd expected = M.ldlt().solve(f);
+        std::vector<std::string> eval{"eval", scene, "--json", "--by", "recursive"};
+        for (const auto& [values, prime] : {std::pair(&q, ""), std::pair(&u, "'")})
+            for (const auto& [name, value] : *values) {
+                eval.emplace_back("--at");
+                eval.push_back(fmt::format("{}{}={}", plain(name), prime, value));
+            }
+        const auto result = run(eval);
+        CAPTURE(result.err);
+        REQUIRE(result.exit == 0);
+        const Json accelerations = Json::parse(result.out)["accelerations"];
+        CHECK(accelerations.size() == q.size());
+        k = 0;
+        for (const auto& [name, value] : q) {
+            CAPTURE(name);
+            const double difference = accelerations[plain(name)].get<double>() - expected[k++];
+            CHECK(std::abs(difference) < 1e-12 * expected.cwiseAbs().maxCoeff());
+        }
+    }
+}
+
+std::string link_of(const std::string& name, const std::string& inside = "") { return "<link name=\"" + name + "\">" + inside + "</link>"; }
+const std::string heavy = "<inertial><mass value=\"2\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
+std::string hinge_of(const std::string& name, const std::string& type, const std::string& parent, const std::string& child, const std::string& inside = "") {
+    return fmt::format("<joint name=\"{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>{}</joint>", name, type, parent, child, inside);
+}
+std::string robot_of(const std::string& inside) { return "<robot name=\"r\">" + inside + "</robot>"; }
+
+}  // namespace
+
+TEST_CASE("import: a six-joint arm with oblique axes, turned inertias and a fixed tool accelerates as link by link") { compare("arm6", {}, 6); }
+
+TEST_CASE("import: a torso of branches, with joints that mimic others and others again, accelerates as link by link") {
+    compare("torso", {"antenna"}, 10);
+}
+
+TEST_CASE("import: a quadruped on a floating base accelerates as link by link") { compare("quadruped", {}, 18); }
+
+TEST_CASE("import: what is left out is told, what is merged too, and the scene keeps limits as remarks") {
+    const std::string scene = temporary("told.toml", "");
+    const auto result = run({"import", source_path("tests/robots/arm6.urdf"), "-o", scene});
+    REQUIRE(result.exit == 0);
+    for (const char* line : {"dropped: <visual>: base_link, shoulder-1, forearm\n", "dropped: <collision>: base_link\n", "dropped: <transmission>: t1, t2\n",
+                             "dropped: <gazebo>: flange\n", "dropped: Coulomb friction, <dynamics friction=…>: j1, j4\n", "dropped: <limit>: j1, j2, j3, j5, j6\n",
+                             "dropped: <safety_controller>: j5\n", "dropped: mass that is fixed to the ground: base_link\n", "note: 'shoulder-1' is called shoulder_1",
+                             "note: j3 starts at 0, outside its limits"})
+        CHECK(result.err.find(line) != std::string::npos);
+    CHECK(result.out.find("welding_torch is fixed to tool0") != std::string::npos);
+    CHECK(contents(scene).find("about = \"limits 0.2 to 2.6\"") != std::string::npos);
+    const auto torso = run({"import", source_path("tests/robots/torso.urdf"), "-o", scene});
+    CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
+}
+
+// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and turns as it did, whatever turns it; and a planar joint across x does not fall along x.
+TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a planar joint keeps its plane") {
+    const std::string two = temporary("two.urdf", robot_of(link_of("a", heavy) + link_of("b", "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>") +
+                                                        hinge_of("weld", "fixed", "a", "b", "<origin xyz=\"0.3 0 0\"/>")));
+    const std::string scene = temporary("two.toml", "");
+    REQUIRE(run({"import", two, "-o", scene, "--floating"}).exit == 0);
+    const Json by_angles = Json::parse(run({"eval", scene, "--json"}).out);
+    CHECK(std::abs(by_angles["accelerations"]["floating_base_z"].get<double>() + 9.81) < 1e-13);
+    // About the mass centre at 0.1: izz = 1 + 0.1 + 2·0.1² + 1·0.2²; the origin of a turns about it.
+    const Json turning = Json::parse(run({"eval", scene, "--json", "--at", "floating_base_yaw'=2"}).out);
+    CHECK(std::abs(turning["kinetic"].get<double>() - (0.5 * 1.16 * 4 + 0.5 * 3 * 0.2 * 0.2)) < 1e-13);
+    CHECK(std::abs(turning["accelerations"]["floating_base_x"].get<double>() - 0.4) < 1e-13);
+    REQUIRE(run({"import", two, "-o", scene, "--floating", "--quaternion"}).exit == 0);
+    const Json by_quaternion = Json::parse(run({"eval", scene, "--json", "--at", "floating_base_e3'=1"}).out);
+    CHECK(std::abs(by_quaternion["accelerations"]["floating_base_x"].get<double>() - 0.4) < 1e-13);
+    const std::string flat = temporary("flat.urdf", robot_of(link_of("a") + link_of("b", heavy) + hinge_of("table", "planar", "a", "b", "<axis xyz=\"0 1 0\"/><origin rpy=\"0 0 0.5\"/>")));
+    REQUIRE(run({"import", flat, "-o", scene}).exit == 0);
+    const Json planar = Json::parse(run({"eval", scene, "--json", "--at", "table_x=0.7", "--at", "table_y=-0.4"}).out)["accelerations"];
+    CHECK(std::abs(std::hypot(planar["table_x"].get<double>(), planar["table_y"].get<double>()) - 9.81) < 1e-13);
+    CHECK(std::abs(planar["table_turn"].get<double>()) < 1e-13);
+}
+
+TEST_CASE("import: what is no robot is told in one message, and nothing is written") {
+    const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
+    std::string nested = "<robot name=\"r\">";
+    for (int k = 0; k < 50000; ++k) nested += "<a>";
+    const std::string out = temporary("wrong.toml", "untouched");
+    const auto refused = [&](const std::string& text, const std::string& told) {
+        CAPTURE(told);
+        const auto result = run({"import", temporary("wrong.urdf", text), "-o", out});
+        CAPTURE(result.err);
+        CHECK(result.exit == 3);
+        CHECK(result.err.find("wrong.urdf") != std::string::npos);
+        CHECK(result.err.find(told) != std::string::npos);
+        CHECK(result.err.find("internal") == std::string::npos);
+        CHECK(contents(out) == "untouched");
+    };
+    refused("", "this is no XML");
+    refused("title = \"a scene\"\n", "this is no XML");
+    refused("<robot name=\"r\"><link name=\"a\"></robot>", "this is no XML");
+    refused("<sdf version=\"1.6\"/>", "the outermost element is <sdf>; expected <robot>");
+    refused(nested, "elements stand inside each other");
+    refused(robot_of("<xacro:leg name=\"a\"/>"), "is a macro of xacro");
+    refused("<robot>" + link_of("a") + "</robot>", "urdfdom refuses it");
+    refused(robot_of(""), "urdfdom refuses it");
+    refused(robot_of(link_of("a", heavy) + link_of("a", heavy)), "urdfdom refuses it: link 'a' is not unique");
+    refused(robot_of(link_of("a", heavy)), "no joint that moves a mass");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "hinge", "a", "b")), "urdfdom refuses it");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "revolute", "a", "c", limit)), "urdfdom refuses it: Failed to build tree: child link [c] of joint [j] not found");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>")), "the axis of joint 'j' is zero");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<origin xyz=\"0 one 0\"/>")), "urdfdom refuses it");
+    refused(robot_of(link_of("a") + link_of("b", "<inertial><origin rpy=\"0 0\"/>" + heavy.substr(10)) + hinge_of("j", "continuous", "a", "b")), "rpy=\"0 0\"; expected three numbers");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>")), "joint 'j' mimics 'k', which is no joint");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>") +
+                  hinge_of("k", "continuous", "b", "c", "<mimic joint=\"j\"/>")),
+            "mimics itself in a circle");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "b", "c") + hinge_of("k", "continuous", "c", "b")), "in a circle of joints");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "a", "b") + hinge_of("k", "continuous", "a", "c") + hinge_of("l", "continuous", "b", "c")),
+            "joint 'l' holds link 'c', which joint 'k' holds already");
+    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("\"2\""), "\"-2\"")) + hinge_of("j", "continuous", "a", "b")), "the mass of link 'b' is -2");
+    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("ixy=\"0\""), "ixy=\"3\"")) + hinge_of("j", "continuous", "a", "b")),
+            "the principal moments of inertia of link 'b', -2, 1 and 4, are not all zero or more");
+    CHECK(run({"import", source_path("tests/robots/none.urdf"), "-o", out}).exit == 3);
+    CHECK(run({"import", source_path("tests/robots/arm6.urdf"), "-o", "/no/such/folder/x.toml"}).exit == 5);
+    CHECK(run({"import", source_path("tests/robots/arm6.urdf")}).exit == 3);
+}

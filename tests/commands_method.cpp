@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// `method = "auto"`: what it chooses, what it says, and that the result is that of a method given by name.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+const char* const oscillator = R"(
+[coordinates]
+x = 1
+[energy]
+kinetic = "x'^2/2"
+potential = "x^2/2"
+[simulation]
+duration = 20
+)";
+
+// Eigenvalues of about -1e5 and -1: x follows sin(t) at its leisure.
+const char* const stiff = R"(
+[coordinates]
+x = 0
+[energy]
+kinetic = "x'^2/2"
+[forces]
+x = "-1e5*x' - 1e5*(x - sin(t))"
+[simulation]
+duration = 20
+)";
+
+Json simulated(const std::string& scene, std::vector<std::string> more) {
+    more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate"});
+    const auto result = run(more);
+    INFO(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+void check_choice(const std::vector<std::string>& options, const std::string& method, const std::string& because) {
+    const Json result = simulated(temporary("oscillator.toml", oscillator), options);
+    CHECK(result["method"] == method);
+    CHECK(result["method_why"].get<std::string>().find(because) != std::string::npos);
+    CHECK(std::abs(result["final"]["coordinates"]["x"].get<double>() - std::cos(20)) < 1e-3);
+}
+
+}  // namespace
+
+TEST_CASE("auto: tolerance, step, structure and length choose the method, and the run says why") {
+    check_choice({"--tolerance", "1e-4"}, "dopri5", "tolerance is 0.0001");
+    check_choice({"--tolerance", "1e-9"}, "dop853", "tolerance is 1e-09");
+    check_choice({"--tolerance", "1e-14"}, "taylor", "power series");
+    check_choice({"--step", "0.01"}, "rk4", "fixed step");
+    check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
+    const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--no-estimate"});
+    CHECK(text.out.find("dop853: the tolerance is 1e-09") != std::string::npos);
+    // Given by name there is nothing to explain.
+    CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
+}
+
+TEST_CASE("auto: in a scene without a power series, or one that is too long for it, tight tolerances take verner98") {
+    const std::string kink = temporary("kink.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-abs(x)*x\"\n[simulation]\nduration = 1\n");
+    CHECK(simulated(kink, {"--tolerance", "1e-14"})["method"] == "verner98");
+}
+
+TEST_CASE("auto: forces with rates keep a long run with a fixed step from being symplectic") {
+    const std::string damped = temporary("damped.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-x - 0.01*x'\"\n[simulation]\nduration = 20\n");
+    CHECK(simulated(damped, {"--step", "0.001"})["method"] == "rk4");
+}
+
+TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and ends where radau alone ends") {
+    const std::string scene = temporary("stiff.toml", stiff);
+    const Json result = simulated(scene, {"--tolerance", "1e-8"}), radau = simulated(scene, {"--tolerance", "1e-10", "--method", "radau"});
+    REQUIRE(result.contains("switched"));
+    CHECK(result["method"] == "dop853");
+    CHECK(result["switched"]["method"] == "radau");
+    CHECK(result["switched"]["time"].get<double>() < 1);
+    // The eigenvalues are about -1e5 and -1.
+    CHECK(std::abs(result["switched"]["largest_eigenvalue"].get<double>() / 1e5 - 1) < 0.1);
+    CHECK(result.contains("jacobian_operations"));
+    CHECK(result["evaluations"].get<long>() < 20000);  // dop853 alone: 20 s · 1e5/s / 6 steps of 12
+    CHECK(std::abs(result["final"]["coordinates"]["x"].get<double>() - radau["final"]["coordinates"]["x"].get<double>()) < 1e-6);
+    CHECK(std::abs(result["final"]["time"].get<double>() - 20) == 0);
+    const auto text = run({"simulate", scene, "--tolerance", "1e-8", "--no-estimate"});
+    CHECK(text.out.find("the system is stiff there") != std::string::npos);
+}
+
+TEST_CASE("auto: taylor too gives way to radau where stiffness holds its steps") {
+    const Json result = simulated(temporary("stiff.toml", stiff), {"--tolerance", "1e-13"});
+    CHECK(result["method"] == "taylor");
+    REQUIRE(result.contains("switched"));
+    CHECK(result["switched"]["method"] == "radau");
+    CHECK(result["evaluations"].get<long>() < 20000);
+}
+
+TEST_CASE("no hang: stiff, singular and chattering scenes end within the budget with a result or a message, by every method") {
+    const std::string chattering = temporary("chattering.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-sign(x)-5*sign(x')\"\n[simulation]\nduration = 20\n");
+    const std::string collision = temporary("collision.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-1/sqrt(x^2)\"\n[simulation]\nduration = 20\n");
+    for (const std::string& scene : {chattering, collision, temporary("stiff.toml", stiff)})
+        for (const std::string method : {"auto", "dop853", "taylor", "radau", "bdf"}) {
+            const auto result = run({"simulate", scene, "--method", method, "--tolerance", "1e-13", "--budget", "30000", "--no-estimate"});
+            INFO(scene << " " << method << " " << result.err);
+            CHECK((result.exit == 0 || result.exit == 4 || (result.exit == 3 && method == "taylor" && scene == chattering)));
+            if (result.exit != 0) CHECK(result.err.size() > 40);
+        }
+}

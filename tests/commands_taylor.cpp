@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The method taylor in whole runs: against the digits of the cases' pages (Kepler's equation, 110-digit series), closed forms, and
+// the same pendulum in other coordinates.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+Json simulated(const std::string& scene, std::vector<std::string> more) {
+    more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate", "--method", "taylor"});
+    const auto result = run(more);
+    INFO(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+double coordinate(const Json& run, const std::string& name) { return run["final"]["coordinates"][name].get<double>(); }
+double rate(const Json& run, const std::string& name) { return run["final"]["rates"][name].get<double>(); }
+
+std::string benchmark(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
+
+const char* const oscillator = R"(
+[coordinates]
+x = 1
+[energy]
+kinetic = "x'^2/2"
+potential = "x^2/2"
+[simulation]
+duration = 20
+tolerance = 1e-13
+method = "taylor"
+)";
+
+}  // namespace
+
+TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where the pages say") {
+    // 10 orbits amplify a relative error of the energy about 100-fold in time, and the comet moves at 3.4: 1e-8 leaves room for 4e-11
+    // of it. A local error at pericentre of 1e-14 is 1e-10 there.
+    const Json comet = simulated(benchmark("kepler"), {"--tolerance", "1e-14"});
+    CHECK(std::abs(coordinate(comet, "x") + 0.1351664773678210293925794571396607994198) < 1e-8);
+    CHECK(std::abs(rate(comet, "y") - 0.7844989436495845826968187373479917536626) < 1e-8);
+    const Json stars = simulated(benchmark("pleiades"), {"--tolerance", "1e-13"});
+    CHECK(std::abs(coordinate(stars, "x1") - 0.37061391439705129009) < 1e-11);
+    CHECK(std::abs(rate(stars, "y7") + 1.947020434263291900674262585469) < 1e-11);
+    const Json planets = simulated(benchmark("outer_solar_system"), {"--tolerance", "1e-13"});
+    CHECK(std::abs(coordinate(planets, "xJupiter") - 2.6110795701128633600809602078737) < 1e-8);
+    CHECK(std::abs(coordinate(planets, "ySun") + 0.48994382114427497636788620635032) < 1e-10);
+    CHECK(std::abs(coordinate(planets, "zPluto") + 15.043469221823263493829179433668) < 1e-10);
+}
+
+TEST_CASE("taylor: the double pendulum is at its 50 digits at t = 10, as far as its error growth allows") {
+    // 10⁷-fold growth of local errors of 1e-14.
+    const Json chaotic = simulated(benchmark("double_pendulum_chaotic"), {"--tolerance", "1e-14"});
+    CHECK(std::abs(coordinate(chaotic, "theta1") + 0.75312887429491135322) < 1e-5);
+    CHECK(std::abs(rate(chaotic, "theta2") + 8.8697025783875326087) < 1e-5);
+    const Json regular = simulated(benchmark("double_pendulum_regular"), {"--tolerance", "1e-13"});
+    CHECK(std::abs(coordinate(regular, "theta1") - 0.039779782745713516063) < 1e-11);
+    CHECK(std::abs(rate(regular, "theta2") - 0.21400402891115624101) < 1e-11);
+}
+
+TEST_CASE("taylor: rows between steps are as good as their ends") {
+    const std::string file = temporary("rows.csv", "");
+    const Json result = simulated(temporary("oscillator.toml", oscillator), {"--sample", "0.01", "-o", file});
+    std::ifstream table(file);
+    std::string line;
+    std::getline(table, line);
+    double worst = 0;
+    int rows = 0;
+    for (; std::getline(table, line); ++rows) {
+        double t = 0, x = 0, v = 0;
+        char comma = 0;
+        std::istringstream(line) >> t >> comma >> x >> comma >> v;
+        worst = std::max({worst, std::abs(x - std::cos(t)), std::abs(v + std::sin(t))});
+    }
+    CHECK(rows == 2001);
+    CHECK(result["steps"].get<int>() < 40);  // fifty rows a step
+    CHECK(worst < 40 * 1e-13);               // a local error each
+}
+
+TEST_CASE("taylor: events are found on its polynomial, to 1e-12") {
+    const std::string text = std::string(oscillator) + "[[event]]\nname = \"through\"\nwhen = \"x\"\n[[event]]\nname = \"end\"\nwhen = \"x' + x - 100*(t - 10)\"\nstop = true\n";
+    const Json result = simulated(temporary("events.toml", text), {});
+    REQUIRE(result["events"].size() == 4);
+    for (int k = 0; k < 3; ++k) CHECK(std::abs(result["events"][k]["time"].get<double>() - (k + 0.5) * std::numbers::pi) < 1e-12);
+    const double t = result["final"]["time"];
+    CHECK(std::abs(-std::sin(t) + std::cos(t) - 100 * (t - 10)) < 1e-10);
+}
+
+TEST_CASE("taylor: a pendulum in Cartesian coordinates is the one in its angle") {
+    const char* const cartesian = R"(
+gravity = [0, -9.81]
+[coordinates]
+x = "sin(1)"
+y = "-cos(1)"
+[[particle]]
+name = "bob"
+mass = 2
+position = ["x", "y"]
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + y^2 - 1"
+[simulation]
+duration = 10
+)";
+    const char* const angle = R"(
+[coordinates]
+phi = 1
+[energy]
+kinetic = "phi'^2"
+potential = "-2*9.81*cos(phi)"
+[simulation]
+duration = 10
+)";
+    const Json one = simulated(temporary("cartesian.toml", cartesian), {"--tolerance", "1e-13"}),
+               other = simulated(temporary("angle.toml", angle), {"--tolerance", "1e-13"});
+    const double phi = coordinate(other, "phi");
+    // An amplitude of 1 rad at 3 rad/s for 10 s: errors of some 50 steps at 1e-13 grow by 30 at most.
+    CHECK(std::abs(coordinate(one, "x") - std::sin(phi)) < 2e-10);
+    CHECK(std::abs(coordinate(one, "y") + std::cos(phi)) < 2e-10);
+    CHECK(one["constraint_drift"].get<double>() < 1e-13);
+    CHECK(one["energy_drift"].get<double>() < 1e-11);
+}
+
+TEST_CASE("taylor: a scene without a power series is refused with the function and what to take instead") {
+    const std::string scene = temporary("kink.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-abs(x)*x\"\n[simulation]\nduration = 1\n");
+    const auto refused = run({"simulate", scene, "--method", "taylor"});
+    CHECK(refused.exit == 3);
+    CHECK(refused.err.find("abs") != std::string::npos);
+    CHECK(refused.err.find("dop853") != std::string::npos);
+    CHECK(run({"simulate", scene, "--tolerance", "1e-13"}).exit == 0);  // auto takes another
+}
