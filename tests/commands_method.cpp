@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-const char* const oscillator = R"(
+const char* const oscillator = R"toml(
 [coordinates]
 x = 1
 [energy]
@@ -23,10 +23,10 @@ kinetic = "x'^2/2"
 potential = "x^2/2"
 [simulation]
 duration = 20
-)";
+)toml";
 
 // Eigenvalues of about -1e5 and -1: x follows sin(t) at its leisure.
-const char* const stiff = R"(
+const char* const stiff = R"toml(
 [coordinates]
 x = 0
 [energy]
@@ -35,7 +35,7 @@ kinetic = "x'^2/2"
 x = "-1e5*x' - 1e5*(x - sin(t))"
 [simulation]
 duration = 20
-)";
+)toml";
 
 Json simulated(const std::string& scene, std::vector<std::string> more) {
     more.insert(more.begin(), {"simulate", scene, "--json", "--no-estimate"});

@@ -32,7 +32,7 @@ double rate(const Json& run, const std::string& name) { return run["final"]["rat
 
 std::string benchmark(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
 
-const char* const oscillator = R"(
+const char* const oscillator = R"toml(
 [coordinates]
 x = 1
 [energy]
@@ -42,7 +42,7 @@ potential = "x^2/2"
 duration = 20
 tolerance = 1e-13
 method = "taylor"
-)";
+)toml";
 
 }  // namespace
 
@@ -100,7 +100,7 @@ TEST_CASE("taylor: events are found on its polynomial, to 1e-12") {
 }
 
 TEST_CASE("taylor: a pendulum in Cartesian coordinates is the one in its angle") {
-    const char* const cartesian = R"(
+    const char* const cartesian = R"toml(
 gravity = [0, -9.81]
 [coordinates]
 x = "sin(1)"
@@ -114,8 +114,8 @@ name = "rod"
 holonomic = "x^2 + y^2 - 1"
 [simulation]
 duration = 10
-)";
-    const char* const angle = R"(
+)toml";
+    const char* const angle = R"toml(
 [coordinates]
 phi = 1
 [energy]
@@ -123,7 +123,7 @@ kinetic = "phi'^2"
 potential = "-2*9.81*cos(phi)"
 [simulation]
 duration = 10
-)";
+)toml";
     const Json one = simulated(temporary("cartesian.toml", cartesian), {"--tolerance", "1e-13"}),
                other = simulated(temporary("angle.toml", angle), {"--tolerance", "1e-13"});
     const double phi = coordinate(other, "phi");

@@ -13,6 +13,7 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
+#include "lower/flatten.hpp"
 #include "lower/modular.hpp"
 #include "scenes.hpp"
 
@@ -27,9 +28,12 @@ std::vector<Program> programs(const Mechanism& m, const Equations& e, bool compo
     const Energy energy = energy_of(m);
     std::vector<Program> result;
     if (composite) result.push_back(lower(m, e, energy));
-    for (const bool articulated : {false, true})
+    using Solve = RecursionForm::Solve;
+    for (const Solve solve : {Solve::matrix, Solve::articulated})
         for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still})
-            if (composite || articulated) result.push_back(lower(m, e, energy, {.recursion = RecursionForm{axes, articulated}}));
+            if (composite || solve != Solve::matrix) result.push_back(lower(m, e, energy, {.recursion = RecursionForm{axes, solve}}));
+    if (is_planar_chain(*e.tree)) result.push_back(lower(m, e, energy, {.recursion = RecursionForm{LinkAxes::still, Solve::both_ends}}));
+    result.push_back(flattened(result.back()));
     return result;
 }
 
@@ -308,13 +312,13 @@ TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhe
             ++compared;
         }
     }
-    CHECK(compared == 6 * 5 + 2);
+    CHECK(compared == 6 * 5 + 2 + 5 + 7);  // five of the trees are chains in a plane; each has a flattened form
 }
 
 TEST_CASE("recursive: the operations of articulated bodies grow linearly with the bodies") {
     const auto operations = [](const std::string& text, LinkAxes axes) {
         const Mechanism m = from_text(text);
-        const Program p = lower(m, recursive(m), energy_of(m), {.recursion = RecursionForm{axes, true}});
+        const Program p = lower(m, recursive(m), energy_of(m), {.recursion = RecursionForm{axes, RecursionForm::Solve::articulated}});
         return p.count(p.right_hand_side()).total();
     };
     for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
@@ -390,12 +394,12 @@ TEST_CASE("recursive: scenes that are no tree of joints are refused with what is
     CHECK(reason("scenes/textbook/heavy_top_quaternion.toml").find("turns by a quaternion") != std::string::npos);
 }
 
-TEST_CASE("recursive: what is chosen depends on the system: the textbook's form for two rods, composite bodies for an arm, articulated ones for a long chain") {
+TEST_CASE("recursive: what is chosen depends on the system: the textbook's form for two rods, composite bodies for an arm, both ends of a long chain") {
     const auto chosen = [](const Mechanism& m) { return choose(m, {lagrange(m), recursive(m)}); };
     CHECK(chosen(from_text(chain(2))).program.formulation.find("textbook form") != std::string::npos);
     CHECK(chosen(build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")))).program.formulation.find("composite bodies") != std::string::npos);
     const Choice many = chosen(from_text(chain(24)));
-    CHECK(many.program.formulation.find("articulated bodies") != std::string::npos);
+    CHECK(many.program.formulation.find("chain from both ends") != std::string::npos);
     REQUIRE(many.runner_up);
     CHECK(many.cost.time() <= many.runner_up->cost.time());
 }
