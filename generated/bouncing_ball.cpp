@@ -72,7 +72,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z0 = m * y_dot * y_dot;
     const Real T = Real(0.5) * z0;
     const Real V = k0 * y;
-    const Real E = Real(0.5) * z0 + V;
+    const Real E = V + Real(0.5) * z0;
     const Real h_ = y_dot * m * y_dot - (Real(0.5) * z0 - V);
 
     // Result

@@ -110,6 +110,23 @@ inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
+/// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
+template <typename... Angle>
+[[gnu::always_inline]] inline sines<double, 4 + sizeof...(Angle)> sincos_in_two(double a, double b, double c, double d, Angle... x) {
+    constexpr unsigned more = sizeof...(Angle);
+    sines<double, 4 + more> result;
+    const sines<double, 4> first = sincos_in<real4, bits4>(a, b, c, d);
+    for (unsigned i = 0; i < 4; ++i) result.sine[i] = first.sine[i], result.cosine[i] = first.cosine[i];
+    const auto add = [&](const sines<double, more>& rest) {
+        for (unsigned i = 0; i < more; ++i) result.sine[4 + i] = rest.sine[i], result.cosine[4 + i] = rest.cosine[i];
+    };
+    if constexpr (more > 2)
+        add(sincos_in<real4, bits4>(x...));
+    else
+        add(sincos_in<real2, bits2>(x...));
+    return result;
+}
+
 /// Of two to eight angles.
 template <typename Real, typename... Angle>
 [[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
@@ -121,7 +138,7 @@ template <typename Real, typename... Angle>
     else if constexpr (count <= 4)
         return sincos_in<real4, bits4>(first, x...);
     else
-        return sincos_in<real8, bits8>(first, x...);
+        return sincos_in_two(first, x...);
 }
 
 /// What depends on parameters alone, after the parameters.

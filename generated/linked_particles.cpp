@@ -1,9 +1,9 @@
-// Equations of motion of 'linked_particles': routh, textbook form.
+// Equations of motion of 'linked_particles': recursive, composite bodies.
 // Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
 //
 //   state  x1 [m], y1 [m], x2 [m], y2 [m], then their rates
 //   par    m1 [kg], m2 [kg], l [m], beta [rad], g [m/s^2]
-//   cost   87 operations a right-hand side: 30 additions, 55 multiplications, 2 divisions, 0 functions
+//   cost   73 operations a right-hand side: 30 additions, 41 multiplications, 2 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
@@ -110,6 +110,23 @@ inline double sin(double x) { return sincos(x).s; }
 inline double cos(double x) { return sincos(x).c; }
 template <typename Real> pair<Real> sincos(const Real& x) { return {sin(x), cos(x)}; }
 
+/// Five to eight in two vectors of four at most: with AVX-512, a wide one among scalar code takes one of the two units from all of it.
+template <typename... Angle>
+[[gnu::always_inline]] inline sines<double, 4 + sizeof...(Angle)> sincos_in_two(double a, double b, double c, double d, Angle... x) {
+    constexpr unsigned more = sizeof...(Angle);
+    sines<double, 4 + more> result;
+    const sines<double, 4> first = sincos_in<real4, bits4>(a, b, c, d);
+    for (unsigned i = 0; i < 4; ++i) result.sine[i] = first.sine[i], result.cosine[i] = first.cosine[i];
+    const auto add = [&](const sines<double, more>& rest) {
+        for (unsigned i = 0; i < more; ++i) result.sine[4 + i] = rest.sine[i], result.cosine[4 + i] = rest.cosine[i];
+    };
+    if constexpr (more > 2)
+        add(sincos_in<real4, bits4>(x...));
+    else
+        add(sincos_in<real2, bits2>(x...));
+    return result;
+}
+
 /// Of two to eight angles.
 template <typename Real, typename... Angle>
 [[gnu::always_inline]] inline sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x) {
@@ -121,7 +138,7 @@ template <typename Real, typename... Angle>
     else if constexpr (count <= 4)
         return sincos_in<real4, bits4>(first, x...);
     else
-        return sincos_in<real8, bits8>(first, x...);
+        return sincos_in_two(first, x...);
 }
 
 /// What depends on parameters alone, after the parameters.
@@ -133,8 +150,9 @@ void prepare(Real* par) {
     const Real sin_beta = sin(beta);
 
     // Constants
-    const Real k0 = m1 * g * sin_beta;
-    const Real k1 = m2 * g * sin_beta;
+    const Real z0 = g * sin_beta;
+    const Real k0 = m1 * z0;
+    const Real k1 = m2 * z0;
     const Real k2 = l * l;
     const Real k3 = Real(1) / m1;
     const Real k4 = Real(2) * k3;
@@ -142,11 +160,8 @@ void prepare(Real* par) {
     const Real k6 = Real(2) * k5;
     const Real k7 = k3 * k0;
     const Real k8 = k5 * k1;
-    const Real k9 = Real(0.5) * m1;
-    const Real k10 = Real(0.5) * m2;
-    const Real k11 = g * sin_beta;
-    const Real z0 = Real(1) / l;
-    const Real k12 = z0 * z0;
+    const Real z1 = Real(1) / l;
+    const Real k9 = z1 * z1;
 
     // Result
     par[5] = k0;
@@ -159,9 +174,6 @@ void prepare(Real* par) {
     par[12] = k7;
     par[13] = k8;
     par[14] = k9;
-    par[15] = k10;
-    par[16] = k11;
-    par[17] = k12;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
@@ -174,36 +186,34 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
     // Constraints A q'' = gamma
     const Real A1_1 = x1 - x2;
-    const Real z0 = x1_dot * x1_dot + y1_dot * y1_dot;
-    const Real z1 = x2_dot * x2_dot + y2_dot * y2_dot;
-    const Real gamma0 = Real(4) * x1_dot * x2_dot - Real(2) * z0 + Real(4) * y1_dot * y2_dot - Real(2) * z1;
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z2 = y1 - y2;
-    const Real z3 = k4 * A1_1;
-    const Real z4 = k4 * z2;
-    const Real z5 = k6 * z2;
-    const Real z6 = k0 * z4 - (k1 * z5 - gamma0);
-    const Real z7 = k3 * A1_1;
-    const Real z8 = k5 * A1_1;
-    const Real z9 = k1 * z8 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
-    const Real z10 = k0 * z7 + z9;
-    const Real z11 = k3 * z2;
-    const Real z12 = k5 * z2;
-    const Real z13 = z7 * z2 + (z12 * A1_1 - z8 * z2);
-    const Real z14 = z11 * A1_1 - z13;
-    const Real z15 = z7 * A1_1 + (z8 * A1_1 + z12 * z2);
-    const Real z16 = Real(1) / (z11 * z2 + z15);
+    const Real z0 = y1 - y2;
+    const Real z1 = x1_dot - x2_dot;
+    const Real z2 = y1_dot - y2_dot;
+    const Real z3 = z1 * z1 + z2 * z2;
+    const Real z4 = z1 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z2;
+    const Real z5 = k4 * A1_1;
+    const Real z6 = k4 * z0;
+    const Real z7 = k6 * z0;
+    const Real z8 = k6 * A1_1;
+    const Real z9 = z0 * (z6 + z7) + A1_1 * (z5 + z8);
+    const Real z10 = k3 * A1_1;
+    const Real z11 = k5 * A1_1;
+    const Real z12 = k3 * z0;
+    const Real z13 = k5 * z0;
+    const Real z14 = z0 * (z10 - z11) - A1_1 * (z12 - z13);
+    const Real z15 = z0 * (z12 + z13) + A1_1 * (z10 + z11);
+    const Real z16 = Real(1) / z15;
     const Real z17 = z14 * z16;
-    const Real z18 = k6 * A1_1;
-    const Real z19 = z4 * z2 + (z18 * A1_1 + z5 * z2);
-    const Real z20 = Real(1) / (Real(2) * (z3 * A1_1 + z19) - Real(4) * z14 * z17);
-    const Real z21 = (z6 + Real(2) * z10 * z17) * z20;
-    const Real z22 = z10 * z16 + Real(2) * z17 * z21;
-    const Real x1_ddot = z3 * z21 - z11 * z22;
-    const Real y1_ddot = z4 * z21 - k7 + z7 * z22;
-    const Real x2_ddot = -z21 * z18 - z22 * z12;
-    const Real y2_ddot = z22 * z8 - k8 - z21 * z5;
+    const Real z18 = k0 * z10 - z4 + k1 * z11;
+    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z3 - Real(2) * z18 * z17;
+    const Real z20 = z19 / (Real(2) * z9 - Real(4) * z14 * z17);
+    const Real z21 = z18 * z16 - Real(2) * z17 * z20;
+    const Real x1_ddot = z5 * z20 - z12 * z21;
+    const Real y1_ddot = z6 * z20 - k7 + z10 * z21;
+    const Real x2_ddot = -z8 * z20 - z13 * z21;
+    const Real y2_ddot = -k8 - z7 * z20 + z11 * z21;
 
     // Result
     rate[0] = x1_dot;
@@ -243,20 +253,25 @@ template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &y1 = state[1], &y2 = state[3], &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6];
     const Real &y2_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &k9 = par[14], &k10 = par[15], &k11 = par[16];
+    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
 
     // Energy
-    const Real z0 = k9 * (x1_dot * x1_dot + y1_dot * y1_dot);
-    const Real T = z0 + k10 * (x2_dot * x2_dot + y2_dot * y2_dot);
-    const Real V = k11 * (m1 * y1 + m2 * y2);
-    const Real E = V + T;
+    const Real z0 = m1 * (x1_dot * x1_dot + y1_dot * y1_dot);
+    const Real z1 = z0 + m2 * (x2_dot * x2_dot + y2_dot * y2_dot);
+    const Real T = Real(0.5) * z1;
+    const Real V = k0 * y1 + k1 * y2;
+    const Real E = V + Real(0.5) * z1;
+    const Real z2 = y1_dot * m1 * y1_dot;
+    const Real z3 = x1_dot * m1 * x1_dot;
+    const Real z4 = y2_dot * m2 * y2_dot;
+    const Real h = V + z2 + z3 + z4 + x2_dot * m2 * x2_dot - Real(0.5) * z1;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = E;
+    jacobi[0] = h;
 }
 
 /// The scene's outputs.
@@ -265,32 +280,30 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
     const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
     const Real &l = par[2], &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-    const Real &k12 = par[17];
+    const Real &k9 = par[14];
 
     // Outputs
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = x1_dot * x1_dot + y1_dot * y1_dot;
-    const Real z3 = x2_dot * x2_dot + y2_dot * y2_dot;
-    const Real z4 = Real(4) * x1_dot * x2_dot - Real(2) * z2 + Real(4) * y1_dot * y2_dot - Real(2) * z3;
-    const Real z5 = k4 * z1;
-    const Real z6 = k6 * z1;
-    const Real z7 = k0 * z5 - (k1 * z6 - z4);
-    const Real z8 = k3 * z0;
-    const Real z9 = k5 * z0;
-    const Real z10 = k1 * z9 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
+    const Real z2 = x1_dot - x2_dot;
+    const Real z3 = y1_dot - y2_dot;
+    const Real z4 = z2 * z2 + z3 * z3;
+    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z6 = k4 * z1;
+    const Real z7 = k6 * z1;
+    const Real z8 = z0 * (k4 * z0 + k6 * z0);
+    const Real z9 = k3 * z0;
+    const Real z10 = k5 * z0;
     const Real z11 = k3 * z1;
     const Real z12 = k5 * z1;
-    const Real z13 = z8 * z1 + (z12 * z0 - z9 * z1);
-    const Real z14 = z11 * z0 - z13;
-    const Real z15 = z8 * z0 + (z9 * z0 + z12 * z1);
-    const Real z16 = z14 / (z11 * z1 + z15);
-    const Real z17 = z7 + Real(2) * (k0 * z8 + z10) * z16;
-    const Real z18 = k6 * z0 * z0 + z6 * z1;
-    const Real z19 = k4 * z0 * z0 + (z5 * z1 + z18);
-    const Real tension = -Real(2) * l * z17 / (Real(2) * z19 - Real(4) * z14 * z16);
-    const Real z20 = z0 * (y1_dot - y2_dot) - z1 * (x1_dot - x2_dot);
-    const Real turn = k12 * z20;
+    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
+    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
+    const Real z15 = z13 / z14;
+    const Real z16 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z15;
+    const Real z17 = (k0 * z9 - z5 + k1 * z10) * z15;
+    const Real z18 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z17;
+    const Real tension = -Real(2) * l * z18 / z16;
+    const Real turn = k9 * (z0 * z3 - z1 * z2);
 
     // Result
     out[0] = tension;
@@ -314,15 +327,13 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     // Constraints
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = x1_dot * z0;
-    const Real z3 = z2 - x2_dot * z0 - y2_dot * z1 + y1_dot * z1;
-    const Real z4 = y2_dot * z0;
+    const Real z2 = z0 * (x1_dot - x2_dot) + z1 * (y1_dot - y2_dot);
 
     // Result
     position[0] = z0 * z0 - k2 + z1 * z1;
     position[1] = Real(0);
-    velocity[0] = Real(2) * z3;
-    velocity[1] = z4 + y1_dot * z0 - x2_dot * z1 - x1_dot * z1;
+    velocity[0] = Real(2) * z2;
+    velocity[1] = z0 * (y1_dot + y2_dot) - z1 * (x1_dot + x2_dot);
     rows[0] = Real(2) * z0;
     rows[1] = Real(2) * z1;
     rows[2] = -Real(2) * z0;
@@ -343,32 +354,101 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     // Multipliers
     const Real z0 = x1 - x2;
     const Real z1 = y1 - y2;
-    const Real z2 = x1_dot * x1_dot + y1_dot * y1_dot;
-    const Real z3 = x2_dot * x2_dot + y2_dot * y2_dot;
-    const Real z4 = Real(4) * x1_dot * x2_dot - Real(2) * z2 + Real(4) * y1_dot * y2_dot - Real(2) * z3;
-    const Real z5 = k4 * z1;
-    const Real z6 = k6 * z1;
-    const Real z7 = k0 * z5 - (k1 * z6 - z4);
-    const Real z8 = k3 * z0;
-    const Real z9 = k5 * z0;
-    const Real z10 = k1 * z9 - Real(2) * (x1_dot * y2_dot - y1_dot * x2_dot);
-    const Real z11 = k0 * z8 + z10;
-    const Real z12 = k3 * z1;
-    const Real z13 = k5 * z1;
-    const Real z14 = z8 * z1 + (z13 * z0 - z9 * z1);
-    const Real z15 = z12 * z0 - z14;
-    const Real z16 = z8 * z0 + (z9 * z0 + z13 * z1);
-    const Real z17 = Real(1) / (z12 * z1 + z16);
-    const Real z18 = z15 * z17;
-    const Real z19 = k6 * z0 * z0 + z6 * z1;
-    const Real z20 = k4 * z0 * z0 + (z5 * z1 + z19);
-    const Real z21 = Real(1) / (Real(2) * z20 - Real(4) * z15 * z18);
-    const Real lambda1 = (z7 + Real(2) * z11 * z18) * z21;
-    const Real lambda2 = z11 * z17 + Real(2) * z18 * lambda1;
+    const Real z2 = x1_dot - x2_dot;
+    const Real z3 = y1_dot - y2_dot;
+    const Real z4 = z2 * z2 + z3 * z3;
+    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z6 = k4 * z1;
+    const Real z7 = k6 * z1;
+    const Real z8 = z0 * (k4 * z0 + k6 * z0);
+    const Real z9 = k3 * z0;
+    const Real z10 = k5 * z0;
+    const Real z11 = k3 * z1;
+    const Real z12 = k5 * z1;
+    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
+    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
+    const Real z15 = Real(1) / z14;
+    const Real z16 = z13 * z15;
+    const Real z17 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z16;
+    const Real z18 = k0 * z9 - z5 + k1 * z10;
+    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z18 * z16;
+    const Real lambda1 = z19 / z17;
+    const Real lambda2 = z18 * z15 - Real(2) * z16 * lambda1;
 
     // Result
     lambda[0] = lambda1;
     lambda[1] = lambda2;
+}
+
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k2 = par[7], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Projection
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = k2 - z0 * z0 - z1 * z1;
+    const Real z3 = k4 * z0;
+    const Real z4 = k4 * z1;
+    const Real z5 = k6 * z1;
+    const Real z6 = k6 * z0;
+    const Real z7 = z1 * (z4 + z5) + z0 * (z3 + z6);
+    const Real z8 = k3 * z0;
+    const Real z9 = k5 * z0;
+    const Real z10 = k3 * z1;
+    const Real z11 = k5 * z1;
+    const Real z12 = z1 * (z8 - z9) - z0 * (z10 - z11);
+    const Real z13 = z1 * (z10 + z11) + z0 * (z8 + z9);
+    const Real z14 = Real(1) / z13;
+    const Real z15 = z12 * z14;
+    const Real z16 = Real(2) * z7 - Real(4) * z12 * z15;
+    const Real z17 = Real(1) / z16;
+    const Real z18 = z2 * z17;
+    const Real z19 = z15 * z18;
+    const Real z20 = x1 + z3 * z18 + Real(2) * z10 * z19;
+    const Real z21 = y1 + z4 * z18 - Real(2) * z8 * z19;
+    const Real z22 = x2 - z6 * z18 + Real(2) * z11 * z19;
+    const Real z23 = y2 - z5 * z18 - Real(2) * z9 * z19;
+    const Real z24 = z22 - z20;
+    const Real z25 = z23 - z21;
+    const Real z26 = (x1_dot + x2_dot) * z25 - (y1_dot + y2_dot) * z24;
+    const Real z27 = (y1_dot - y2_dot) * z25 + z15 * z26;
+    const Real z28 = z17 * (z27 + (x1_dot - x2_dot) * z24);
+    const Real z29 = z14 * z26 + Real(4) * z15 * z28;
+
+    // Result
+    out[0] = z20;
+    out[1] = z21;
+    out[2] = z22;
+    out[3] = z23;
+    out[4] = x1_dot + Real(2) * z3 * z28 + z10 * z29;
+    out[5] = y1_dot + Real(2) * z4 * z28 - z8 * z29;
+    out[6] = x2_dot - Real(2) * z6 * z28 + z11 * z29;
+    out[7] = y2_dot - Real(2) * z5 * z28 - z9 * z29;
+    position[0] = -z2;
+    position[1] = Real(0);
+    pivots[0] = z16;
+    pivots[1] = z13;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+
+    // Constraints
+    const Real z0 = x1_dot - x2_dot;
+    const Real z1 = y1_dot - y2_dot;
+    const Real gamma0 = -Real(2) * (z0 * z0 + z1 * z1);
+    const Real z2 = z0 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z1;
+    const Real gamma1 = -z2;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -410,7 +490,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1.5, 1, 0.2, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 4, 5, 13, 2, 0, 2, "linked_particles", "routh, textbook form",
+    3, 4, 4, 5, 10, 2, 0, 2, "linked_particles", "recursive, composite bodies",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -435,4 +515,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 
