@@ -155,6 +155,44 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = lambda_rod;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
+    const Real &k1 = par[4], &k2 = par[5];
+
+    // Projection
+    const Real z0 = k1 - x * x - y * y;
+    const Real z1 = k2 * x;
+    const Real z2 = k2 * y;
+    const Real z3 = x * z1 + y * z2;
+    const Real z4 = Real(1) / z3;
+    const Real z5 = z4 * z0;
+    const Real z6 = x + Real(0.5) * z1 * z5;
+    const Real z7 = y + Real(0.5) * z2 * z5;
+    const Real z8 = z4 * (y_dot * z7 + x_dot * z6);
+
+    // Result
+    out[0] = z6;
+    out[1] = z7;
+    out[2] = x_dot - z1 * z8;
+    out[3] = y_dot - z2 * z8;
+    position[0] = -z0;
+    pivots[0] = Real(2) * z3;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &x_dot = state[2], &y_dot = state[3];
+
+    // Constraints
+    const Real gamma0 = -Real(2) * (x_dot * x_dot + y_dot * y_dot);
+
+    // Result
+    out[0] = gamma0;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -219,4 +257,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -330,6 +330,59 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = lambda_blade;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Projection
+    const Real z0 = k0 * sin_phi;
+    const Real z1 = k0 * cos_phi;
+    const Real z2 = k1 * z1;
+    const Real z3 = z0 * z2;
+    const Real z4 = Real(1) / (m - z1 * z2);
+    const Real z5 = z3 * z4;
+    const Real z6 = k1 * z0;
+    const Real z7 = Real(1) / ((m - z0 * z6) - z3 * z5);
+    const Real z8 = z4 * cos_phi;
+    const Real z9 = z3 * z8 + sin_phi;
+    const Real z10 = z9 * z7;
+    const Real z11 = z8 * cos_phi + z9 * z10;
+    const Real z12 = (x_dot * sin_phi - y_dot * cos_phi) / z11;
+    const Real z13 = z10 * z12;
+    const Real z14 = z8 * z12 + z5 * z13;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = phi;
+    out[3] = x_dot - z13;
+    out[4] = y_dot + z14;
+    out[5] = phi_dot - (z6 * z13 + z2 * z14);
+    position[0] = Real(0);
+    pivots[0] = z11;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+
+    // Result
+    out[0] = gamma0;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -394,4 +447,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -323,6 +323,65 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_y;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &theta = state[2], &phi = state[3], &x_dot = state[4];
+    const Real &y_dot = state[5], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &r = par[1], &k0 = par[7], &k2 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Projection
+    const Real z0 = r * cos_theta;
+    const Real z1 = r * sin_theta;
+    const Real z2 = y_dot - phi_dot * z1;
+    const Real z3 = k2 * z1;
+    const Real z4 = k0 + z1 * z3;
+    const Real z5 = Real(1) / z4;
+    const Real z6 = z0 * z3;
+    const Real z7 = z5 * z6;
+    const Real z8 = k2 * z0;
+    const Real z9 = (k0 + z0 * z8) - z7 * z6;
+    const Real z10 = z7 * z2 - (x_dot - phi_dot * z0);
+    const Real z11 = z10 / z9;
+    const Real z12 = z5 * z2 + z7 * z11;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = theta;
+    out[3] = phi;
+    out[4] = x_dot + k0 * z11;
+    out[5] = y_dot - k0 * z12;
+    out[6] = theta_dot;
+    out[7] = phi_dot - (z11 * z8 - z12 * z3);
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z9;
+    pivots[1] = z4;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &theta = state[2], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Constraints
+    const Real z0 = theta_dot * phi_dot;
+    const Real gamma0 = -r * sin_theta * z0;
+    const Real gamma1 = r * cos_theta * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -387,4 +446,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -67,6 +67,16 @@ void prepare(Real* par) {
     par[14] = k3;
     par[15] = k4;
     par[16] = k5;
+    par[17] = k6;
+    par[18] = k7;
+    par[19] = k8;
+    par[20] = k9;
+    par[21] = k10;
+    par[22] = k11;
+    par[23] = k12;
+    par[24] = k13;
+    par[25] = k14;
+    par[26] = k15;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
@@ -74,17 +84,17 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &y1_dot = state[4], &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
     const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
-    const Real &f3 = par[10], &k1 = par[12], &k3 = par[14], &k4 = par[15], &k5 = par[16];
+    const Real &f3 = par[10], &k9 = par[20], &k11 = par[22], &k12 = par[23], &k13 = par[24];
 
     // Result
     rate[0] = y1_dot;
     rate[1] = z_dot;
     rate[2] = y2_dot;
     rate[3] = y3_dot;
-    rate[4] = k1;
-    rate[5] = -k3;
-    rate[6] = -k4;
-    rate[7] = -k5;
+    rate[4] = k9;
+    rate[5] = -k11;
+    rate[6] = -k12;
+    rate[7] = -k13;
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
@@ -143,11 +153,11 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 /// The scene's outputs.
 template <typename Real>
 void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &k0 = par[11], &k2 = par[13];
+    const Real &k8 = par[19], &k10 = par[21];
 
     // Result
-    out[0] = k0;
-    out[1] = k2;
+    out[0] = k8;
+    out[1] = k10;
 }
 
 /// The scene's event functions.
@@ -182,11 +192,53 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &k0 = par[11], &k2 = par[13];
+    const Real &k8 = par[19], &k10 = par[21];
 
     // Result
-    lambda[0] = -k0;
-    lambda[1] = -k2;
+    lambda[0] = -k8;
+    lambda[1] = -k10;
+}
+
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
+    const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
+    const Real &L1 = par[4], &L2 = par[5], &k0 = par[11], &k1 = par[12], &k2 = par[13], &k3 = par[14];
+    const Real &k4 = par[15], &k5 = par[16], &k6 = par[17], &k7 = par[18], &k14 = par[25], &k15 = par[26];
+
+    // Projection
+    const Real z0 = L1 - y1 - z;
+    const Real z1 = L2 + Real(2) * z - y2 - y3;
+    const Real z2 = Real(2) * z_dot - y2_dot - y3_dot;
+    const Real z3 = k7 * (z0 + k14 * z1);
+    const Real z4 = k5 * z1 + k14 * z3;
+    const Real z5 = k7 * (k14 * z2 - (y1_dot + z_dot));
+    const Real z6 = k5 * z2 + k14 * z5;
+
+    // Result
+    out[0] = y1 + k0 * z3;
+    out[1] = z + (k1 * z3 - k15 * z4);
+    out[2] = y2 + k2 * z4;
+    out[3] = y3 + k3 * z4;
+    out[4] = y1_dot + k0 * z5;
+    out[5] = z_dot + (k1 * z5 - k15 * z6);
+    out[6] = y2_dot + k2 * z6;
+    out[7] = y3_dot + k3 * z6;
+    position[0] = -z0;
+    position[1] = -z1;
+    pivots[0] = k6;
+    pivots[1] = k4;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
+    out[1] = Real(0);
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -228,7 +280,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 1.1, 0.9, 0.3, 10, 8, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 4, 7, 10, 2, 0, 2, "double_atwood_ropes", "routh, intermediate symbols",
+    3, 4, 4, 7, 20, 2, 0, 2, "double_atwood_ropes", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -253,4 +305,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

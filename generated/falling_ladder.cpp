@@ -309,6 +309,70 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_wall;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &l = par[1], &k1 = par[5], &k2 = par[6];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * sin_phi;
+    const Real z2 = y - z1;
+    const Real z3 = x - z0;
+    const Real z4 = k2 * z1;
+    const Real z5 = k1 + z4 * z1;
+    const Real z6 = Real(1) / z5;
+    const Real z7 = z4 * z0;
+    const Real z8 = z7 * z6;
+    const Real z9 = k2 * z0;
+    const Real z10 = (k1 + z9 * z0) - z7 * z8;
+    const Real z11 = Real(1) / z10;
+    const Real z12 = (z8 * z3 + z2) * z11;
+    const Real z13 = z6 * z3 + z8 * z12;
+    const Real phi0 = phi + (z9 * z12 - z4 * z13);
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+
+    // Projection
+    const Real z14 = x_dot + phi_dot * l * sin_phi0;
+    const Real z15 = (y_dot - phi_dot * l * cos_phi0) + z8 * z14;
+    const Real z16 = z11 * z15;
+    const Real z17 = z6 * z14 + z8 * z16;
+
+    // Result
+    out[0] = x - k1 * z13;
+    out[1] = y - k1 * z12;
+    out[2] = phi0;
+    out[3] = x_dot - k1 * z17;
+    out[4] = y_dot - k1 * z16;
+    out[5] = phi_dot + (z9 * z16 - z4 * z17);
+    position[0] = z2;
+    position[1] = z3;
+    pivots[0] = z10;
+    pivots[1] = z5;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &phi = state[2], &phi_dot = state[5];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = phi_dot * phi_dot;
+    const Real gamma0 = -l * sin_phi * z0;
+    const Real gamma1 = -l * cos_phi * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -373,4 +437,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -401,6 +401,109 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_y;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3], &M00 = par[7], &k0 = par[8], &k1 = par[11];
+    const Real &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto trig0 = sincos(phi0, alpha, beta, gamma);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
+        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3], cos_gamma = trig0.cosine[3];
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = a * sin_alpha;
+    const Real z2 = b * sin_beta;
+    const Real z3 = c * sin_gamma;
+    const Real z4 = a * cos_alpha;
+    const Real z5 = b * cos_beta;
+    const Real z6 = c * cos_gamma;
+    const Real z7 = (z4 + z5) - (d + z6);
+    const Real z8 = (z1 + z2) - z3;
+    const Real z9 = k1 * z0;
+    const Real z10 = Real(1) / (M00 - z0 * z9);
+    const Real z11 = k1 * z2;
+    const Real z12 = z1 - z0 * z11;
+    const Real z13 = z12 * z10;
+    const Real z14 = k2 * z3;
+    const Real z15 = z12 * z13 + (z2 * z11 + z3 * z14);
+    const Real z16 = k1 * z5;
+    const Real z17 = z4 - z0 * z16;
+    const Real z18 = z17 * z10;
+    const Real z19 = k2 * z6;
+    const Real z20 = z12 * z18 + (z2 * z16 + z3 * z19);
+    const Real z21 = z17 * z18 + (z5 * z16 + z6 * z19);
+    const Real z22 = Real(1) / z21;
+    const Real z23 = z20 * z22;
+    const Real z24 = z15 - z20 * z23;
+    const Real z25 = Real(1) / z24;
+    const Real z26 = (z7 + z8 * z23) * z25;
+    const Real z27 = z8 * z22 + z23 * z26;
+    const Real z28 = z13 * z26 - z18 * z27;
+    const Real phi1 = alpha + z28;
+    const Real z29 = z26 * z11 - z27 * z16 - z9 * z28;
+    const Real phi2 = beta + z29;
+    const Real phi3 = gamma - (z26 * z14 - z27 * z19);
+    const auto trig1 = sincos(phi3, phi1, phi2);
+    const Real sin_phi3 = trig1.sine[0], cos_phi3 = trig1.cosine[0], sin_phi1 = trig1.sine[1],
+        cos_phi1 = trig1.cosine[1], sin_phi2 = trig1.sine[2], cos_phi2 = trig1.cosine[2];
+
+    // Projection
+    const Real z30 = gamma_dot * c * sin_phi3;
+    const Real z31 = alpha_dot * a * sin_phi1;
+    const Real z32 = z30 - z31 - beta_dot * b * sin_phi2;
+    const Real z33 = gamma_dot * c * cos_phi3;
+    const Real z34 = alpha_dot * a * cos_phi1;
+    const Real z35 = z33 - z34 - beta_dot * b * cos_phi2;
+    const Real z36 = z25 * (z32 - z23 * z35);
+    const Real z37 = z22 * z35 - z23 * z36;
+    const Real z38 = z13 * z36 + z18 * z37;
+    const Real z39 = z36 * z11 + z37 * z16 - z9 * z38;
+
+    // Result
+    out[0] = phi1;
+    out[1] = phi2;
+    out[2] = phi3;
+    out[3] = alpha_dot + z38;
+    out[4] = beta_dot + z39;
+    out[5] = gamma_dot - (z36 * z14 + z37 * z19);
+    position[0] = z7;
+    position[1] = z8;
+    pivots[0] = z24;
+    pivots[1] = z21;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta, gamma);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1], sin_gamma = trig0.sine[2], cos_gamma = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+    const Real z2 = a * cos_alpha * z1;
+    const Real z3 = b * cos_beta * z0;
+    const Real z4 = gamma_dot * gamma_dot;
+    const Real gamma0 = z2 + z3 - c * cos_gamma * z4;
+    const Real z5 = a * sin_alpha * z1;
+    const Real z6 = b * sin_beta * z0;
+    const Real gamma1 = z5 + z6 - c * sin_gamma * z4;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -465,4 +568,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -318,6 +318,44 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = F;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &psi = state[1], &theta = state[2], &x_dot = state[3], &psi_dot = state[4];
+    const Real &theta_dot = state[5];
+    const Real &R = par[2], &M00 = par[5], &k0 = par[7], &k2 = par[10], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const Real cos_theta = cos(theta);
+
+    // Projection
+    const Real z0 = k0 * cos_theta;
+    const Real z1 = k2 * z0;
+    const Real z2 = Real(1) / (M00 - z0 * z1);
+    const Real z3 = k4 + z2;
+    const Real z4 = (x_dot - R * psi_dot) / z3;
+    const Real z5 = z2 * z4;
+
+    // Result
+    out[0] = x;
+    out[1] = psi;
+    out[2] = theta;
+    out[3] = x_dot - z5;
+    out[4] = psi_dot + k3 * z4;
+    out[5] = theta_dot + z5 * z1;
+    position[0] = Real(0);
+    pivots[0] = z3;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -382,4 +420,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

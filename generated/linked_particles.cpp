@@ -380,6 +380,77 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda2;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k2 = par[7], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Projection
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = k2 - z0 * z0 - z1 * z1;
+    const Real z3 = k4 * z0;
+    const Real z4 = k4 * z1;
+    const Real z5 = k6 * z1;
+    const Real z6 = k6 * z0;
+    const Real z7 = z1 * (z4 + z5) + z0 * (z3 + z6);
+    const Real z8 = k3 * z0;
+    const Real z9 = k5 * z0;
+    const Real z10 = k3 * z1;
+    const Real z11 = k5 * z1;
+    const Real z12 = z1 * (z8 - z9) - z0 * (z10 - z11);
+    const Real z13 = z1 * (z10 + z11) + z0 * (z8 + z9);
+    const Real z14 = Real(1) / z13;
+    const Real z15 = z12 * z14;
+    const Real z16 = Real(2) * z7 - Real(4) * z12 * z15;
+    const Real z17 = Real(1) / z16;
+    const Real z18 = z2 * z17;
+    const Real z19 = z15 * z18;
+    const Real z20 = x1 + z3 * z18 + Real(2) * z10 * z19;
+    const Real z21 = y1 + z4 * z18 - Real(2) * z8 * z19;
+    const Real z22 = x2 - z6 * z18 + Real(2) * z11 * z19;
+    const Real z23 = y2 - z5 * z18 - Real(2) * z9 * z19;
+    const Real z24 = z22 - z20;
+    const Real z25 = z23 - z21;
+    const Real z26 = (x1_dot + x2_dot) * z25 - (y1_dot + y2_dot) * z24;
+    const Real z27 = (y1_dot - y2_dot) * z25 + z15 * z26;
+    const Real z28 = z17 * (z27 + (x1_dot - x2_dot) * z24);
+    const Real z29 = z14 * z26 + Real(4) * z15 * z28;
+
+    // Result
+    out[0] = z20;
+    out[1] = z21;
+    out[2] = z22;
+    out[3] = z23;
+    out[4] = x1_dot + Real(2) * z3 * z28 + z10 * z29;
+    out[5] = y1_dot + Real(2) * z4 * z28 - z8 * z29;
+    out[6] = x2_dot - Real(2) * z6 * z28 + z11 * z29;
+    out[7] = y2_dot - Real(2) * z5 * z28 - z9 * z29;
+    position[0] = -z2;
+    position[1] = Real(0);
+    pivots[0] = z16;
+    pivots[1] = z13;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+
+    // Constraints
+    const Real z0 = x1_dot - x2_dot;
+    const Real z1 = y1_dot - y2_dot;
+    const Real gamma0 = -Real(2) * (z0 * z0 + z1 * z1);
+    const Real z2 = z0 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z1;
+    const Real gamma1 = -z2;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -444,4 +515,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

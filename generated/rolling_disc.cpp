@@ -153,14 +153,17 @@ void prepare(Real* par) {
     const Real k0 = m * r * r;
     const Real M11 = Real(0.5) * k0;
     const Real f0 = m * g * sin_beta;
-    const Real z0 = Real(1) / m;
-    const Real z1 = z0 * f0;
-    const Real z2 = r / k0;
-    const Real k1 = z1 / (z0 + Real(2) * r * z2);
-    const Real k2 = z1 - z0 * k1;
-    const Real k3 = Real(2) * z2 * k1;
-    const Real k4 = Real(0.5) * m;
-    const Real k5 = Real(0.25) * k0;
+    const Real k1 = Real(1) / m;
+    const Real z0 = k1 * f0;
+    const Real z1 = r / k0;
+    const Real k2 = k1 + Real(2) * r * z1;
+    const Real k3 = Real(1) / k2;
+    const Real k4 = z0 * k3;
+    const Real k5 = z0 - k1 * k4;
+    const Real k6 = Real(2) * z1 * k4;
+    const Real k7 = Real(2) * z1;
+    const Real k8 = Real(0.5) * m;
+    const Real k9 = Real(0.25) * k0;
 
     // Result
     par[4] = k0;
@@ -171,19 +174,23 @@ void prepare(Real* par) {
     par[9] = k3;
     par[10] = k4;
     par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+    par[15] = k9;
 }
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &f0 = par[6], &k2 = par[8], &k3 = par[9];
+    const Real &m = par[0], &f0 = par[6], &k5 = par[11], &k6 = par[12];
 
     // Result
     rate[0] = x_dot;
     rate[1] = phi_dot;
-    rate[2] = k2;
-    rate[3] = k3;
+    rate[2] = k5;
+    rate[3] = k6;
 }
 
 /// M (n by n, row-major) and f of M q'' = f.
@@ -203,10 +210,10 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &k0 = par[4], &f0 = par[6], &k4 = par[10], &k5 = par[11];
+    const Real &m = par[0], &k0 = par[4], &f0 = par[6], &k8 = par[14], &k9 = par[15];
 
     // Energy
-    const Real T = k4 * x_dot * x_dot + k5 * phi_dot * phi_dot;
+    const Real T = k8 * x_dot * x_dot + k9 * phi_dot * phi_dot;
     const Real z0 = f0 * x;
     const Real V = -z0;
     const Real E = T - z0;
@@ -251,10 +258,37 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &k1 = par[7];
+    const Real &k4 = par[10];
 
     // Result
-    lambda[0] = -k1;
+    lambda[0] = -k4;
+}
+
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &r = par[1], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k7 = par[13];
+
+    // Projection
+    const Real z0 = k3 * (x_dot - r * phi_dot);
+
+    // Result
+    out[0] = x;
+    out[1] = phi;
+    out[2] = x_dot - k1 * z0;
+    out[3] = phi_dot + k7 * z0;
+    position[0] = Real(0);
+    pivots[0] = k2;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -296,7 +330,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.4, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 8, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
+    3, 2, 2, 4, 12, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -321,4 +355,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

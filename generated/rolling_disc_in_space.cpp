@@ -497,6 +497,104 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_rim_y;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k5 = par[10];
+    const Real &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Projection
+    const Real z0 = k0 * sin_theta;
+    const Real z1 = z0 * sin_psi;
+    const Real z2 = k0 * cos_theta;
+    const Real z3 = z2 * sin_psi;
+    const Real z4 = z2 * cos_psi;
+    const Real z5 = M44 * sin_theta;
+    const Real z6 = r * cos_psi;
+    const Real z7 = r * sin_psi;
+    const Real z8 = y_dot - phi_dot * z7;
+    const Real z9 = k5 * z3;
+    const Real z10 = k5 * z4;
+    const Real z11 = z3 * z10;
+    const Real z12 = Real(1) / (m - z4 * z10);
+    const Real z13 = z11 * z12;
+    const Real z14 = (m - z3 * z9) - z11 * z13;
+    const Real z15 = z1 * z12;
+    const Real z16 = z0 * cos_psi - z11 * z15;
+    const Real z17 = k6 * z5;
+    const Real z18 = (k1 + M33 * sin_theta * sin_theta) - z5 * z17;
+    const Real z19 = Real(1) / (z18 - z1 * z15);
+    const Real z20 = z16 * z19;
+    const Real z21 = Real(1) / (z14 - z16 * z20);
+    const Real z22 = k6 * z6;
+    const Real z23 = z5 * z22;
+    const Real z24 = z23 * z19;
+    const Real z25 = z16 * z24 - Real(1);
+    const Real z26 = z25 * z21;
+    const Real z27 = (z22 * z6 + z23 * z24) + z25 * z26;
+    const Real z28 = k6 * z7;
+    const Real z29 = z5 * z28 - z15;
+    const Real z30 = z29 * z19;
+    const Real z31 = z13 + z16 * z30;
+    const Real z32 = z31 * z21;
+    const Real z33 = (z28 * z6 + z23 * z30) + z25 * z32;
+    const Real z34 = (z28 * z7 + z12) + z29 * z30;
+    const Real z35 = z34 + z31 * z32;
+    const Real z36 = Real(1) / z35;
+    const Real z37 = z33 * z36;
+    const Real z38 = z27 - z33 * z37;
+    const Real z39 = z37 * z8 - (x_dot - phi_dot * z6);
+    const Real z40 = z39 / z38;
+    const Real z41 = z36 * z8 + z37 * z40;
+    const Real z42 = z26 * z40 - z32 * z41;
+    const Real z43 = z24 * z40 - z30 * z41 + z20 * z42;
+    const Real z44 = z12 * z41 - z13 * z42 + z15 * z43;
+    const Real z45 = z22 * z40 - z28 * z41 + z17 * z43;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = psi;
+    out[3] = theta;
+    out[4] = phi;
+    out[5] = x_dot - z42;
+    out[6] = y_dot - z44;
+    out[7] = psi_dot + z43;
+    out[8] = theta_dot + (z9 * z42 - z10 * z44);
+    out[9] = phi_dot - z45;
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z38;
+    pivots[1] = z35;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &psi = state[2], &psi_dot = state[7], &phi_dot = state[9];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Constraints
+    const Real z0 = psi_dot * phi_dot;
+    const Real gamma0 = -r * sin_psi * z0;
+    const Real gamma1 = r * cos_psi * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -561,4 +659,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 
