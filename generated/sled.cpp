@@ -269,6 +269,43 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = lambda1;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &xC = state[0], &yC = state[1], &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &k0 = par[2];
+
+    // Projection
+    const Real z0 = tan(phi);
+    const Real z1 = k0 * z0;
+    const Real z2 = k0 + z1 * z0;
+    const Real z3 = (yC_dot - xC_dot * z0) / z2;
+
+    // Result
+    out[0] = xC;
+    out[1] = yC;
+    out[2] = phi;
+    out[3] = xC_dot + z1 * z3;
+    out[4] = yC_dot - k0 * z3;
+    out[5] = phi_dot;
+    position[0] = Real(0);
+    pivots[0] = z2;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
+
+    // Constraints
+    const Real z0 = tan(phi);
+    const Real gamma0 = -xC_dot * phi_dot * (z0 * z0 + Real(1));
+
+    // Result
+    out[0] = gamma0;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -333,4 +370,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -389,6 +389,95 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda2;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
+        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = r * sin_alpha;
+    const Real z2 = l * sin_beta;
+    const Real z3 = r * cos_alpha;
+    const Real z4 = l * cos_beta;
+    const Real z5 = x - z3 - z4;
+    const Real z6 = z1 - z2;
+    const Real z7 = k3 * z0;
+    const Real z8 = Real(1) / (M00 - z0 * z7);
+    const Real z9 = k3 * z2;
+    const Real z10 = z9 * z0 + z1;
+    const Real z11 = z8 * z10;
+    const Real z12 = z11 * z10 + (k4 + z9 * z2);
+    const Real z13 = k3 * z4;
+    const Real z14 = z0 * z13 - z3;
+    const Real z15 = z8 * z14;
+    const Real z16 = z15 * z10 + z13 * z2;
+    const Real z17 = z15 * z14 + z13 * z4;
+    const Real z18 = Real(1) / z17;
+    const Real z19 = z16 * z18;
+    const Real z20 = z12 - z16 * z19;
+    const Real z21 = Real(1) / z20;
+    const Real z22 = (z19 * z6 + z5) * z21;
+    const Real z23 = z18 * z6 + z19 * z22;
+    const Real z24 = z11 * z22 - z15 * z23;
+    const Real phi1 = alpha - z24;
+    const Real z25 = z22 * z9 - z23 * z13 + z24 * z7;
+    const Real phi2 = beta - z25;
+    const auto trig1 = sincos(phi1, phi2);
+    const Real sin_phi1 = trig1.sine[0], cos_phi1 = trig1.cosine[0], sin_phi2 = trig1.sine[1],
+        cos_phi2 = trig1.cosine[1];
+
+    // Projection
+    const Real z26 = alpha_dot * r * sin_phi1;
+    const Real z27 = x_dot + z26 + beta_dot * l * sin_phi2;
+    const Real z28 = alpha_dot * r * cos_phi1 - beta_dot * l * cos_phi2;
+    const Real z29 = z21 * (z27 + z19 * z28);
+    const Real z30 = z18 * z28 + z19 * z29;
+    const Real z31 = z11 * z29 - z15 * z30;
+    const Real z32 = z29 * z9 - z30 * z13 + z31 * z7;
+
+    // Result
+    out[0] = phi1;
+    out[1] = phi2;
+    out[2] = x - k4 * z22;
+    out[3] = alpha_dot - z31;
+    out[4] = beta_dot - z32;
+    out[5] = x_dot - k4 * z29;
+    position[0] = z5;
+    position[1] = z6;
+    pivots[0] = z20;
+    pivots[1] = z17;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &r = par[3], &l = par[4];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+    const Real z2 = r * cos_alpha * z1 + l * cos_beta * z0;
+    const Real gamma0 = -z2;
+    const Real gamma1 = r * sin_alpha * z1 - l * sin_beta * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -453,4 +542,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

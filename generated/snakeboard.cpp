@@ -404,6 +404,86 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_rear;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &theta = state[2], &psi = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1], &k2 = par[12], &k3 = par[13];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const Real phi1 = theta - phi;
+    const auto trig0 = sincos(phi0, phi, phi1);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_phi = trig0.cosine[1],
+        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
+
+    // Projection
+    const Real z0 = l * cos_phi;
+    const Real z1 = theta_dot * z0;
+    const Real z2 = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
+    const Real z3 = z1 - y_dot * cos_phi1 + x_dot * sin_phi1;
+    const Real z4 = k2 * sin_phi0;
+    const Real z5 = k2 * cos_phi0;
+    const Real z6 = k3 * z0;
+    const Real z7 = z0 * z6;
+    const Real z8 = z4 * sin_phi0 + (z5 * cos_phi0 - z7);
+    const Real z9 = k2 * sin_phi1;
+    const Real z10 = k2 * cos_phi1;
+    const Real z11 = z9 * sin_phi0 + (z10 * cos_phi0 + z7);
+    const Real z12 = z9 * sin_phi1 + (z10 * cos_phi1 - z7);
+    const Real z13 = Real(1) / z12;
+    const Real z14 = z11 * z13;
+    const Real z15 = z8 - z11 * z14;
+    const Real z16 = (z14 * z3 + z2) / z15;
+    const Real z17 = z13 * z3 + z14 * z16;
+    const Real z18 = (z16 + z17) * z6;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = theta;
+    out[3] = psi;
+    out[4] = phi;
+    out[5] = x_dot + (z4 * z16 - z9 * z17);
+    out[6] = y_dot - (z5 * z16 - z10 * z17);
+    out[7] = theta_dot + z18;
+    out[8] = psi_dot - z18;
+    out[9] = phi_dot;
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z15;
+    pivots[1] = z12;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const Real phi1 = theta - phi;
+    const auto trig0 = sincos(phi0, phi, phi1);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = l * theta_dot * phi_dot * sin_phi;
+    const Real z1 = theta_dot + phi_dot;
+    const Real z2 = z0 + cos_phi0 * x_dot * z1;
+    const Real gamma0 = z2 + sin_phi0 * y_dot * z1;
+    const Real z3 = y_dot * sin_phi1 + x_dot * cos_phi1;
+    const Real gamma1 = theta_dot * z3 - (z0 + phi_dot * z3);
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -468,4 +548,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

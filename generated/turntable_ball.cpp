@@ -487,6 +487,116 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_y;
 }
 
+/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &a = par[1], &Omega = par[2], &M22 = par[3], &k0 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi, phi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1], sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2];
+
+    // Projection
+    const Real z0 = M22 * cos_theta;
+    const Real z1 = psi_dot * sin_theta;
+    const Real z2 = a * sin_psi;
+    const Real z3 = a * cos_psi;
+    const Real z4 = z3 * sin_theta;
+    const Real z5 = sin_psi * sin_theta;
+    const Real z6 = cos_psi * sin_theta;
+    const Real z7 = a * z6;
+    const Real z8 = cos_psi * cos_theta;
+    const Real z9 = sin_psi * sin_phi - z8 * cos_phi;
+    const Real z10 = a * z9;
+    const Real z11 = sin_psi * cos_phi + z8 * sin_phi;
+    const Real z12 = a * z11;
+    const Real z13 = theta_dot * (z10 * sin_phi + z12 * cos_phi);
+    const Real z14 = (z10 * cos_phi - z12 * sin_phi) * sin_theta;
+    const Real z15 = psi_dot * (z7 * cos_theta + z14);
+    const Real z16 = phi_dot + psi_dot * cos_theta;
+    const Real z17 = z1 * cos_phi - theta_dot * sin_phi;
+    const Real z18 = z1 * sin_phi + theta_dot * cos_phi;
+    const Real z19 = z6 * z16 + z9 * z17 - z11 * z18;
+    const Real z20 = (x_dot + a * z19) + Omega * y;
+    const Real z21 = x_dot + phi_dot * z7 - z13 + z15 - z20;
+    const Real z22 = x_dot - theta_dot * z2 + phi_dot * z4 - z21;
+    const Real z23 = a * z5;
+    const Real z24 = phi_dot * z23;
+    const Real z25 = sin_psi * cos_theta;
+    const Real z26 = cos_psi * sin_phi + z25 * cos_phi;
+    const Real z27 = a * z26;
+    const Real z28 = cos_psi * cos_phi - z25 * sin_phi;
+    const Real z29 = a * z28;
+    const Real z30 = theta_dot * (z27 * sin_phi + z29 * cos_phi);
+    const Real z31 = (z29 * sin_phi - z27 * cos_phi) * sin_theta;
+    const Real z32 = psi_dot * (z23 * cos_theta + z31);
+    const Real z33 = z5 * z16 - z26 * z17 + z28 * z18;
+    const Real z34 = (y_dot + a * z33) - Omega * x;
+    const Real z35 = y_dot + z24 + z30 + z32 - z34;
+    const Real z36 = y_dot + theta_dot * z3 + z24 - z35;
+    const Real z37 = k1 * z2;
+    const Real z38 = k1 * z0;
+    const Real z39 = Real(1) / (M22 - z0 * z38);
+    const Real z40 = z39 * z4;
+    const Real z41 = z37 * z2 + (k0 + z40 * z4);
+    const Real z42 = k1 * z3;
+    const Real z43 = z39 * z23;
+    const Real z44 = z42 * z2 - z43 * z4;
+    const Real z45 = z42 * z3 + (k0 + z43 * z23);
+    const Real z46 = Real(1) / z45;
+    const Real z47 = z44 * z46;
+    const Real z48 = z41 - z44 * z47;
+    const Real z49 = (z47 * z36 + z22) / z48;
+    const Real z50 = z46 * z36 + z47 * z49;
+    const Real z51 = z40 * z49 + z43 * z50;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = psi;
+    out[3] = theta;
+    out[4] = phi;
+    out[5] = x_dot - k0 * z49;
+    out[6] = y_dot - k0 * z50;
+    out[7] = psi_dot + z38 * z51;
+    out[8] = theta_dot + (z37 * z49 - z42 * z50);
+    out[9] = phi_dot - z51;
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z48;
+    pivots[1] = z45;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &a = par[1], &Omega = par[2];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = theta_dot * cos_theta;
+    const Real z1 = psi_dot * (theta_dot * cos_psi + phi_dot * sin_psi * sin_theta);
+    const Real z2 = a * (phi_dot * cos_psi * z0 - z1);
+    const Real gamma0 = -z2 - Omega * y_dot;
+    const Real z3 = phi_dot * (sin_psi * z0 + cos_psi * psi_dot * sin_theta);
+    const Real z4 = a * (psi_dot * theta_dot * sin_psi - z3);
+    const Real gamma1 = z4 + Omega * x_dot;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -551,4 +661,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    3,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -145,11 +145,16 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         std::vector<double> y = state.q, rate(2 * n);
         y.insert(y.end(), state.qdot.begin(), state.qdot.end());
         rhs(state.t, y.data(), rate.data());
-        State<double> beside = state;  // by a unit in the last place
-        for (double& x : beside.q) x = std::nextafter(x, 10 * x);
-        const std::vector<double> nearby = accelerations(beside, program);
+        // What a unit in the last place of the state does, to either side.
         double largest = 1e-300, moved = 0;
-        for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i])), moved = std::max(moved, std::abs(nearby[i] - a[i]));
+        for (const double side : {10.0, 0.1}) {
+            State<double> beside = state;
+            for (auto* list : {&beside.q, &beside.qdot})
+                for (std::size_t i = 0; i < list->size(); ++i) (*list)[i] = std::nextafter((*list)[i], (i % 2 == 0 ? side : 1 / side) * (*list)[i]);
+            const std::vector<double> nearby = accelerations(beside, program);
+            for (int i = 0; i < n; ++i) moved = std::max(moved, std::abs(nearby[i] - a[i]));
+        }
+        for (int i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i]));
         if (!all_finite(a)) {
             ++singular;
             continue;

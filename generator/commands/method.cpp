@@ -33,7 +33,7 @@ MethodChoice automatic(const Request& request, const Derived& d, const Program& 
         const double steps = duration / step;
         if (steps >= many_steps && !inseparable(d))
             return {.method = Method::kahanli8,
-                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in {:.3g} steps the energy must "
+                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in {:.0f} steps the energy must "
                                        "not drift",
                                        steps)};
         return {.method = Method::rk4, .why = "a fixed step was asked for"};

@@ -65,7 +65,7 @@ Rhs Modes::with_jacobian(LoadedMode& mode) {
             clock = process_seconds();
             const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
             mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
-            mode.when_stiff->extra = 0;
+            mode.when_stiff->extra = mode.contact.rhs.extra;
             if (!mode.derived.mechanism.constraints.empty()) mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
             mode.jacobian_operations = derivatives->operations.total();
             seconds_.compile += process_seconds() - clock;
@@ -122,7 +122,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
-    mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
+    if (!has_contacts) mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
     LoadedMode* const self = mode.get();
     if (constrained) {
         mode->contact.project = std::ref(self->projection);

@@ -19,7 +19,7 @@ struct Method {
 constexpr Method methods[] = {
     {"auto", true, false},   {"euler", true, true},     {"rk2", true, true},       {"rk4", true, true},
     {"dopri5", true, false}, {"dop853", true, false},   {"verner76", true, false}, {"verner98", true, false},
-    {"abm", true, false},   {"bdf", true, false},     {"taylor", false, false},   {"radau", true, false},
+    {"abm", true, false},   {"bdf", true, false},     {"taylor", true, false},   {"radau", true, false},
     {"radau5", true, false}, {"radau9", true, false},   {"radau13", true, false},
     {"verlet", true, true}, {"kahanli8", true, true}, {"gauss", true, true},     {"rattle", false, true},
     {"cvode", false, false}, {"ida", false, false},
