@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "alembert/least_squares.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -66,13 +67,13 @@ private:
                 misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
                 for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
             }
-            const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(J);
-            if (solver.rank() < n)
+            const LeastNorm change = least_norm(J, misfit);
+            if (change.rank < n)
                 throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
                                        "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
                                        "angles in gimbal lock)",
                                        start_.t, start_.q);
-            const Eigen::VectorXd step = solver.solve(misfit);
+            const Eigen::VectorXd step = change.x;
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
         }
         const std::vector<double> value = interpret(p_, start_.state());
@@ -108,7 +109,7 @@ private:
             const double misfit = f.lpNorm<Eigen::Infinity>();
             if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
             former = misfit;
-            Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(f);
+            Eigen::VectorXd step = least_norm(J, f).x;
             // Far away a whole step may throw an angle round the circle.
             if (const double length = step.lpNorm<Eigen::Infinity>(); group[0] == 'p' && length > 1) step /= length;
             if (!step.allFinite()) break;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "alembert/least_squares.hpp"
 #include "analysis/assemble.hpp"
 #include "lower/lower.hpp"
 
@@ -96,7 +97,7 @@ std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vect
         };
         Eigen::MatrixXd basis(n, static_cast<Eigen::Index>(kept.size()));
         for (std::size_t c = 0; c < kept.size(); ++c) basis.col(static_cast<Eigen::Index>(c)) = row(kept[c]);
-        const Eigen::VectorXd target = row(k), share = basis.completeOrthogonalDecomposition().solve(target);
+        const Eigen::VectorXd target = row(k), share = least_norm(basis, target).x;
         for (Eigen::Index c = 0; c < share.size(); ++c)
             if (std::abs(share[c]) * basis.col(c).norm() > 1e-7 * target.norm()) used[static_cast<std::size_t>(c)] = true;
     }

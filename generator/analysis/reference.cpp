@@ -8,6 +8,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "alembert/least_squares.hpp"
 #include "lower/lower.hpp"
 #include "lower/tape.hpp"
 
@@ -53,7 +54,7 @@ public:
                     J(k, static_cast<Eigen::Index>(j)) = static_cast<double>(
                         out[rows.misfit.size() + row * m_.q.size() + static_cast<std::size_t>(free[j])]);
             }
-            const Eigen::VectorXd step = J.completeOrthogonalDecomposition().solve(f);
+            const Eigen::VectorXd step = least_norm(J, f).x;
             if (!step.allFinite()) return;
             for (std::size_t j = 0; j < free.size(); ++j)
                 x[static_cast<std::size_t>(free[j])] -= largest * static_cast<Quad>(step[static_cast<Eigen::Index>(j)]);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "alembert/least_squares.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -176,7 +177,7 @@ private:
             const Eigen::MatrixXd J = jacobian(v);
             Eigen::MatrixXd N = J.transpose() * J;
             N.diagonal().array() += damping;
-            const Eigen::VectorXd step = -N.ldlt().solve(J.transpose() * r);
+            const Eigen::VectorXd step = -solve_symmetric(N, J.transpose() * r);
             std::vector<double> next = q;
             for (Eigen::Index j = 0; j < p; ++j) next[moving_[j]] += step[j];
             const Eigen::VectorXd turned = v + step.tail(v.size());

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "analysis/assemble.hpp"
+#include "alembert/least_squares.hpp"
 #include "commands/pipeline.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
@@ -84,7 +85,7 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
                                          m.constraints[static_cast<std::size_t>(k)].name, off, m.size() - static_cast<int>(m.constraints.size())));
     }
     const Eigen::VectorXd whole = s.M * a + s.minus_f;
-    const Eigen::VectorXd lambda = s.A.rows() > 0 ? Eigen::VectorXd(s.A.transpose().completeOrthogonalDecomposition().solve(whole)) : Eigen::VectorXd();
+    const Eigen::VectorXd lambda = s.A.rows() > 0 ? Eigen::VectorXd(least_norm(s.A.transpose(), whole).x) : Eigen::VectorXd();
     return {a, s.A.rows() > 0 ? Eigen::VectorXd(whole - s.A.transpose() * lambda) : whole, lambda};
 }
 
@@ -95,7 +96,7 @@ Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given
     if (!m.constraints.empty() && count > 0 && count < n)
         throw ModelError(fmt::format("the accelerations of {} coordinates are given; expected those of {} or fewer, the degrees of freedom, or of all {}", count, freedom, n));
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-    if (count == 0 && !m.constraints.empty()) a = s.A.completeOrthogonalDecomposition().solve(s.gamma);  // the least that the constraints allow
+    if (count == 0 && !m.constraints.empty()) a = least_norm(s.A, s.gamma).x;  // the least that the constraints allow
     for (std::size_t j = 0; j < n; ++j)
         if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
     return all_given(s, a, m);

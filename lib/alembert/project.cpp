@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/least_squares.hpp"
+
 namespace alembert {
 
 namespace {
@@ -55,7 +57,7 @@ bool Projection::pivots_are_small() {
 /// x of least norm with B x = r; near a singular pose x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), rows measured with the largest that they
 /// have been: with a direction held by σ it changes by σ²/(σ² + τ²), smoothly.
 Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
-    if (!is_near_singular_) return B.completeOrthogonalDecomposition().solve(r);
+    if (!is_near_singular_) return least_norm(B, r).x;
     for (Eigen::Index k = 0; k < B.rows(); ++k) {
         const double length = std::sqrt(largest_pivots_[static_cast<std::size_t>(k)]);
         if (!(length > 0)) continue;
@@ -97,8 +99,8 @@ Eigen::VectorXd Projection::correction(const Rows& A, bool weighed, const Eigen:
     if (!weighed) return least(A, misfit);
     const Eigen::LLT<Eigen::MatrixXd> factors(mass_);
     if (factors.info() != Eigen::Success) {
-        const Eigen::MatrixXd across = mass_.ldlt().solve(A.transpose());
-        return across * (A * across).completeOrthogonalDecomposition().solve(misfit);
+        const Eigen::MatrixXd across = solve_symmetric(mass_, A.transpose());
+        return across * least_norm(A * across, misfit).x;
     }
     return factors.matrixU().solve(least(factors.matrixL().solve(A.transpose()).transpose(), misfit));
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "alembert/impact.hpp"
+#include "alembert/least_squares.hpp"
 
 namespace alembert {
 
@@ -64,9 +65,9 @@ private:
             const double size = rows.value.lpNorm<Eigen::Infinity>();
             if (!(size > 0) || !(size < former / 2)) return;
             former = size;
-            const MatrixXd weighted = here_.M.ldlt().solve(rows.rows.transpose());
+            const MatrixXd weighted = solve_symmetric(here_.M, rows.rows.transpose());
             const VectorXd change =
-                weighted * (rows.rows * weighted).completeOrthogonalDecomposition().solve(rows.value);
+                weighted * least_norm(rows.rows * weighted, rows.value).x;
             if (!change.allFinite()) return;
             q() -= change;
             look();
