@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # swell.sh [ALEMBERT]: chains of N rods with relative angles; process time of `alembert emit` (derive, lower and emit;
 # median of 5 runs), operations of a right-hand side, and the exponent with which these grow from one row to the next.
-set -eu
+set -eu -o pipefail
 
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
 alembert=${1:-$root/build/release/generator/alembert}
@@ -16,12 +16,15 @@ measure() {
     seconds=$(for ((i = 0; i < runs; i++)); do
         { time "$alembert" emit --json "$folder/chain$1.toml" -o "$folder" >"$folder/emit.json"; } 2>&1
     done | awk '{ print $1 + $2 }' | sort -n | awk '{ t[NR] = $1 } END { printf "%.3f", t[int((NR + 1) / 2)] }')
-    operations=$(sed -n 's/^ *"operations": \([0-9]*\).*/\1/p' "$folder/emit.json")
-    formulation=$(sed -n 's/^ *"formulation": "\(.*\)".*/\1/p' "$folder/emit.json")
+    # The first: that of what is emitted, not of its rivals.
+    operations=$(sed -n 's/^ *"operations": \([0-9]*\).*/\1/p' "$folder/emit.json" | head -n 1)
+    formulation=$(sed -n 's/^ *"formulation": "\(.*\)".*/\1/p' "$folder/emit.json" | head -n 1)
+    [ -n "$operations" ] || { echo "swell.sh: '$alembert emit' said no count of operations for $1 rods" >&2; return 4; }
     echo "$1 $seconds $operations $formulation"
 }
 
-for n in 2 4 8 16 32; do measure "$n"; done | awk '
+rows=$(for n in 2 4 8 16 32; do measure "$n" || exit; done)
+awk '
     BEGIN { printf "%4s %10s %12s %9s   %s\n", "N", "seconds", "operations", "exponent", "formulation" }
     {
         exponent = NR > 1 ? sprintf("%.2f", log($3 / before) / log($1 / n)) : ""
@@ -35,4 +38,4 @@ for n in 2 4 8 16 32; do measure "$n"; done | awk '
         printf "\noperations grow as N^%.2f (least squares over all rows)\n", (k * sxy - sx * sy) / (k * sxx - sx * sx)
         printf "required: N = 8 in under 0.05 s (%s), N = 32 in under 2 s (%s)\n",
             at[8] < 0.05 ? "holds" : "FAILS", at[32] < 2 ? "holds" : "FAILS"
-    }'
+    }' <<<"$rows"
