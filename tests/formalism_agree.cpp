@@ -212,12 +212,12 @@ TEST_CASE("modular: arithmetic modulo 2^61 - 1") {
     CHECK_FALSE(Prime(3).is_square());
     CHECK(*Prime::root_of(3) * *Prime::root_of(3) == 3);
     CHECK(*Prime::root_of(Rational(5) / 3) * *Prime::root_of(15) == 5);
-    const Turn twelfth = *Turn::by_pi(Rational(1) / 6);
+    const PrimeTurn twelfth = *PrimeTurn::by_pi(Rational(1) / 6);
     CHECK(twelfth.cos * twelfth.cos + twelfth.sin * twelfth.sin == 1);
     CHECK(twelfth.sin * 2 == 1);
     CHECK(twelfth.power(3).cos == 0);
-    CHECK(Turn::by_pi(Rational(1) / 8)->power(2).cos == Turn::by_pi(Rational(1) / 4)->sin);
-    CHECK_FALSE(Turn::by_pi(Rational(1) / 5));
+    CHECK(PrimeTurn::by_pi(Rational(1) / 8)->power(2).cos == PrimeTurn::by_pi(Rational(1) / 4)->sin);
+    CHECK_FALSE(PrimeTurn::by_pi(Rational(1) / 5));
     // (x − √3)(x − 2)(x² + 1): roots beyond the plain ones once a coefficient is.
     const Prime r = *Prime::root_of(3);
     PrimePolynomial f{2 * r, -(r + 2), 2 * r + 1, -(r + 2), 1};
@@ -225,7 +225,7 @@ TEST_CASE("modular: arithmetic modulo 2^61 - 1") {
     CHECK(zeros.size() == 4);
     for (const Prime zero : zeros) CHECK(value_at(f, zero) == 0);
     CHECK(*Prime::from(Rational(1) / 3) * 3 == Prime(1));
-    const Turn z = Turn::rational(17);
+    const PrimeTurn z = PrimeTurn::rational(17);
     CHECK(z.cos * z.cos + z.sin * z.sin == Prime(1));
     CHECK(z.power(std::uint64_t{1} << 61).cos == Prime(1));  // the order of the circle's group
 }

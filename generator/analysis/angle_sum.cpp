@@ -47,11 +47,11 @@ std::optional<AngleSum> angle_sum(const Program& program, int condition, const V
     if (found == terms.variables.end() || cln::zerop(found->second)) return std::nullopt;
     const Rational per = -1 / found->second;
     terms.variables.erase(found);
-    const auto number = Turn::exponent(terms.number * per);
+    const auto number = PrimeTurn::exponent(terms.number * per);
     if (!number) return std::nullopt;
     AngleSum sum{.number = *number, .half_turns = terms.half_turns * per};
     for (const auto& [variable, c] : terms.variables) {
-        const auto exponent = Turn::exponent(c * per);
+        const auto exponent = PrimeTurn::exponent(c * per);
         if (!exponent) return std::nullopt;
         sum.multiples.emplace_back(Variable{variable.first, variable.second}, *exponent);
     }
@@ -59,9 +59,9 @@ std::optional<AngleSum> angle_sum(const Program& program, int condition, const V
 }
 
 bool set_angle(ModularPoint& point, const AngleSum& sum, Prime value) {
-    const auto by_pi = Turn::by_pi(sum.half_turns / cln::expt(cln::cl_I(2), point.halves));
+    const auto by_pi = PrimeTurn::by_pi(sum.half_turns / cln::expt(cln::cl_I(2), point.halves));
     if (!by_pi) return false;
-    Turn turn = *by_pi * point.angle(1).power(sum.number);
+    PrimeTurn turn = *by_pi * point.angle(1).power(sum.number);
     for (const auto& [variable, exponent] : sum.multiples) turn = turn * point.angle(point.variable(variable)).power(exponent);
     point.given_angles[value] = turn;
     return true;

@@ -201,7 +201,7 @@ Motions::Outcome Motions::solve_two(const Step& step, ExactState& state) const {
     }
     const auto put = [&](std::size_t k, Prime x) {
         if (both[k].turned)
-            state.point.given_angles[plain[k]] = Turn::rational(x);
+            state.point.given_angles[plain[k]] = PrimeTurn::rational(x);
         else
             state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
     };
@@ -228,7 +228,7 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
     state.point.given[key] = plain;
     const auto put = [&](Prime x) {
         if (step.turned)
-            state.point.given_angles[plain] = Turn::rational(x);
+            state.point.given_angles[plain] = PrimeTurn::rational(x);
         else
             state.point.given[key] = x;
     };
@@ -251,7 +251,7 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
         std::vector<Prime> found = roots(f, state.point.seed);
         std::vector<std::optional<Prime>> all(found.begin(), found.end());
         if (step.turned) {  // half a turn is the root at infinity
-            state.point.given_angles[plain] = Turn{-1, 0};
+            state.point.given_angles[plain] = PrimeTurn{-1, 0};
             if (value_of(program_, step.node, state) == Prime(0)) all.emplace_back();
         }
         const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
@@ -260,7 +260,7 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
         if (all[pick])
             put(*all[pick]);
         else
-            state.point.given_angles[plain] = Turn{-1, 0};
+            state.point.given_angles[plain] = PrimeTurn{-1, 0};
         if (!step.turned)
             if (const auto sum = angle_sum(program_, step.node, step.variable)) set_angle(state.point, *sum, *all[pick]);
         state.degree *= static_cast<double>(f.size() - 1);

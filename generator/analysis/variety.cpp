@@ -76,7 +76,7 @@ private:
 
     static void set(ModularPoint& point, const Unknown& unknown, Prime value) {
         if (unknown.how == How::turn)
-            point.given_angles[point.variable({unknown.key.first, unknown.key.second})] = Turn::rational(value);
+            point.given_angles[point.variable({unknown.key.first, unknown.key.second})] = PrimeTurn::rational(value);
         else
             point.given[unknown.key] = value;
     }

@@ -42,7 +42,7 @@ namespace alembert {
 struct ModularPoint {
     std::uint64_t seed = 0;
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
-    std::map<Prime, Turn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
+    std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
     int halves = 2;                        ///< turns are kept of x/2^halves: sin(x/4) needs 2
 
     /// Uniform, the same for the same arguments.
@@ -60,9 +60,9 @@ struct ModularPoint {
         if (const auto found = given.find({v.kind, v.index}); found != given.end()) return found->second;
         return random(100 + static_cast<std::uint64_t>(v.kind), static_cast<std::uint64_t>(v.index));
     }
-    Turn angle(Prime monomial) const {
+    PrimeTurn angle(Prime monomial) const {
         if (const auto found = given_angles.find(monomial); found != given_angles.end()) return found->second;
-        return Turn::rational(random(200, monomial.bits()));
+        return PrimeTurn::rational(random(200, monomial.bits()));
     }
 };
 
@@ -125,7 +125,7 @@ private:
             case Op::sin:
             case Op::cos:
             case Op::tan: {
-                const std::optional<Turn> turn = turned(node.args[0], degree);
+                const std::optional<PrimeTurn> turn = turned(node.args[0], degree);
                 if (!turn) return std::nullopt;
                 if (node.op == Op::sin) return turn->sin;
                 if (node.op == Op::cos) return turn->cos;
@@ -280,14 +280,14 @@ private:
         return Angle{{value(id), 1}};
     }
 
-    std::optional<Turn> turned(int id, double& degree) {
-        Turn result;
+    std::optional<PrimeTurn> turned(int id, double& degree) {
+        PrimeTurn result;
         degree = 0;
         const Angle sum = angle_or_leaf(id);
         for (const auto& [monomial, c] : sum) {
             if (cln::zerop(c)) continue;
             if (monomial.is_zero()) {
-                const std::optional<Turn> part = turned_by_pi(c);
+                const std::optional<PrimeTurn> part = turned_by_pi(c);
                 if (!part) return std::nullopt;
                 result = result * *part;
                 continue;
@@ -299,20 +299,20 @@ private:
             note_denominator(odd);
             numerator = numerator << halves;
             degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, point_.halves);
-            const Turn turn = point_.angle(leaf(monomial));
+            const PrimeTurn turn = point_.angle(leaf(monomial));
             if (odd != 1 && !turn.is_plain()) return std::nullopt;
-            result = result * turn.power(*Turn::exponent(numerator / odd));
+            result = result * turn.power(*PrimeTurn::exponent(numerator / odd));
         }
         return result;
     }
 
     /// A multiple of π that the group has, or a random turn of its own.
-    std::optional<Turn> turned_by_pi(const Rational& c) {
-        if (const auto turn = Turn::by_pi(c)) return turn;
+    std::optional<PrimeTurn> turned_by_pi(const Rational& c) {
+        if (const auto turn = PrimeTurn::by_pi(c)) return turn;
         result_.exact = false;
         const std::optional<Prime> key = Prime::from(c);
         if (!key) return std::nullopt;
-        return Turn::rational(point_.random(201, key->bits()));
+        return PrimeTurn::rational(point_.random(201, key->bits()));
     }
 
     void note_denominator(const cln::cl_I& odd) {

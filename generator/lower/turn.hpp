@@ -4,8 +4,8 @@
 /// Angles modulo 2⁶¹ − 1: points of the circle x² + y² = 1, which multiply as complex numbers. Those with plain coordinates
 /// (lower/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and every π/2ᵏ; π/3 is beside it.
 ///
-///     const Turn third = turn.power(*Turn::exponent(Rational(1) / 3));    // third.power(3) is turn
-///     Turn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every program
+///     const PrimeTurn third = turn.power(*PrimeTurn::exponent(Rational(1) / 3));    // third.power(3) is turn
+///     PrimeTurn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every program
 
 #include <cln/integer.h>
 
@@ -16,13 +16,13 @@
 
 namespace alembert {
 
-struct Turn {
+struct PrimeTurn {
     Prime cos = 1, sin = 0;
-    friend constexpr Turn operator*(const Turn& a, const Turn& b) {
+    friend constexpr PrimeTurn operator*(const PrimeTurn& a, const PrimeTurn& b) {
         return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
     }
-    constexpr Turn power(std::uint64_t exponent) const {
-        Turn result, square = *this;
+    constexpr PrimeTurn power(std::uint64_t exponent) const {
+        PrimeTurn result, square = *this;
         for (; exponent != 0; exponent >>= 1, square = square * square)
             if ((exponent & 1U) != 0) result = result * square;
         return result;
@@ -37,10 +37,10 @@ struct Turn {
         return (low(cln::numerator(c)) * inverse) & ((std::uint64_t{1} << 61) - 1);
     }
     /// By c·π; nothing if the denominator of c is neither 2ᵏ nor 3·2ᵏ with k up to 40.
-    static std::optional<Turn> by_pi(const Rational& c) {
+    static std::optional<PrimeTurn> by_pi(const Rational& c) {
         constexpr int most_halves = 40;
         if (cln::zerop(cln::mod(cln::denominator(c), cln::cl_I(3)))) {  // a third of a half turn, and what is left
-            const Turn third{Prime(2).inverse(), *Prime::root_of(3) * Prime(2).inverse()};
+            const PrimeTurn third{Prime(2).inverse(), *Prime::root_of(3) * Prime(2).inverse()};
             for (int k = 1; k <= 2; ++k)
                 if (const Rational rest = c - Rational(k) / 3; !cln::zerop(cln::mod(cln::denominator(rest), cln::cl_I(3)))) {
                     const auto other = by_pi(rest);
@@ -49,7 +49,7 @@ struct Turn {
             return std::nullopt;
         }
         const Prime s = *Prime::root_of(2) * Prime(2).inverse();
-        Turn quarter{s, s};  // π/4, of order 8
+        PrimeTurn quarter{s, s};  // π/4, of order 8
         Rational eighths = 4 * c;
         for (int k = 0; cln::denominator(eighths) != 1; ++k, eighths = 2 * eighths) {
             if (k == most_halves || cln::oddp(cln::denominator(eighths))) return std::nullopt;
@@ -61,7 +61,7 @@ struct Turn {
     /// Of order 2⁶¹ or a part of it: has every odd part.
     constexpr bool is_plain() const { return cos.is_plain() && sin.is_plain(); }
     /// ((1 − t²)/(1 + t²), 2t/(1 + t²)); −1 is no square, so the denominator is never zero.
-    static constexpr Turn rational(Prime t) {
+    static constexpr PrimeTurn rational(Prime t) {
         const Prime below = (t * t + 1).inverse();
         return {(1 - t * t) * below, 2 * t * below};
     }
