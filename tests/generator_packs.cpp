@@ -123,6 +123,7 @@ TEST_CASE("packs: scalar and packed functions agree to 4 ulp of the largest term
     for (const char* name : {"double_pendulum", "elastic_pendulum", "spherical_pendulum", "watt_governor", "two_body", "double_pendulum_joints"})
         agrees(test::source_path(std::string("scenes/textbook/") + name + ".toml"), "lagrange", {});
     agrees(test::source_path("scenes/benchmark/trees/pend4.toml"), "kane", {});
+    agrees(test::source_path("scenes/benchmark/trees/arm7g.toml"), "recursive", {});  // M and f one system after the other
     agrees(test::source_path("scenes/textbook/double_pendulum.toml"), "lagrange", {"-march=x86-64"});
 }
 

@@ -18,6 +18,7 @@ namespace {
 namespace mustache = kainjow::mustache;
 
 constexpr std::size_t line_width = 110;
+constexpr int most_for_packs = 1000;  // operations of M and f; beyond, packs go lane by lane: nobody steps by these, and compiling takes a second
 
 /// Long statements go on below, indented; a break only comes before an operator at its blanks.
 std::string wrapped(const std::string& line) {
@@ -85,6 +86,7 @@ public:
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
         file.set("batch", options_.batch);
+        file.set("one_by_one", p_.count(joined(p_.nodes_of("mass"), p_.nodes_of("forcing"))).total() > most_for_packs);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "emit/crowding.hpp"
 #include "emit/schedule.hpp"
 
 namespace alembert {
@@ -20,6 +21,7 @@ namespace {
 constexpr std::size_t widest_group = 8;  // angles whose sines the emitted `sincos` takes at once
 constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
 constexpr int widest_expression = 10;  // operations in one statement, so that it can be read
+constexpr int step = 4, division = 14, most_steps = 4;  // cycles; operations that wait for each other in one statement
 
 bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
 
@@ -159,8 +161,10 @@ std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     if (ready_->is_ordered() && wanted_.size() > readable_statements) {
         sections.resize(1);
         sections.push_back({"All else, in the order in which it is ready", {}});
+        std::vector<int> statements;
         for (const int id : scheduled(program_, *ready_, nodes, [&](int node) { return place[node] == 0 || is_leaf(node) || named_.contains(node); }))
-            if (wanted_.contains(id) && !named_.contains(id)) sections[1].lines.push_back(statement(id));
+            if (wanted_.contains(id) && !named_.contains(id)) statements.push_back(id);
+        for (const int id : in_registers(statements)) sections[1].lines.push_back(statement(id));
     } else {
         for (std::size_t s = 1; s < titles.size(); ++s)
             for (const auto& [id, wish] : wanted_)
@@ -168,6 +172,35 @@ std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     }
     std::erase_if(sections, [](const Passage& section) { return section.lines.empty(); });
     return sections;
+}
+
+/// Each statement with what stands in place in it.
+std::vector<int> Writer::in_registers(const std::vector<int>& nodes) const {
+    std::map<int, int> position;
+    for (std::size_t k = 0; k < nodes.size(); ++k) position.emplace(nodes[k], static_cast<int>(k));
+    std::vector<Computation> statements;
+    for (const int id : nodes) {
+        Computation made{.needs = {}, .operations = 0, .latency = 0};
+        std::vector<int> stack{id};
+        while (!stack.empty()) {
+            const Node& node = program_[stack.back()];
+            stack.pop_back();
+            made.operations += std::max(1, static_cast<int>(node.args.size()) - 1);
+            if (node.is_reciprocal()) made.latency += division;
+            for (const int arg : node.args)
+                if (const auto known = position.find(arg); known != position.end())
+                    made.needs.push_back(known->second);
+                else if (!is_leaf(arg) && !named_.contains(arg) && !program_[arg].args.empty())
+                    stack.push_back(arg);
+        }
+        std::sort(made.needs.begin(), made.needs.end());
+        made.needs.erase(std::unique(made.needs.begin(), made.needs.end()), made.needs.end());
+        made.latency += step * std::min(most_steps, made.operations);
+        statements.push_back(std::move(made));
+    }
+    std::vector<int> result;
+    for (const int k : uncrowded(statements)) result.push_back(nodes[k]);
+    return result;
 }
 
 std::vector<std::string> Writer::trigonometry(const std::vector<int>& nodes) {

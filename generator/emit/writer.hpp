@@ -47,6 +47,7 @@ private:
     void count_uses(const std::vector<Goal>& goals);
     void choose_statements(const std::vector<Goal>& goals);
     std::string statement(int node);
+    std::vector<int> in_registers(const std::vector<int>& nodes) const;
     std::vector<std::string> trigonometry(const std::vector<int>& nodes);
     std::string trigonometric_name(int argument);
     std::string text(int node, int precedence);

@@ -2,6 +2,7 @@
 #include "lower/choose.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -18,6 +19,8 @@ namespace {
 
 constexpr std::size_t most_composite = 20;  // joints; beyond, the matrix costs more to lower than it can win
 constexpr double readability = 1.1;  // what another form must win against the textbook's
+constexpr double least_after = 0.85;  // of a form's time, after rewriting; measured over all scenes: 0.89
+constexpr std::size_t many_joints = 6;  // beyond, axes that turn never win where parallel ones exist
 constexpr double largest_tree = 50000;  // nodes; beyond, expanding costs more than it can win
 
 /// All of `values` in readable form, or none.
@@ -94,16 +97,24 @@ std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t bud
 
 namespace {
 
+bool is_textbook(const Program& program) { return program.formulation.ends_with("textbook form"); }
+
+/// A form as lowered.
+struct Candidate {
+    Program program;
+    bool is_recursion = false;
+};
+
 /// The forms that these equations can take, each lowered.
-void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
     const std::size_t before = programs.size();
     if (!equations.tree || !m.constraints.empty()) {
         Equations intermediate = equations;
         intermediate.formalism += ", intermediate symbols";
-        programs.push_back(shared(lower(m, intermediate, energy, options)));
+        programs.push_back({lower(m, intermediate, energy, options)});
     }
     if (const std::optional<Equations> textbook = textbook_equations(m, equations))
-        programs.push_back(shared(lower(m, *textbook, readable_energy(m, energy), options)));
+        programs.push_back({lower(m, *textbook, readable_energy(m, energy), options)});
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
     using Solve = RecursionForm::Solve;
@@ -111,6 +122,7 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
         for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
             const RecursionForm form{axes, solve};
             if (axes == LinkAxes::still && !parallel) continue;
+            if (axes == LinkAxes::own && parallel && equations.tree->joints.size() > many_joints) continue;
             if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree))) continue;
             // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
             if (solve != Solve::matrix ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
@@ -119,30 +131,51 @@ void add_forms(std::vector<Program>& programs, const Mechanism& m, const Equatio
             LowerOptions by = options;
             by.recursion = form;
             try {
-                programs.push_back(shared(flattened(lower(m, recursive, energy, by))));
+                programs.push_back({lower(m, recursive, energy, by), true});
             } catch (const std::domain_error&) {
                 // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
             }
         }
-    if (programs.size() == before) programs.push_back(shared(lower(m, equations, energy, options)));
+    if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
+}
+
+/// Those that may still win, rewritten; and the second, to be told.
+std::vector<Program> contenders(std::vector<Candidate> candidates) {
+    std::vector<double> times;
+    double best = std::numeric_limits<double>::infinity();
+    for (const Candidate& c : candidates) {
+        times.push_back(cost_of(c.program).time());
+        if (!c.program.singular) best = std::min(best, times.back());
+    }
+    std::vector<double> sorted = times;
+    std::sort(sorted.begin(), sorted.end());
+    const double second = sorted[std::min<std::size_t>(1, sorted.size() - 1)];
+    std::vector<Program> programs;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        Candidate& c = candidates[k];
+        const double least = times[k] * least_after / (is_textbook(c.program) ? readability : 1);
+        if (c.program.singular || least <= best || times[k] <= second) programs.push_back(shared(c.is_recursion ? flattened(c.program) : std::move(c.program)));
+    }
+    return programs;
 }
 
 }  // namespace
 
 Choice choose(const Mechanism& m, const std::vector<Equations>& equations, const LowerOptions& options) {
     const Energy energy = energy_of(m);
-    std::vector<Program> programs;
-    for (const Equations& e : equations) add_forms(programs, m, e, energy, options);
+    std::vector<Candidate> candidates;
+    for (const Equations& e : equations) add_forms(candidates, m, e, energy, options);
+    std::vector<Program> programs = contenders(std::move(candidates));
     std::vector<Cost> costs;
     for (const Program& program : programs) costs.push_back(cost_of(program));
     std::vector<std::size_t> order(programs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t k) {
-        const bool is_textbook = programs[k].formulation.ends_with("textbook form");  // as good, and better to read
-        return std::make_pair(programs[k].singular && !is_textbook, costs[k].time() * (is_textbook ? 1 : readability));
+        const bool readable = is_textbook(programs[k]);  // as good, and better to read
+        return std::make_pair(programs[k].singular && !readable, costs[k].time() * (readable ? 1 : readability));
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-    Choice choice{.program = programs[order[0]], .cost = costs[order[0]], .runner_up = {}};
+    Choice choice{.program = std::move(programs[order[0]]), .cost = costs[order[0]], .runner_up = {}};
     if (order.size() > 1) choice.runner_up = RunnerUp{programs[order[1]].formulation, costs[order[1]]};
     return choice;
 }

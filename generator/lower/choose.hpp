@@ -7,8 +7,9 @@
 ///
 /// The textbook's form (Fourier normal form, grouped and factored) is short for a few bodies and has 2^k terms for k angles; the one
 /// with intermediate symbols grows like a polynomial; recursive equations have composite bodies and articulated bodies, each along
-/// axes that turn with the links or along parallel ones. All that exist are lowered; operations and the longest chain of them
-/// decide. Another form must win a tenth against the textbook's, which can be read.
+/// axes that turn with the links or along parallel ones. All that exist are lowered (turning axes of a longer chain excepted, which
+/// never win where there are parallel ones), those that may still win are rewritten; operations and the longest chain of them decide.
+/// Another form must win a tenth against the textbook's, which can be read.
 
 #include <optional>
 #include <string>

@@ -218,8 +218,7 @@ int cost(const Program& program) { return program.count(program.right_hand_side(
 
 }  // namespace
 
-Program shared(const Program& program) {
-    Program best = program;
+Program shared(Program best) {
     for (const auto pass : {with_common_factors, with_shared_pairs}) {
         Program next = pass(best).canonical();
         if (cost(next) < cost(best)) best = std::move(next);

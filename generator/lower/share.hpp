@@ -15,6 +15,6 @@
 namespace alembert {
 
 /// The same roots with at most as many operations in the accelerations as before.
-Program shared(const Program& program);
+Program shared(Program program);
 
 }  // namespace alembert

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -27,9 +28,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Straight-line code of this size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster than the
-/// size; straight-line code has no loops that -O2 would transform.
-constexpr std::size_t large_source = 200'000;
+/// Straight-line code of the second size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster than the
+/// size; straight-line code has no loops that -O2 would transform. From the first size on, passes are left out that take a third of
+/// the time where a function has thousands of statements, and leave the code as it is.
+constexpr std::size_t long_source = 60'000, large_source = 200'000;
 
 constexpr std::size_t digits = 32;  ///< of a fingerprint, at the end of every object in the cache
 
@@ -94,7 +96,7 @@ std::string processor() {
     return text;
 }
 
-std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOptions& options) {
+std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, const CompileOptions& options) {
     std::vector<std::string> flags = {"-std=c++20",      "-shared",
                                       "-fPIC",           source_size > large_source ? "-O1" : "-O2",
                                       "-march=native",   "-ffp-contract=fast",
@@ -104,6 +106,8 @@ std::vector<std::string> compiler_flags(std::size_t source_size, const CompileOp
     flags.emplace_back("-fno-tree-slp-vectorize");
     // At -O1 g++ leaves out vzeroupper: the host's own SSE code would then run many times slower after a call.
     if (source_size > large_source) flags.emplace_back("-fexpensive-optimizations");
+    if (source_size > long_source && !is_clang)
+        for (const char* flag : {"-fno-tree-dse", "-fno-dse", "-fno-gcse", "--param=lra-max-considered-reload-pseudos=10"}) flags.emplace_back(flag);
     if (options.fast_math)
         for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math", "-DALEMBERT_REASSOCIATES"})
             flags.emplace_back(flag);
@@ -243,7 +247,8 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     Fingerprint key;
     key.add(source_text);
     key.add(identity(command));
-    const std::vector<std::string> flags = compiler_flags(source_text.size(), options);
+    const bool is_clang = std::any_of(command.begin(), command.end(), [](const std::string& word) { return word.find("clang") != std::string::npos; });
+    const std::vector<std::string> flags = compiler_flags(source_text.size(), is_clang, options);
     for (const std::string& flag : flags) key.add(flag);
     key.add(std::to_string(abi_version));
     key.add(processor());

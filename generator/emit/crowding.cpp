@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/crowding.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace alembert {
+
+namespace {
+
+constexpr int registers = 30;
+constexpr double fused = 0.6;     // instructions an operation
+constexpr double units = 2;
+constexpr double patience = 12;   // cycles that a processor looks ahead for
+constexpr std::size_t most = 20000;
+
+/// As depth first from the ends would take them, what takes longest first.
+std::vector<int> depth_first(const std::vector<Computation>& statements, const std::vector<std::vector<int>>& users) {
+    std::vector<int> depth, place(statements.size(), -1);
+    for (const Computation& s : statements) {
+        int before = 0;
+        for (const int need : s.needs) before = std::max(before, depth[need]);
+        depth.push_back(before + s.latency);
+    }
+    int taken = 0;
+    std::vector<int> stack;
+    for (int end = 0; end < static_cast<int>(statements.size()); ++end) {
+        if (!users[end].empty()) continue;
+        stack.push_back(end);
+        while (!stack.empty()) {
+            const int id = stack.back();
+            int deepest = -1;
+            for (const int need : statements[id].needs)
+                if (place[need] < 0 && (deepest < 0 || depth[need] > depth[deepest])) deepest = need;
+            if (place[id] < 0 && deepest >= 0) {
+                stack.push_back(deepest);
+                continue;
+            }
+            if (place[id] < 0) place[id] = taken++;
+            stack.pop_back();
+        }
+    }
+    return place;
+}
+
+}  // namespace
+
+std::vector<int> uncrowded(const std::vector<Computation>& statements) {
+    const auto count = statements.size();
+    std::vector<int> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::vector<int>> users(count);
+    for (std::size_t id = 0; id < count; ++id)
+        for (const int need : statements[id].needs) users[need].push_back(static_cast<int>(id));
+    std::vector<int> tail(count, 0);
+    double work = 0, chain = 0;
+    for (std::size_t id = count; id-- > 0;) {
+        for (const int user : users[id]) tail[id] = std::max(tail[id], tail[user] + statements[user].latency);
+        chain = std::max(chain, static_cast<double>(tail[id] + statements[id].latency));
+        work += std::max(1.0, fused * statements[id].operations) / units;
+    }
+    if (work < chain || count > most) return order;
+
+    const std::vector<int> place = depth_first(statements, users);
+    std::vector<int> waits, uses, free;
+    std::vector<double> at(count, 0);
+    for (std::size_t id = 0; id < count; ++id) {
+        waits.push_back(static_cast<int>(statements[id].needs.size()));
+        uses.push_back(static_cast<int>(users[id].size()));
+        if (waits.back() == 0) free.push_back(static_cast<int>(id));
+    }
+    order.clear();
+    double cycle = 0;
+    for (int live = 0; !free.empty();) {
+        const auto roomy = [&](int a, int b) { return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b); };
+        const auto frees = [&](int id) {
+            const auto& needs = statements[id].needs;
+            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) || uses[id] == 0;
+        };
+        const auto key = [&](int id) { return std::make_tuple(!frees(id), at[id] > cycle + patience, place[id]); };
+        const auto tight = [&](int a, int b) { return key(a) < key(b); };
+        auto best = live < registers ? std::min_element(free.begin(), free.end(), roomy) : std::min_element(free.begin(), free.end(), tight);
+        if (live < registers && at[*best] > cycle) {
+            cycle = at[*std::min_element(free.begin(), free.end(), [&](int a, int b) { return at[a] < at[b]; })];
+            best = std::min_element(free.begin(), free.end(), roomy);
+        }
+        const int id = *best;
+        free.erase(best);
+        order.push_back(id);
+        for (const int need : statements[id].needs)
+            if (--uses[need] == 0) --live;
+        if (uses[id] > 0) ++live;
+        const double start = std::max(cycle, at[id]);
+        for (const int user : users[id]) {
+            at[user] = std::max(at[user], start + statements[id].latency);
+            if (--waits[user] == 0) free.push_back(user);
+        }
+        cycle += std::max(1.0, fused * statements[id].operations) / units;
+    }
+    return order;
+}
+
+}  // namespace alembert
