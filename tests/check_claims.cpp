@@ -202,6 +202,37 @@ abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'
     }
 }
 
+TEST_CASE("check: a drive whose frequency is a decimal, beside a constraint that is solved for an angle") {
+    const Scene scene = parse_scene(R"toml([parameters]
+m = 1
+l = 2
+[inputs]
+yp = "0.1*cos(1.005*t) + 0.02*sin(0.375*t)"
+[coordinates]
+theta = 0.3
+phi = { guess = 0.3 }
+[energy]
+kinetic = "m*(l^2*theta'^2 + 2*l*theta'*yp'*sin(theta) + yp'^2)/2 + phi'^2/2"
+potential = "m*9.81*(yp - l*cos(theta))"
+[[constraint]]
+name = "tied"
+holonomic = "sin(phi/2) - sin(theta)/2"
+)toml", "drive.toml");
+    const Checked result = checked(with_claims(scene, R"(
+m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
+m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -cos(theta)/cos(phi/2)*phi''
+m*l^2*theta'' + m*l*(9.81 + 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
+cos(1.005*t) = 4*cos(0.25125*t)^3 - 3*cos(0.25125*t)
+cos(1.005*t) = 2*cos(0.5025*t)^2 - 1
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
 // The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
 TEST_CASE("check: a loop whose lengths are numbers is solved for two angles at once") {
     const Scene scene = parse_scene(R"toml([coordinates]

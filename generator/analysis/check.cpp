@@ -98,8 +98,13 @@ private:
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<ExactStates> states;
+        int asked = 0;
+        for (const std::size_t k : here) {
+            Program p;
+            asked = std::max(asked, halvings(p, claims_.lower(p, {forms_[k].residual})));
+        }
         for (const int halves : {0, 1, 2}) {
-            states.emplace(m_, law_, at, halves);
+            states.emplace(m_, law_, at, halves, asked);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -579,7 +584,7 @@ private:
         Program p;
         const std::vector<int> nodes = claims_.lower(p, list);
         for (const int halves : {0, 1, 2}) {
-            ExactStates states(m_, e_, Motions::At::motion, halves);
+            ExactStates states(m_, e_, Motions::At::motion, halves, halvings(p, nodes));
             for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
                 const auto at = evaluate_mod(p, states.get(s)->point, nodes);
                 if (!at) continue;

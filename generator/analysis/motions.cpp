@@ -79,7 +79,7 @@ std::optional<Prime> value_of(const Program& p, int node, const ExactState& stat
 
 }  // namespace
 
-Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
+Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
@@ -128,7 +128,16 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         for (const int node : lower_expressions(program_, m, balance, given))
             if (!program_.is_zero(node)) conditions.push_back(node);
     }
+    std::vector<int> all = nodes;
+    all.insert(all.end(), conditions.begin(), conditions.end());
+    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
     order(std::move(conditions));
+    std::set<LuckyPoints::Key> solved;
+    for (const Step& step : steps_) {
+        solved.insert({step.variable.kind, step.variable.index});
+        if (step.second) solved.insert({step.second->variable.kind, step.second->variable.index});
+    }
+    lucky_.emplace(std::vector{LuckyPoints::Part{&program_, all}}, solved);
     find_branches();
 }
 
@@ -274,7 +283,7 @@ void Motions::find_branches() {
     constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
     std::vector<bool> known(steps_.size(), false);
     for (std::uint64_t seed = 1; seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end(); ++seed) {
-        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_}};
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
         for (std::size_t k = 0; k < steps_.size(); ++k) {
             const Outcome outcome = solve(steps_[k], state);
             if (outcome.found) {
@@ -289,10 +298,13 @@ void Motions::find_branches() {
 
 std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
     if (!obstacle_.empty()) return std::nullopt;
-    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_}};
+    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
+    auto point = lucky_->at(std::move(state.point));
+    if (!point) return std::nullopt;
+    state.point = std::move(*point);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         const Outcome outcome = solve(steps_[k], state);
         if (!outcome.found) return std::nullopt;

@@ -24,6 +24,7 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
 /// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
 
+#include "analysis/lucky.hpp"
 #include "formalism/equations.hpp"
 #include "lower/modular.hpp"
 
@@ -41,8 +42,11 @@ class Motions {
 public:
     enum class At { motion, rest };
 
-    /// `halves`: angles may occur in parts of 1/2^halves.
-    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0);
+    /// `halves`: angles that are solved for may occur in parts of 1/2^halves; `halvings`: all others in these (analysis/lucky.hpp),
+    /// if not in the equations, in what will be asked.
+    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0, int halvings = 0);
+    Motions(const Motions&) = delete;
+    Motions& operator=(const Motions&) = delete;
 
     /// Nothing at an unlucky seed: no root in the field, a zero denominator.
     /// `given`: values instead of random ones, of what is not solved for.
@@ -92,7 +96,8 @@ private:
     std::vector<bool> irreducible_;  ///< by step
     std::string obstacle_;
     At at_;
-    int n_ = 0, m_ = 0, halves_ = 0;
+    int n_ = 0, m_ = 0, halves_ = 0, finer_ = 0;
+    std::optional<LuckyPoints> lucky_;  ///< refers to program_
 };
 
 }  // namespace alembert
