@@ -28,8 +28,10 @@ template <typename Real> Real max(const Real& x, const Real& y) { return x < y ?
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
-//   x = k pi/2 + r, |r| <= pi/4: pi/2 in four parts, the first three of 27 bits, so that their products with k are exact and
-//   so is all of r = x - k pi/2 but one rounding of hi and the last part, lo (Cody & Waite 1980, ch. 8);
+//   x = k pi/2 + r, |r| <= pi/4: pi/2 in three parts of 53 bits where multiplication and addition fuse, so that x - k pi/2 is exact
+//   up to the roundings of the last two steps, of which the last counts only where r is tiny; else in four, the first three of
+//   27 bits, so that their products with k are exact and so is all of r but one rounding of hi and the last part, lo (Cody & Waite
+//   1980, ch. 8);
 //   sin r = r - r^3 P(r^2), cos r = 1 - r^2/2 + r^4 Q(r^2), minimax polynomials; k mod 4 says which goes where.
 //
 // Angles beyond 1e8, infinities and NaN go to libm.
@@ -45,30 +47,66 @@ template <typename Real> struct pair { Real s, c; };
 template <typename Real, unsigned count> struct sines { Real sine[count], cosine[count]; };
 
 #if defined(__FAST_MATH__) || defined(ALEMBERT_REASSOCIATES)
-inline bool is_near(double) { return false; }  // the reduction does not survive sums in another order
+constexpr bool is_reducible = false;  // the reduction does not survive sums in another order
 #else
-[[gnu::always_inline]] inline bool is_near(double x) { return __builtin_fabs(x) <= 1e8; }
+constexpr bool is_reducible = true;
 #endif
+constexpr double farthest = 1e8;
+[[gnu::always_inline]] inline bool is_near(double x) { return is_reducible && __builtin_fabs(x) <= farthest; }
+/// Are all angles near whose squares make this sum? (If not, some may be.)
+[[gnu::always_inline]] inline bool is_near_all(double squares) { return is_reducible && squares <= farthest * farthest; }
+[[gnu::always_inline]] inline double sum_of(const real2& x) { return x[0] + x[1]; }
+[[gnu::always_inline]] inline double sum_of(const real4& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1) + __builtin_shufflevector(x, x, 2, 3)); }
+[[gnu::always_inline]] inline double sum_of(const real8& x) { return sum_of(__builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7)); }
+
+/// a b + c with one rounding, where the processor has that.
+#if defined(__FMA__)
+[[gnu::always_inline]] inline double fused(double a, double b, double c) { return __builtin_fma(a, b, c); }
+[[gnu::always_inline]] inline real2 fused(const real2& a, double b, const real2& c) { return __builtin_ia32_vfmaddpd(a, real2{b, b}, c); }
+[[gnu::always_inline]] inline real4 fused(const real4& a, double b, const real4& c) { return __builtin_ia32_vfmaddpd256(a, real4{b, b, b, b}, c); }
+#if defined(__AVX512F__)
+[[gnu::always_inline]] inline real8 fused(const real8& a, double b, const real8& c) {
+    return __builtin_ia32_vfmaddpd512_mask(a, real8{b, b, b, b, b, b, b, b}, c, static_cast<unsigned char>(-1), 4);
+}
+#endif
+#endif
+template <typename Real> constexpr bool fuses = requires(const Real& x) { fused(x, 1.0, x); };
 
 template <typename Bits, typename Real>
 [[gnu::always_inline]] inline void sines_near(const Real& x, Real& sine, Real& cosine) {
     constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number, in the last bits
     const Real shifted = x * 0x1.45f306dc9c883p-1 + shift, turns = shifted - shift;
     const Bits k = __builtin_bit_cast(Bits, shifted);
-    const Real hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
-    const Real lo = turns * 0x1.8a2e03707344ap-81;
+    Real hi, lo;
+    if constexpr (fuses<Real>) {
+        hi = fused(turns, -0x1.1a62633145c06p-54, fused(turns, -0x1.921fb54442d18p0, x));
+        hi = fused(turns, -0x1.c1cd129024e09p-107, hi);
+    } else {
+        hi = ((x - turns * 0x1.921fb54p0) - turns * 0x1.10b46p-30) - turns * 0x1.1a62630p-54;
+        lo = turns * 0x1.8a2e03707344ap-81;
+    }
     const Real z = hi * hi, zz = z * z;
     const Real P = (0.1666666666666663 - 0.008333333333322118 * z) +
                    zz * ((0.00019841269829589533 - 2.7557313621383334e-06 * z) + zz * (2.505074776244275e-08 - 1.5896230131492603e-10 * z));
     const Real Q = (0.041666666666666595 - 0.0013888888888873056 * z) +
                    zz * ((2.4801587288851683e-05 - 2.755731417929107e-07 * z) + zz * (2.0875700841213046e-09 - 1.13585364822807e-11 * z));
-    const Real s = hi - (hi * z * P + lo), c = (1 - 0.5 * z) + zz * Q;
+    Real s;
+    if constexpr (fuses<Real>)
+        s = hi * (1 - z * P);
+    else
+        s = hi - (hi * z * P + lo);
+    const Real c = (1 - 0.5 * z) + zz * Q;
     constexpr Bits top = Bits{} + (-0x7fffffffffffffff - 1);
-    const Bits s_sign = (k << 62) & top, c_sign = ((k + 1) << 62) & top, odd = k & 1;
-    if constexpr (sizeof(Real) > sizeof(double)) {
+    const Bits s_sign = (k << 62) & top, odd = k & 1;
+    if constexpr (sizeof(Real) == 64) {  // a subtraction under a mask is one instruction there
+        sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
+        cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? Real{} - s : c) ^ s_sign);
+    } else if constexpr (sizeof(Real) > sizeof(double)) {
+        const Bits c_sign = ((k + 1) << 62) & top;
         sine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? c : s) ^ s_sign);
         cosine = __builtin_bit_cast(Real, __builtin_bit_cast(Bits, odd != 0 ? s : c) ^ c_sign);
     } else {
+        const Bits c_sign = ((k + 1) << 62) & top;
         const Bits s_bits = __builtin_bit_cast(Bits, s), c_bits = __builtin_bit_cast(Bits, c), differ = (s_bits ^ c_bits) & -odd;
         sine = __builtin_bit_cast(Real, s_bits ^ differ ^ s_sign);
         cosine = __builtin_bit_cast(Real, c_bits ^ differ ^ c_sign);
@@ -98,9 +136,10 @@ template <typename Wide, typename Bits, typename... Angle>
     const auto alone = [](double& value) { __asm__("" : "+x"(value)); };
     (alone(x), ...);
 #endif
-    sines_near<Bits>(Wide{x...}, s, c);
+    const Wide angles{x...};
+    sines_near<Bits>(angles, s, c);
     for (unsigned i = 0; i < sizeof...(Angle); ++i) result.sine[i] = s[i], result.cosine[i] = c[i];
-    if (__builtin_expect((int(is_near(x)) & ...), 1)) return result;
+    if (__builtin_expect(is_near_all(sum_of(angles * angles)), 1)) return result;
     int i = 0;
     ((is_near(x) ? void() : sines_far(x, result.sine[i], result.cosine[i]), ++i), ...);
     return result;

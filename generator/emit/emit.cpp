@@ -225,7 +225,7 @@ private:
                             const std::vector<Result>& results, const std::vector<std::string>& first = {}) {
         std::map<int, std::string> leaves = variables();
         for (const int id : constants_) leaves[id] = constant_names_.at(id);
-        Writer writer(p_, names_, std::move(leaves));
+        Writer writer(p_, names_, std::move(leaves), options_.batch);
         std::vector<Passage> sections = writer.write(goals);
         Passage last{"Result", first};
         for (const Result& result : results) last.lines.push_back(result.to + " = " + writer.value(result.node) + ";");

@@ -223,6 +223,7 @@ std::vector<std::string> Writer::trigonometry(const std::vector<int>& nodes) {
                 arguments.push_back(argument);
                 first.push_back(id);
             }
+        const std::vector<AngleSum> sums = adds_angles_ ? taken_out_sums(arguments, first) : std::vector<AngleSum>();
         for (std::size_t begin = 0; begin < arguments.size(); begin += widest_group) {
             const std::size_t end = std::min(begin + widest_group, arguments.size());
             if (end - begin == 1) {
@@ -235,14 +236,50 @@ std::vector<std::string> Writer::trigonometry(const std::vector<int>& nodes) {
                 const auto [sine, cosine] = sines_[arguments[k]];
                 const std::string base = trigonometric_name(arguments[k]);
                 of += (of.empty() ? "" : ", ") + text(arguments[k], additive);
-                if (sine >= 0) values += fmt::format("{}{} = {}.sine[{}]", values.empty() ? "" : ", ", named_[sine] = names_.fresh("sin_" + base), group, k - begin);
-                if (cosine >= 0) values += fmt::format("{}{} = {}.cosine[{}]", values.empty() ? "" : ", ", named_[cosine] = names_.fresh("cos_" + base), group, k - begin);
+                const auto value = [&](int node, const char* part) {
+                    const bool is_added = std::any_of(sums.begin(), sums.end(), [&](const AngleSum& sum) { return sum.a == arguments[k] || sum.b == arguments[k]; });
+                    if (node < 0 && !is_added) return;
+                    const std::string name = names_.fresh((part[0] == 's' ? "sin_" : "cos_") + base);
+                    (part[0] == 's' ? sine_names_ : cosine_names_)[arguments[k]] = name;
+                    if (node >= 0) named_[node] = name;
+                    values += fmt::format("{}{} = {}.{}[{}]", values.empty() ? "" : ", ", name, group, part, k - begin);
+                };
+                value(sine, "sine");
+                value(cosine, "cosine");
             }
             lines.push_back(fmt::format("const auto {} = sincos({});", group, of));
             lines.push_back("const Real " + values + ";");
         }
+        for (const AngleSum& sum : sums) {
+            const auto [sine, cosine] = sines_[sum.argument];
+            const std::string base = trigonometric_name(sum.argument);
+            const std::string &sa = sine_names_[sum.a], &ca = cosine_names_[sum.a], &sb = sine_names_[sum.b], &cb = cosine_names_[sum.b];
+            if (sine >= 0) lines.push_back(fmt::format("const Real {} = {} * {} {} {} * {};", named_[sine] = names_.fresh("sin_" + base), sa, cb, sum.is_difference ? '-' : '+', ca, sb));
+            if (cosine >= 0) lines.push_back(fmt::format("const Real {} = {} * {} {} {} * {};", named_[cosine] = names_.fresh("cos_" + base), ca, cb, sum.is_difference ? '+' : '-', sa, sb));
+        }
     }
     return lines;
+}
+
+/// Those angles that are sums or differences of two others, when these fit in one group; they leave the lists.
+std::vector<Writer::AngleSum> Writer::taken_out_sums(std::vector<int>& arguments, std::vector<int>& first) const {
+    std::vector<AngleSum> sums;
+    if (arguments.size() > widest_group) return sums;
+    const std::vector<int> all = arguments;
+    const auto is_alone = [&](int id) {
+        return std::find(all.begin(), all.end(), id) != all.end() && (program_[id].op != Op::sum || program_[id].is_scaled());
+    };
+    for (const int id : all) {
+        const Node& node = program_[id];
+        if (node.op != Op::sum || node.args.size() != 2 || !cln::zerop(node.number) || !cln::equal(node.coefficients[0], 1) ||
+            !cln::equal(cln::abs(node.coefficients[1]), 1) || !is_alone(node.args[0]) || !is_alone(node.args[1]))
+            continue;
+        sums.push_back({.argument = id, .a = node.args[0], .b = node.args[1], .is_difference = cln::minusp(node.coefficients[1])});
+        const auto place = std::find(arguments.begin(), arguments.end(), id);
+        first.erase(first.begin() + (place - arguments.begin()));
+        arguments.erase(place);
+    }
+    return sums;
 }
 
 std::string Writer::trigonometric_name(int argument) {

@@ -30,8 +30,10 @@ struct Goal {
 class Writer {
 public:
     /// `leaves`: nodes that have names already (variables, constants that `prepare` made).
-    Writer(const Program& program, Names names, std::map<int, std::string> leaves)
-        : program_(program), names_(std::move(names)), named_(std::move(leaves)) {}
+    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations instead of 30, as good to
+    /// an ulp of 1, and further from the book.
+    Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false)
+        : program_(program), names_(std::move(names)), named_(std::move(leaves)), adds_angles_(adds_angles) {}
 
     /// The statements that lead to the goals, by section: trigonometry, what several sections share, then the
     /// goals' own sections in their order.
@@ -47,6 +49,11 @@ private:
     void count_uses(const std::vector<Goal>& goals);
     void choose_statements(const std::vector<Goal>& goals);
     std::string statement(int node);
+    struct AngleSum {
+        int argument, a, b;
+        bool is_difference;
+    };
+    std::vector<AngleSum> taken_out_sums(std::vector<int>& arguments, std::vector<int>& first) const;
     std::vector<int> in_registers(const std::vector<int>& nodes) const;
     std::vector<std::string> trigonometry(const std::vector<int>& nodes);
     std::string trigonometric_name(int argument);
@@ -62,7 +69,8 @@ private:
     std::map<int, int> uses_;             // how often a needed node is used
     std::map<int, std::string> wanted_;   // nodes that get a statement, and the name they ask for ("" for any)
     std::map<int, std::string> promised_; // names that are theirs already
-    std::map<int, std::string> argument_names_;
+    std::map<int, std::string> argument_names_, sine_names_, cosine_names_;  // of an argument
+    bool adds_angles_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed
 };
 
