@@ -478,7 +478,7 @@ TEST_CASE("reactions: a spatial linkage closed at a hinge bears there what it be
 }
 
 TEST_CASE("reactions: a slider's rail bears force and moment about the slider's point, as the joint that closes the loop too") {
-    const std::string bodies = R"(gravity = [0, -9.81, 0]
+    const std::string bodies = R"toml(gravity = [0, -9.81, 0]
 [[body]]
 name = "crank"
 mass = 1
@@ -492,8 +492,8 @@ name = "slider"
 mass = 2
 inertia = [0.03, 0.04, 0.05]
 [outputs]
-ax = "dot(vel(slider), ex(N))'"
-ay = "dot(vel(slider), ey(N))'"
+ax = "(dot(vel(slider), ex(N)))'"
+ay = "(dot(vel(slider), ey(N)))'"
 s = "dot(pos(slider), ex(N))"
 [[joint]]
 name = "hub"
@@ -510,24 +510,11 @@ child = "rod"
 parent_point = [0.2, 0, 0]
 child_point = [-0.5, 0, 0]
 coordinates = { psi = { guess = -1, rate_guess = 0 } }
-)";
-    const std::string rail = R"([[joint]]
-name = "rail"
-type = "prismatic"
-parent = "N"
-child = "slider"
-parent_point = [0.3, 0.05, 0]
-parent_rotate = [["z", 0.2]]
-child_point = [0.1, -0.15, 0]
-axis = "x"
-)", pin = R"([[joint]]
-name = "pin"
-type = "revolute"
-parent = "rod"
-child = "slider"
-parent_point = [0.5, 0, 0]
-child_point = [-0.05, 0.02, 0]
-)";
+)toml";
+    const std::string rail = "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nparent = \"N\"\nchild = \"slider\"\nparent_point = [0.3, 0.05, 0]\n"
+                             "parent_rotate = [[\"z\", 0.2]]\nchild_point = [0.1, -0.15, 0]\naxis = \"x\"\n";
+    const std::string pin = "[[joint]]\nname = \"pin\"\ntype = \"revolute\"\nparent = \"rod\"\nchild = \"slider\"\nparent_point = [0.5, 0, 0]\n"
+                            "child_point = [-0.05, 0.02, 0]\n";
     const Json one = json_of({"eval", temporary("one.toml", bodies + rail + "coordinates = { x = { guess = 1, rate_guess = 0 } }\n" + pin), "--reactions"});
     const double psi = one["coordinates"]["psi"].get<double>();
     const std::string chi = fmt::format("coordinates = {{ chi = {{ guess = {:.17g}, rate_guess = 0 }} }}\n", 0.2 - 0.7 - psi);
