@@ -128,7 +128,7 @@ private:
                 const std::string joint = row.substr(0, row.rfind('_'));
                 if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
             }
-            result_.problem = fmt::format("joint{} '{}' cannot close {} in any position of the bodies: {}", joints.size() == 1 ? "" : "s",
+            result_.problem = fmt::format("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s",
                                           fmt::join(joints, "', '"), joints.size() == 1 ? "its loop" : "their loops", result_.problem);
         }
         result_.contradictory = clash;
