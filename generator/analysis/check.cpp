@@ -131,8 +131,10 @@ private:
         for (const std::size_t k : here)
             if (forms_[k].open.empty())
                 settle_alone(k, *states);
-            else
+            else if (states->motions.loose().empty())
                 open.push_back(k);
+            else
+                result_.claims[k].reason = "the constraints cannot be solved one after the other, and it leaves names open";
         settle_open(open, *states);
     }
 
@@ -180,6 +182,10 @@ private:
             return;
         }
         if (*zero) {
+            if (!states.motions.loose().empty() && !holds_in_numbers(states, p, root)) {
+                c.reason = "it holds wherever the constraints are constant, and no state was found at which they are zero and the equations have one solution";
+                return;
+            }
             c.verdict = Verdict::proved;
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
@@ -192,6 +198,20 @@ private:
         }
         c.verdict = Verdict::refuted;
         refine(k, states);
+    }
+
+    /// What vanishes beside the constraints too vanishes on them if it is continuous there: at states where it has a value and
+    /// the equations have one solution.
+    static bool holds_in_numbers(const ExactStates& states, const Program& p, int root) {
+        int found = 0;
+        for (unsigned seed = first_float_seed; seed < first_float_seed + 60 && found < 3; ++seed) {
+            const auto state = real_state(states.motions, p, {root}, seed);
+            if (!state) continue;
+            const auto value = evaluate(p, *state, {root});
+            if (!value || !is_small((*value)[0])) return false;
+            ++found;
+        }
+        return found == 3;
     }
 
     bool show_counterexample(CheckedClaim& c, ExactStates& states, const Program& p, int root) {
