@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "analysis/assemble.hpp"
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "commands/pipeline.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
