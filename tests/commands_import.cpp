@@ -261,7 +261,8 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
         const Json accelerations = Json::parse(result.out)["accelerations"];
         CHECK(accelerations.size() == q.size());
         k = 0;
-        for (const auto& [name, value] : q) {
+        for (const auto& coordinate : q) {
+            const std::string& name = coordinate.first;
             CAPTURE(name);
             const double difference = accelerations[plain(name)].get<double>() - expected[k++];
             CHECK(std::abs(difference) < 1e-12 * expected.cwiseAbs().maxCoeff());

@@ -243,7 +243,8 @@ TEST_CASE("reactions: the ground's joints together bear what Newton's law says o
          {Case{"gallery/four_bar_joints", {"J1", "J3"}, {{"crank", 1.0}, {"coupler", 2.0}, {"rocker", 1.5}}, {0, 0, 0}},
           Case{"textbook/double_pendulum_joints", {"hook"}, {{"upper", 1}, {"lower", 1}}, {0, 9.81, 0}},
           Case{"gallery/six_joint_arm", {"waist"}, {{"shoulder", 12}, {"upper", 9}, {"fore", 5}, {"roll", 2}, {"pitch", 1.2}, {"flange", 0.6}}, {0, 0, -9.81}}}) {
-        CAPTURE(name);
+        const std::string where = name;  // clang 14: no structured binding in a macro's lambda
+        CAPTURE(where);
         std::string text = contents(source_path(std::string("scenes/") + name + ".toml")) + "\n[outputs]\n";
         for (const auto& [body, mass] : bodies)
             for (const char* axis : {"x", "y", "z"}) text += fmt::format("{}_{} = \"{}*(dot(pos({}), e{}(N)))''\"\n", body, axis, mass, body, axis);
@@ -275,8 +276,8 @@ TEST_CASE("reactions: a joint of each type bears what Newton's and Euler's laws 
                                      {"planar", "coordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 1.2, rate = -0.5 }, c = { initial = 0.7, rate = 2 } }"},
                                      {"spherical", "angles = \"xyz\"\ncoordinates = { a = { initial = 0.3, rate = 0.8 }, b = { initial = 0.2, rate = -0.5 }, c = { initial = 0.7, rate = 2 } }"},
                                      {"spherical", "coordinates = { a = { initial = 0.5, rate = 0.2 }, b = { initial = 0.5, rate = -0.2 }, c = { initial = -0.5, rate = 0.3 }, d = { initial = 0.5, rate = 0.3 } }"}}) {
-        CAPTURE(type);
-        CAPTURE(rest);
+        const std::string what = std::string(type) + " " + rest;
+        CAPTURE(what);
         std::string text = fmt::format(R"(gravity = [1, 2, -9.81]
 [[body]]
 name = "base"
@@ -390,7 +391,9 @@ namespace {
 
 void check_same_reactions(const Json& one, const Json& other, double tolerance) {
     REQUIRE(one.size() == other.size());
-    for (const auto& [joint, load] : one.items()) {
+    for (const auto& entry : one.items()) {
+        const std::string joint = entry.key();
+        const Json& load = entry.value();
         CAPTURE(joint);
         REQUIRE(other.contains(joint));
         check_near(three(load["force"]), three(other[joint]["force"]), tolerance);
