@@ -267,6 +267,44 @@ beta = 2*atan(2/3)
     CHECK_FALSE(result.claims[3].counterexample.empty());
 }
 
+// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by Cramer's rule.
+TEST_CASE("check: constraints that cannot be solved one after the other") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+a = { initial = 0.5, rate = 2.0 }
+b = { guess = 0.6, rate_guess = 0 }
+c = { guess = 0.4, rate_guess = 0 }
+d = { guess = 0.9, rate_guess = 0 }
+[energy]
+kinetic = "a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 + sin(c))"
+potential = "5*cos(d)"
+[[constraint]]
+name = "x"
+holonomic = "cos(a) + cos(b)*sin(c) + sin(d)/3 = 13/10"
+[[constraint]]
+name = "y"
+holonomic = "sin(a) + sin(b)*cos(d) + 2*cos(c) = 12/5"
+[[constraint]]
+name = "z"
+holonomic = "2*sin(a+b) + 3*sin(c) + sin(d)*cos(b) = 4"
+)toml", "loop.toml");
+    const Checked result = checked(with_claims(scene, R"(
+(a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 + sin(c)) + 5*cos(d))' = 0
+(a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 - sin(c)) + 5*cos(d))' = 0
+sin(a)*a' + sin(b)*sin(c)*b' - cos(b)*cos(c)*c' = cos(d)*d'/3
+sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
+6*c'' = lambda_x*cos(b)*cos(c) - 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
+6*c'' = lambda_x*cos(b)*cos(c) + 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved, Verdict::refuted};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+        CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
+    }
+}
+
 // x² = l² has two branches; nothing says which.
 TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
     const Scene scene = parse_scene("[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"

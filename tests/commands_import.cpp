@@ -261,7 +261,8 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
         const Json accelerations = Json::parse(result.out)["accelerations"];
         CHECK(accelerations.size() == q.size());
         k = 0;
-        for (const auto& [name, value] : q) {
+        for (const auto& coordinate : q) {
+            const std::string& name = coordinate.first;
             CAPTURE(name);
             const double difference = accelerations[plain(name)].get<double>() - expected[k++];
             CHECK(std::abs(difference) < 1e-12 * expected.cwiseAbs().maxCoeff());
@@ -348,6 +349,7 @@ TEST_CASE("import: what is no robot is told in one message, and nothing is writt
     refused(robot_of(""), "urdfdom refuses it");
     refused(robot_of(link_of("a", heavy) + link_of("a", heavy)), "urdfdom refuses it: link 'a' is not unique");
     refused(robot_of(link_of("a", heavy)), "no joint that moves a mass");
+    refused(robot_of(link_of("a") + link_of("b") + hinge_of("j", "continuous", "a", "b")), "no link of this robot has a mass");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "hinge", "a", "b")), "urdfdom refuses it");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "revolute", "a", "c", limit)), "urdfdom refuses it: Failed to build tree: child link [c] of joint [j] not found");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>")), "the axis of joint 'j' is zero");

@@ -670,9 +670,9 @@ TEST_CASE("stiff methods: van der Pol's oscillator agrees with dop853 at a tight
 // A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular solution
 // is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
 TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") {
-    for (const auto& [method, k] :
-         {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
-        const double stiffness = k, damping = 2 * std::sqrt(k);
+    for (const auto& choice : {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
+        const Method method = choice.first;
+        const double stiffness = choice.second, damping = 2 * std::sqrt(stiffness);
         const Rhs spring = make_rhs(2, [=](double t, const double* y, double* rate) {
             rate[0] = y[1];
             rate[1] = -stiffness * (y[0] - std::sin(t)) - damping * y[1];

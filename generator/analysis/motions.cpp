@@ -90,6 +90,9 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     list.insert(list.end(), e.gamma.begin(), e.gamma.end());
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
+    const std::size_t own = list.size();
+    for (const Mechanism::Constraint& c : m.redundant)
+        if (c.position) list.push_back(*c.position);
     // A contact's multiplier is whatever its bodies press with: a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
     int next_unknown = m_;
@@ -107,7 +110,8 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     system_.A = take(m_ * n_);
     system_.drift = take(m_);
     system_.gamma = take(m_);
-    std::vector<int> conditions(next, nodes.end());
+    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own));
+    implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
     if (at == At::rest) {
         // f(q, 0) + Σ λ_k A_k = 0, and the rates' equations with q' = q'' = 0.
@@ -158,7 +162,9 @@ void Motions::order(std::vector<int> conditions) {
             const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
             const bool any_multiple = orders[choice % orders.size()].second;
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
-                for (const auto& [variable, how] : held[c]) {
+                for (const auto& entry : held[c]) {
+                    const auto& variable = entry.first;
+                    const auto& how = entry.second;
                     if (variable.first != kind || taken.contains(variable)) continue;
                     const bool elsewhere = std::any_of(held.begin(), held.end(), [&](const Occurrences& other) {
                         return &other != &held[c] && other.contains(variable);
@@ -184,8 +190,10 @@ void Motions::order(std::vector<int> conditions) {
             }
         }
         if (!chosen) {
-            obstacle_ = at_ == At::rest ? "the equations of rest cannot be solved one after the other"
-                                        : "the constraints cannot be solved one after the other";
+            if (at_ == At::rest)
+                obstacle_ = "the equations of rest cannot be solved one after the other";
+            else
+                loose_ = conditions;
             return;
         }
         const Step& step = chosen->second;
