@@ -217,7 +217,7 @@ SeriesModule series_of(const Program& program, bool with_work, const Request& re
 std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module, const std::vector<double>& parameters, const Request& request) {
     const auto asked = method_named(request.method);
     if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
-    const Program form = canonical_form(d, request);
+    const Program form = canonical_form(d);
     const Compiled compiled = compile(emit(form).text, form.name, {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}});
     return make_canonical(module, load(compiled.object), parameters);
 }

@@ -4,7 +4,7 @@
 /// What rattle steps with, from a scene: M, p = ∂L/∂q' and F = ∂L/∂q + Q as the outputs of a file of their own.
 ///
 ///     need_canonical(derived, name(method));                 // refuses, with the reason
-///     const Program form = canonical_form(derived, request);
+///     const Program form = canonical_form(derived);
 ///     rhs.canonical = make_canonical(module, load(compile(emit(form).text, …).object), values);
 
 #include <optional>
@@ -22,6 +22,6 @@ std::optional<std::string> not_canonical(const Derived& derived);
 void need_canonical(const Derived& derived, std::string_view method);
 
 /// Quaternions have their constraint in L: see lib/alembert/canonical.hpp.
-Program canonical_form(const Derived& derived, const Request& request);
+Program canonical_form(const Derived& derived);
 
 }  // namespace alembert

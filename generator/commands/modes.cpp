@@ -103,7 +103,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     std::optional<Source> series;
     if (needs_series(method_.method)) series = emit_taylor(program, work_ == Work::integrated);
     std::optional<Source> form;
-    if (needs_canonical(method_.method)) form = emit(canonical_form(derived, request_));
+    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
     Source source = emit(derivatives ? derivatives->program : program);
     seconds_.emit += lap();
     const Compiled compiled = compile(source.text, program.name, options_of_compiler());
