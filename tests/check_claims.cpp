@@ -202,6 +202,37 @@ abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'
     }
 }
 
+TEST_CASE("check: a drive whose frequency is a decimal, beside a constraint that is solved for an angle") {
+    const Scene scene = parse_scene(R"toml([parameters]
+m = 1
+l = 2
+[inputs]
+yp = "0.1*cos(1.005*t) + 0.02*sin(0.375*t)"
+[coordinates]
+theta = 0.3
+phi = { guess = 0.3 }
+[energy]
+kinetic = "m*(l^2*theta'^2 + 2*l*theta'*yp'*sin(theta) + yp'^2)/2 + phi'^2/2"
+potential = "m*9.81*(yp - l*cos(theta))"
+[[constraint]]
+name = "tied"
+holonomic = "sin(phi/2) - sin(theta)/2"
+)toml", "drive.toml");
+    const Checked result = checked(with_claims(scene, R"(
+m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
+m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -cos(theta)/cos(phi/2)*phi''
+m*l^2*theta'' + m*l*(9.81 + 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
+cos(1.005*t) = 4*cos(0.25125*t)^3 - 3*cos(0.25125*t)
+cos(1.005*t) = 2*cos(0.5025*t)^2 - 1
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
 // The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
 TEST_CASE("check: a loop whose lengths are numbers is solved for two angles at once") {
     const Scene scene = parse_scene(R"toml([coordinates]
@@ -234,6 +265,44 @@ beta = 2*atan(2/3)
     }
     CHECK_FALSE(result.claims[1].counterexample.empty());
     CHECK_FALSE(result.claims[3].counterexample.empty());
+}
+
+// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by Cramer's rule.
+TEST_CASE("check: constraints that cannot be solved one after the other") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+a = { initial = 0.5, rate = 2.0 }
+b = { guess = 0.6, rate_guess = 0 }
+c = { guess = 0.4, rate_guess = 0 }
+d = { guess = 0.9, rate_guess = 0 }
+[energy]
+kinetic = "a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 + sin(c))"
+potential = "5*cos(d)"
+[[constraint]]
+name = "x"
+holonomic = "cos(a) + cos(b)*sin(c) + sin(d)/3 = 13/10"
+[[constraint]]
+name = "y"
+holonomic = "sin(a) + sin(b)*cos(d) + 2*cos(c) = 12/5"
+[[constraint]]
+name = "z"
+holonomic = "2*sin(a+b) + 3*sin(c) + sin(d)*cos(b) = 4"
+)toml", "loop.toml");
+    const Checked result = checked(with_claims(scene, R"(
+(a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 + sin(c)) + 5*cos(d))' = 0
+(a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 - sin(c)) + 5*cos(d))' = 0
+sin(a)*a' + sin(b)*sin(c)*b' - cos(b)*cos(c)*c' = cos(d)*d'/3
+sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
+6*c'' = lambda_x*cos(b)*cos(c) - 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
+6*c'' = lambda_x*cos(b)*cos(c) + 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
+)", "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved, Verdict::refuted};
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+        CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
+    }
 }
 
 // x² = l² has two branches; nothing says which.

@@ -348,6 +348,7 @@ TEST_CASE("import: what is no robot is told in one message, and nothing is writt
     refused(robot_of(""), "urdfdom refuses it");
     refused(robot_of(link_of("a", heavy) + link_of("a", heavy)), "urdfdom refuses it: link 'a' is not unique");
     refused(robot_of(link_of("a", heavy)), "no joint that moves a mass");
+    refused(robot_of(link_of("a") + link_of("b") + hinge_of("j", "continuous", "a", "b")), "no link of this robot has a mass");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "hinge", "a", "b")), "urdfdom refuses it");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "revolute", "a", "c", limit)), "urdfdom refuses it: Failed to build tree: child link [c] of joint [j] not found");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>")), "the axis of joint 'j' is zero");

@@ -3,6 +3,7 @@
 // functions, Euler angles, and what is conserved.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -509,6 +510,24 @@ TEST_CASE("space: a loop that cannot close is told with the joint, and how far a
     // Coordinates move these, but never far enough.
     const auto far = run({"derive", temporary("far.toml", text + "parent_point = [1, 0, 0]\nchild_point = [3, 0, 0]\n")});
     CHECK(far.exit == 3);
-    CHECK(far.err.find("constraints 'b_1' and 'b_2' contradict each other") != std::string::npos);
+    CHECK(far.err.find("joint 'b' cannot close its loop: constraints 'b_1' and 'b_2' contradict each other") != std::string::npos);
     CHECK(far.out.empty());
+}
+
+TEST_CASE("space: an arm of seven joints with all its parameters as symbols accelerates as the one with numbers, by every formalism of joints") {
+    const auto evaluated = [](const std::string& name, const std::string& by) {
+        return json_of({"eval", source_path("scenes/benchmark/trees/" + name + ".toml"), "--by", by, "--json"});
+    };
+    const Json numbers = evaluated("arm7", "recursive")["accelerations"];
+    for (const char* by : {"recursive", "kane", "schiehlen", "roberson-wittenburg"}) {
+        CAPTURE(by);
+        const Json symbols = evaluated("arm7_symbols", by)["accelerations"];
+        for (const auto& [name, value] : numbers.items()) {
+            CAPTURE(name);
+            CHECK(std::abs(symbols[name].get<double>() - value.get<double>()) < 1e-12 * std::max(1.0, std::abs(value.get<double>())));
+        }
+    }
+    // They are symbols: with another mass and another offset it is another arm.
+    const Json other = json_of({"eval", source_path("scenes/benchmark/trees/arm7_symbols.toml"), "--at", "m7=0.9", "--at", "px4=0.01", "--json"})["accelerations"];
+    CHECK(std::abs(other["q7"].get<double>() - numbers["q7"].get<double>()) > 1e-3);
 }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/lucky.hpp"
 #include "analysis/system.hpp"
 
 namespace alembert {
@@ -137,7 +138,7 @@ Derivations derive_all(const Mechanism& mechanism) {
 }
 
 Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double seconds) {
-    constexpr int most_unlucky = 20000;
+    constexpr int most_unlucky = 2000;
     Agreement result;
     if (equations.size() < 2) {
         result.reason = "fewer than two formalisms apply";
@@ -162,12 +163,21 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
         if (!systems.back().is_plain()) speeds = &systems.back();
     }
 
+    std::vector<LuckyPoints::Part> parts;
+    int finer = 0;
+    for (const System& s : systems) {
+        parts.push_back({&s.program, s.wanted});
+        parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
+        finer = std::max(finer, halvings(s.program, parts.back().roots) - ModularPoint{}.halves);
+    }
+    const LuckyPoints lucky(parts, {});
     int unlucky = 0;
     for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
-        const auto rates = speeds != nullptr ? rates_at(*speeds, seed) : std::optional(ModularRates{});
+        const auto point = lucky.at({.seed = seed, .given = {}, .given_angles = {}, .finer = finer});
+        const auto rates = !point ? std::nullopt : speeds != nullptr ? rates_at(*speeds, *point) : std::optional(ModularRates{});
         std::vector<Echelon> forms;
         for (const System& s : systems) {
-            auto form = rates ? echelon(s, seed, *rates) : std::nullopt;
+            auto form = rates ? echelon(s, *point, *rates) : std::nullopt;
             if (!form) break;
             forms.push_back(std::move(*form));
         }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

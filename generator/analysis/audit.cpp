@@ -121,6 +121,16 @@ private:
                                             "remove or correct one of them",
                                             names, dependent ? "they constrain the same rates differently; " : "",
                                             clash.size() == 2 ? "both" : "all", places_tried);
+        if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].closes_loop; })) {
+            std::vector<std::string> joints;  // of the rows, which are called JOINT_1 …
+            for (const int k : clash) {
+                const std::string& row = m_.constraints[k].name;
+                const std::string joint = row.substr(0, row.rfind('_'));
+                if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
+            }
+            result_.problem = fmt::format("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s",
+                                          fmt::join(joints, "', '"), joints.size() == 1 ? "its loop" : "their loops", result_.problem);
+        }
         result_.contradictory = clash;
         contradictory_ = true;
     }

@@ -13,6 +13,7 @@
 
 #include "analysis/absent.hpp"
 #include "analysis/claims.hpp"
+#include "analysis/counterexample.hpp"
 #include "analysis/exact_states.hpp"
 #include "analysis/multiple.hpp"
 #include "analysis/nearest.hpp"
@@ -98,8 +99,13 @@ private:
     void settle(const std::vector<std::size_t>& here, Motions::At at) {
         // Angles in halves only where they occur: every halving doubles the degrees.
         std::optional<ExactStates> states;
+        int asked = 0;
+        for (const std::size_t k : here) {
+            Program p;
+            asked = std::max(asked, halvings(p, claims_.lower(p, {forms_[k].residual})));
+        }
         for (const int halves : {0, 1, 2}) {
-            states.emplace(m_, law_, at, halves);
+            states.emplace(m_, law_, at, halves, asked);
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -126,8 +132,10 @@ private:
         for (const std::size_t k : here)
             if (forms_[k].open.empty())
                 settle_alone(k, *states);
-            else
+            else if (states->motions.loose().empty())
                 open.push_back(k);
+            else
+                result_.claims[k].reason = "the constraints cannot be solved one after the other, and it leaves names open";
         settle_open(open, *states);
     }
 
@@ -175,72 +183,33 @@ private:
             return;
         }
         if (*zero) {
+            if (!states.motions.loose().empty() && !holds_in_numbers(states.motions, p, root)) {
+                c.reason = "it holds wherever the constraints are constant, and no state was found at which they are zero and the equations have one solution";
+                return;
+            }
             c.verdict = Verdict::proved;
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
             return;
         }
-        const bool shown = show_counterexample(c, states, p, root);
+        const auto shown = counterexample(told(), states.motions, p, root);
         if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at which it fails
             c.reason = "it differs in exact arithmetic, and no state in numbers was found at which it fails";
             return;
         }
-        c.verdict = Verdict::refuted;
+        show(c, *shown);
         refine(k, states);
     }
 
-    bool show_counterexample(CheckedClaim& c, ExactStates& states, const Program& p, int root) {
-        const auto start = std::chrono::steady_clock::now();
-        for (unsigned seed = 0; seed < 1200; ++seed) {
-            if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4) && seed > 40) break;  // far beyond what a right answer takes
-            const auto state = real_state(states.motions, p, {root}, seed);
-            if (!state) continue;
-            const auto value = evaluate(p, *state, {root});
-            if (!value || is_small((*value)[0])) continue;
-            describe(c, *state, (*value)[0]);
-            return true;
-        }
-        return false;
+    Told told() { return {.mechanism = m_, .equations = e_, .claims = claims_, .spoken = spoken_, .is_impact = when_ == "impact"}; }
+
+    static void show(CheckedClaim& c, const Counterexample& shown) {
+        c.verdict = Verdict::refuted;
+        c.counterexample = shown.values;
+        c.residual = shown.residual;
+        c.residual_value = shown.residual_value;
     }
 
-    static bool is_small(const numeric& value) {
-        return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
-    }
-
-    void describe(CheckedClaim& c, const RealState& state, const numeric& residual, const std::vector<int>& open = {}) {
-        using Kind = Variable::Kind;
-        const auto add = [&](const std::string& name, const RealState::Key& key) {
-            if (state.value.contains(key)) c.counterexample.emplace_back(name, text_of(state, key));
-        };
-        int independent = 0;
-        for (const Mechanism::Parameter& p : m_.parameters)
-            if (p.independent) add(p.symbol.get_name(), {Kind::parameter, independent++});
-        if (when_ == "impact") return describe_impact(c, state, residual);
-        add("t", {Kind::time, 0});
-        for (const auto& [kind, primes] : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
-            for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + primes, {kind, i});
-        for (std::size_t k = 0; k < e_.lambda.size(); ++k) add(e_.lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
-        for (const std::size_t k : spoken_)
-            add(m_.undetermined()[k]->multiplier.get_name(), {Kind::unknown, static_cast<int>(e_.lambda.size() + k)});
-        for (const int o : open) add(claims_.open()[o].name, {claims_.open()[o].variable.kind, claims_.open()[o].variable.index});
-        c.residual = text_of(residual);
-        c.residual_value = residual.to_double();
-    }
-
-    void describe_impact(CheckedClaim& c, const RealState& state, const numeric& residual) {
-        const Impact::Exact& impact = *claims_.after_impact();
-        const auto add = [&](const std::string& name, const ex& e) {
-            Program p;
-            const std::vector<int> node = claims_.lower(p, {m_.z->name(e.subs(impact.pose, GiNaC::subs_options::no_pattern))});
-            if (const auto value = evaluate(p, state, node)) c.counterexample.emplace_back(name, text_of((*value)[0]));
-        };
-        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name(), m_.q[i]);
-        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + "'(-)", impact.before[i]);
-        for (int i = 0; i < m_.size(); ++i) add(m_.q[i].get_name() + "'", impact.after[i]);
-        for (const auto& [multiplier, impulse] : impact.reactions) add(multiplier.get_name(), impulse);
-        c.residual = text_of(residual);
-        c.residual_value = residual.to_double();
-    }
 
     // What is wrong
 
@@ -484,15 +453,13 @@ private:
             CheckedClaim& c = result_.claims[k];
             c.failure = failure;
             if (wrong.contains(k)) {
-                c.verdict = Verdict::refuted;
                 c.reason = wrong.size() > 1 && wrong.size() == group.size()
                                ? "no choice of what is left open satisfies these claims together"
                                : "the other claims leave no choice with which it holds";
-                open_counterexample(k, rows, wrong, states);
-                if (c.counterexample.empty()) {
-                    c.verdict = Verdict::undecided;
-                    continue;
-                }
+                const auto shown = counterexample(told(), states.motions, rows, {.claim = k, .open = forms_[k].open, .wrong = wrong});
+                if (!shown) continue;
+                show(c, *shown);
+                if (shown->of_derivative) c.reason = "it is not constant: the residual is that of its time derivative";
                 refine(k, states);
             } else if (pins(rows, seen[0], wrong, k)) {
                 const bool constant = claims_.open()[forms_[k].open[0]].constant;
@@ -501,57 +468,6 @@ private:
                                     : "what it leaves open can take up whatever it says: no other claim fixes it";
             } else {
                 c.verdict = Verdict::proved;
-            }
-        }
-    }
-
-    /// A state, what the other claims make of the open names there, and what is left of this claim.
-    void open_counterexample(std::size_t k, const OpenRows& rows, const std::set<std::size_t>& wrong, ExactStates& states) {
-        CheckedClaim& c = result_.claims[k];
-        const std::vector<int> roots = rows.roots();
-        const std::size_t columns = claims_.open().size();
-        for (unsigned seed = 0; seed < 600; ++seed) {
-            auto state = real_state(states.motions, rows.program, roots, seed);
-            if (!state) continue;
-            for (const Open& o : claims_.open()) state->value[{o.variable.kind, o.variable.index}] = 0;
-            const auto value = evaluate(rows.program, *state, roots);
-            if (!value) continue;
-            // Rows of the right claims first, then of the other wrong ones, then this one's: the first that contradicts.
-            std::vector<std::size_t> sequence(rows.list.size());
-            std::iota(sequence.begin(), sequence.end(), std::size_t{0});
-            std::stable_sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
-                const auto place = [&](std::size_t r) { return rows.list[r].claim == k ? 2 : wrong.contains(rows.list[r].claim) ? 1 : 0; };
-                return place(a) < place(b);
-            });
-            std::vector<std::vector<numeric>> kept;
-            std::vector<std::size_t> pivots;
-            for (const std::size_t r : sequence) {
-                std::vector<numeric> row(columns + 1);
-                const std::size_t base = r * (columns + 1);
-                row[columns] = -(*value)[base];
-                for (std::size_t j = 0; j < columns; ++j) row[j] = (*value)[base + 1 + j];
-                for (std::size_t p = 0; p < pivots.size(); ++p) {
-                    const numeric factor = row[pivots[p]];
-                    for (std::size_t j = 0; j <= columns; ++j) row[j] -= factor * kept[p][j];
-                    row[pivots[p]] = 0;
-                }
-                const auto pivot = std::find_if(row.begin(), row.end() - 1, [](const numeric& x) { return !is_small(x); });
-                if (pivot == row.end() - 1) {
-                    if (rows.list[r].claim != k || is_small(row[columns])) continue;
-                    for (std::size_t p = pivots.size(); p-- > 0;) {
-                        numeric x = kept[p][columns];
-                        for (std::size_t j = pivots[p] + 1; j < columns; ++j)
-                            x -= kept[p][j] * state->value[{claims_.open()[j].variable.kind, claims_.open()[j].variable.index}];
-                        state->value[{claims_.open()[pivots[p]].variable.kind, claims_.open()[pivots[p]].variable.index}] = x;
-                    }
-                    describe(c, *state, -row[columns], forms_[k].open);
-                    if (rows.list[r].derived) c.reason = "it is not constant: the residual is that of its time derivative";
-                    return;
-                }
-                const numeric lead = *pivot;
-                pivots.push_back(static_cast<std::size_t>(pivot - row.begin()));
-                for (numeric& x : row) x /= lead;
-                kept.push_back(std::move(row));
             }
         }
     }
@@ -579,7 +495,7 @@ private:
         Program p;
         const std::vector<int> nodes = claims_.lower(p, list);
         for (const int halves : {0, 1, 2}) {
-            ExactStates states(m_, e_, Motions::At::motion, halves);
+            ExactStates states(m_, e_, Motions::At::motion, halves, halvings(p, nodes));
             for (std::size_t s = 0; s < 40 && states.get(s) != nullptr; ++s) {
                 const auto at = evaluate_mod(p, states.get(s)->point, nodes);
                 if (!at) continue;

@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "alembert/dense.hpp"
+
 namespace alembert {
 
 namespace {
@@ -27,7 +29,7 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const st
     for (Eigen::Index k = 0; k < A.rows(); ++k)
         for (Eigen::Index i = 0; i < A.cols(); ++i) A(k, i) = value[rows[k * n + massless[i]]];
     for (Eigen::Index i = 0; i < A.cols(); ++i) A.col(i).normalize();  // their units
-    return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).rank() == A.cols() ? heavy : all;
+    return least_norm(A, Eigen::VectorXd::Zero(A.rows())).rank == A.cols() ? heavy : all;
 }
 
 }  // namespace
@@ -52,13 +54,13 @@ std::optional<std::string> massless_combination(const Program& program, const St
         scale[i] = M(i, i) > 0 ? 1 / std::sqrt(M(i, i)) : size > 0 ? 1 / std::sqrt(size) : 1;
     }
     const Eigen::MatrixXd unit = scale.asDiagonal() * M * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit);
+    const Eigenpairs eigen = eigenpairs(unit);
     Eigen::Index weakest = 0;
-    eigen.eigenvalues().cwiseAbs().minCoeff(&weakest);
-    const double largest = eigen.eigenvalues().cwiseAbs().maxCoeff();
-    if (std::abs(eigen.eigenvalues()[weakest]) > 1e-13 * largest && largest > 0) return std::nullopt;
+    eigen.values.cwiseAbs().minCoeff(&weakest);
+    const double largest = eigen.values.cwiseAbs().maxCoeff();
+    if (std::abs(eigen.values[weakest]) > 1e-13 * largest && largest > 0) return std::nullopt;
 
-    Eigen::VectorXd direction = scale.asDiagonal() * eigen.eigenvectors().col(weakest);
+    Eigen::VectorXd direction = scale.asDiagonal() * eigen.vectors.col(weakest);
     Eigen::Index first = 0;
     const double size = direction.cwiseAbs().maxCoeff(&first);
     direction /= direction[first] < 0 ? -size : size;

@@ -8,7 +8,7 @@ namespace alembert {
 /// Exact states one after the other, made when first asked for; null once no more are found.
 class ExactStates {
 public:
-    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves) : motions(m, e, at, halves) {}
+    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings) : motions(m, e, at, halves, halvings) {}
 
     const ExactState* get(std::size_t k) {
         while (made_.size() <= k && unlucky_ < most_unlucky && motions.obstacle().empty()) {

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "alembert/dense.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -21,7 +22,7 @@ double evenness(const Program& program, const std::vector<int>& nodes, const Sta
     for (Eigen::Index r = 0, next = 0; r < 3; ++r)
         for (Eigen::Index c = 0; c < J.cols(); ++c) J(r, c) = value[nodes[next++]];
     if (!J.allFinite()) return 0;
-    const Eigen::Vector3d sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(J).singularValues();
+    const Eigen::Vector3d sigma = singular_values(J).values;
     return sigma[0] > 0 ? sigma[2] / sigma[0] : 0;
 }
 

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "formalism/elements.hpp"
+#include "lower/held_loads.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
+#include "model/geometry.hpp"
 
 namespace alembert {
 
@@ -21,6 +24,18 @@ Expression nothing() {
 }
 
 Vector no_shift() { return {.component = {nothing(), nothing(), nothing()}, .place = {}}; }
+
+/// A massless body that a joint places.
+void add_link(Scene& scene, Joint joint) {
+    scene.bodies.push_back({.name = joint.child.body,
+                            .mass = nothing(),
+                            .position = {.offset = no_shift()},
+                            .inertia = {},
+                            .about = {},
+                            .has_position = false,
+                            .joint = scene.joints.size()});
+    scene.joints.push_back(std::move(joint));
+}
 
 /// No name of a scene has a dot.
 std::string named(const Joint& joint, const std::string& what) { return joint.name.text + "." + what; }
@@ -37,13 +52,15 @@ Scene released(Scene scene) {
         body.inertia->tensor[2] = *std::exchange(body.inertia->planar, {});
     }
     for (std::size_t k = 0; k < count; ++k) {
-        if (!scene.joints[k].places_child) continue;
-        Joint& joint = scene.joints[k];
-        Joint::Side& inner = *joint.places_child ? joint.parent : joint.child;
+        const Joint joint = scene.joints[k];
+        const bool places_parent = joint.places_child && !*joint.places_child;
+        const auto at_rest_on = [&](const char* body) {
+            return Joint::Side{.body = {named(joint, body), joint.name.place}, .point = no_shift(), .rotate = {}};
+        };
         Joint release{.name = {named(joint, "release"), joint.name.place},
                       .type = Joint::Type::free,
-                      .parent = inner,
-                      .child = {.body = {named(joint, "link"), joint.name.place}, .point = no_shift(), .rotate = {}},
+                      .parent = places_parent ? joint.child : joint.parent,
+                      .child = at_rest_on("link"),
                       .axis = {.letter = 'z', .axis = {}, .angle = {}},
                       .pitch = {},
                       .angles = "xyz",
@@ -55,15 +72,17 @@ Scene released(Scene scene) {
             release.coordinates.push_back({named(joint, direction), joint.name.place});
             scene.coordinates.push_back({.name = release.coordinates.back(), .initial = nothing(), .rate = nothing(), .unit = {}, .about = {}});
         }
-        scene.bodies.push_back({.name = release.child.body,
-                                .mass = nothing(),
-                                .position = {.offset = no_shift()},
-                                .inertia = {},
-                                .about = {},
-                                .has_position = false,
-                                .joint = scene.joints.size()});
-        inner = {.body = release.child.body, .point = no_shift(), .rotate = {}};
-        scene.joints.push_back(std::move(release));
+        if (joint.closes_loop) {  // where its point of the child is
+            Joint mark = release;
+            mark.name.text = named(joint, "mark");
+            mark.type = Joint::Type::fixed;
+            mark.parent = {.body = joint.child.body, .point = joint.child.point, .rotate = {}};
+            mark.child = at_rest_on("point");
+            mark.coordinates.clear();
+            add_link(scene, std::move(mark));
+        }
+        (places_parent ? scene.joints[k].child : scene.joints[k].parent) = release.child;
+        add_link(scene, std::move(release));
     }
     return scene;
 }
@@ -90,10 +109,15 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     std::vector<std::pair<GiNaC::symbol, int>> held;
     for (int i = n; i < m.size(); ++i)
         for (const GiNaC::symbol& symbol : {m.q[i], m.qdot[i], m.qddot[i]}) held.emplace_back(symbol, program.number(0));
-    const std::vector<int> loads = inverse_loads(program, m, held);
+    std::vector<std::vector<Program::Term>> terms(static_cast<std::size_t>(m.size()));
+    if (masses_are_known(m)) {
+        const std::vector<int> loads = held_loads(program, m, n, held);
+        for (std::size_t k = 0; k < loads.size(); ++k) terms[n + k].emplace_back(1, loads[k]);
+    } else {
+        const std::vector<int> loads = inverse_loads(program, m, held);
+        for (std::size_t k = 0; k < loads.size(); ++k) terms[k].emplace_back(1, loads[k]);
+    }
     const auto lowering = lowering_into(program, m, held);
-    std::vector<std::vector<Program::Term>> terms;
-    for (const int load : loads) terms.push_back({{1, load}});
     const auto take_off = [&](const Mechanism::Constraint& c) {
         const auto found = std::lower_bound(result.multipliers.begin(), result.multipliers.end(), c.multiplier.get_name());
         if (found == result.multipliers.end() || *found != c.multiplier.get_name()) return;
@@ -104,18 +128,26 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     for (const Mechanism::Constraint& c : m.constraints) take_off(c);
     for (const Mechanism::Unilateral& contact : m.unilateral) take_off(contact.gap);
 
+    const auto arc_named = [&](const std::string& name) -> const JointArc& {
+        return *std::find_if(m.joints.begin(), m.joints.end(), [&](const JointArc& arc) { return arc.name == name; });
+    };
     int i = n;
-    for (const JointArc& arc : m.joints) {
-        if (arc.role == JointArc::Role::closes_loop || arc.name.ends_with(".release")) continue;
+    for (const JointArc& arc : mechanism.joints) {
         result.joints.push_back(arc.name);
-        const int sign = arc.role == JointArc::Role::places_child ? 1 : -1;  // on the child
+        const int sign = arc.role == JointArc::Role::places_parent ? -1 : 1;  // on the child
         std::array<int, 6> R;
         for (int k = 0; k < 6; ++k, ++i) {
             for (Program::Term& term : terms[i]) term.first = sign * term.first;
             R[static_cast<std::size_t>(k)] = program.sum(0, terms[i]);
         }
+        Vector3 way = sign > 0 ? arc_named(arc.name).shift : Vector3{0, 0, 0};
+        if (arc.role == JointArc::Role::closes_loop) {
+            const JointArc& release = arc_named(arc.name + ".release");
+            const Vector3 from = m.masses[release.child].position, to = m.masses[arc_named(arc.name + ".mark").child].position;
+            for (std::size_t k = 0; k < 3; ++k) way[k] = dot(release.slide_axes[k], add(to, scale(-1, from, *m.z), *m.z), *m.z);
+        }
         std::array<int, 3> d;
-        for (int k = 0; k < 3; ++k) d[static_cast<std::size_t>(k)] = sign > 0 ? lowering(arc.shift[k]) : program.number(0);
+        for (std::size_t k = 0; k < 3; ++k) d[k] = lowering(way[k]);
         for (std::size_t k = 0; k < 3; ++k) program.roots.push_back({"force", arc.name, R[k]});
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;

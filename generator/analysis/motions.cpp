@@ -79,7 +79,7 @@ std::optional<Prime> value_of(const Program& p, int node, const ExactState& stat
 
 }  // namespace
 
-Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
+Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
@@ -90,6 +90,9 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
     list.insert(list.end(), e.gamma.begin(), e.gamma.end());
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
+    const std::size_t own = list.size();
+    for (const Mechanism::Constraint& c : m.redundant)
+        if (c.position) list.push_back(*c.position);
     // A contact's multiplier is whatever its bodies press with: a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
     int next_unknown = m_;
@@ -107,7 +110,8 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
     system_.A = take(m_ * n_);
     system_.drift = take(m_);
     system_.gamma = take(m_);
-    std::vector<int> conditions(next, nodes.end());
+    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own));
+    implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
     if (at == At::rest) {
         // f(q, 0) + Σ λ_k A_k = 0, and the rates' equations with q' = q'' = 0.
@@ -128,7 +132,16 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves)
         for (const int node : lower_expressions(program_, m, balance, given))
             if (!program_.is_zero(node)) conditions.push_back(node);
     }
+    std::vector<int> all = nodes;
+    all.insert(all.end(), conditions.begin(), conditions.end());
+    finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
     order(std::move(conditions));
+    std::set<LuckyPoints::Key> solved;
+    for (const Step& step : steps_) {
+        solved.insert({step.variable.kind, step.variable.index});
+        if (step.second) solved.insert({step.second->variable.kind, step.second->variable.index});
+    }
+    lucky_.emplace(std::vector{LuckyPoints::Part{&program_, all}}, solved);
     find_branches();
 }
 
@@ -149,7 +162,9 @@ void Motions::order(std::vector<int> conditions) {
             const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
             const bool any_multiple = orders[choice % orders.size()].second;
             for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
-                for (const auto& [variable, how] : held[c]) {
+                for (const auto& entry : held[c]) {
+                    const auto& variable = entry.first;
+                    const auto& how = entry.second;
                     if (variable.first != kind || taken.contains(variable)) continue;
                     const bool elsewhere = std::any_of(held.begin(), held.end(), [&](const Occurrences& other) {
                         return &other != &held[c] && other.contains(variable);
@@ -175,8 +190,10 @@ void Motions::order(std::vector<int> conditions) {
             }
         }
         if (!chosen) {
-            obstacle_ = at_ == At::rest ? "the equations of rest cannot be solved one after the other"
-                                        : "the constraints cannot be solved one after the other";
+            if (at_ == At::rest)
+                obstacle_ = "the equations of rest cannot be solved one after the other";
+            else
+                loose_ = conditions;
             return;
         }
         const Step& step = chosen->second;
@@ -274,7 +291,7 @@ void Motions::find_branches() {
     constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
     std::vector<bool> known(steps_.size(), false);
     for (std::uint64_t seed = 1; seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end(); ++seed) {
-        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_}};
+        ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
         for (std::size_t k = 0; k < steps_.size(); ++k) {
             const Outcome outcome = solve(steps_[k], state);
             if (outcome.found) {
@@ -289,10 +306,13 @@ void Motions::find_branches() {
 
 std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
     if (!obstacle_.empty()) return std::nullopt;
-    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_}};
+    ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
             for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
+    auto point = lucky_->at(std::move(state.point));
+    if (!point) return std::nullopt;
+    state.point = std::move(*point);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
         const Outcome outcome = solve(steps_[k], state);
         if (!outcome.found) return std::nullopt;

@@ -11,8 +11,9 @@
 /// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for all values of
 /// the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of them taken. An angle that
 /// occurs in sines and cosines alone is solved for by the tangent of its half. Two constraints that share two unknowns and
-/// leave no other way are solved together (analysis/common_zeros.hpp). A set of constraints that has no order of solving of
-/// this kind has no states here, and `obstacle` says so.
+/// leave no other way are solved together (analysis/common_zeros.hpp). Conditions of a motion that have no order of solving of this
+/// kind are `loose`: the states are then on f(q, t) = const with any constants for these. What holds there, and divides by
+/// nothing that vanishes with f, holds on f = 0. Equations of rest without such an order have no states, and `obstacle` says so.
 /// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(), random, in equations that hold it.
@@ -24,6 +25,7 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
 /// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
 
+#include "analysis/lucky.hpp"
 #include "formalism/equations.hpp"
 #include "lower/modular.hpp"
 
@@ -41,12 +43,20 @@ class Motions {
 public:
     enum class At { motion, rest };
 
-    /// `halves`: angles may occur in parts of 1/2^halves.
-    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0);
+    /// `halves`: angles that are solved for may occur in parts of 1/2^halves; `halvings`: all others in these (analysis/lucky.hpp),
+    /// if not in the equations, in what will be asked.
+    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0, int halvings = 0);
+    Motions(const Motions&) = delete;
+    Motions& operator=(const Motions&) = delete;
 
     /// Nothing at an unlucky seed: no root in the field, a zero denominator.
     /// `given`: values instead of random ones, of what is not solved for.
     std::optional<ExactState> at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given = {}) const;
+
+    /// Conditions, in program(), that the states need not obey.
+    const std::vector<int>& loose() const { return loose_; }
+    /// Conditions of constraints without a row in the equations: they follow from the others, on some branch.
+    const std::vector<int>& implied() const { return implied_; }
 
     /// Why there is no state at any seed; empty if there may be.
     const std::string& obstacle() const { return obstacle_; }
@@ -89,10 +99,12 @@ private:
     Program program_;
     System system_;
     std::vector<Step> steps_;
+    std::vector<int> loose_, implied_;
     std::vector<bool> irreducible_;  ///< by step
     std::string obstacle_;
     At at_;
-    int n_ = 0, m_ = 0, halves_ = 0;
+    int n_ = 0, m_ = 0, halves_ = 0, finer_ = 0;
+    std::optional<LuckyPoints> lucky_;  ///< refers to program_
 };
 
 }  // namespace alembert

@@ -16,7 +16,6 @@ using GiNaC::numeric;
 namespace {
 
 using Key = RealState::Key;
-constexpr unsigned first_float_seed = 400;
 
 /// fifty digits, for as long as it lives
 class Precision {
@@ -250,6 +249,10 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
     return std::nullopt;
 }
 
+bool is_almost_zero(const numeric& x) {
+    return x.is_zero() || (!x.is_rational() && GiNaC::abs(x) <= GiNaC::pow(numeric(10), numeric(-35)));
+}
+
 void put(RealState& state, const Key& key, const numeric& x) {
     if (state.angle.contains(key))
         put_angle(state, key, {x});
@@ -286,7 +289,57 @@ bool solve_two(const Motions& motions, RealState& state, const Motions::Step& st
     return false;
 }
 
+/// Newton's method for all loose conditions together, in 50 digits; the shortest steps, of all coordinates in them.
+bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
+    const std::vector<int>& conditions = motions.loose();
+    std::set<Key> angles, plain;
+    find_variables(motions.program(), conditions, angles, plain);
+    std::vector<Key> keys;
+    for (const std::set<Key>* part : {&angles, &plain})
+        for (const Key& key : *part)
+            if (key.first == Variable::Kind::coordinate && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    const std::size_t rows = conditions.size();
+    const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
+    std::vector<numeric> x;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+        x.push_back(GiNaC::ex_to<numeric>(GiNaC::ex(numeric(static_cast<int>((seed * 7 + i * 5) % 23) - 11, 9)).evalf()));
+    const auto at = [&](std::size_t moved) {
+        for (std::size_t i = 0; i < keys.size(); ++i) put(state, keys[i], i == moved ? x[i] + small : x[i]);
+        return evaluate(motions.program(), state, conditions);
+    };
+    for (int round = 0; round < 60; ++round) {
+        const auto f = at(keys.size());
+        if (!f) return false;
+        std::vector<std::vector<numeric>> slopes;  // by coordinate
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            auto moved = at(i);
+            if (!moved) return false;
+            for (std::size_t k = 0; k < rows; ++k) (*moved)[k] = ((*moved)[k] - (*f)[k]) / small;
+            slopes.push_back(std::move(*moved));
+        }
+        std::vector<std::vector<numeric>> normal(rows, std::vector<numeric>(rows + 1));
+        for (std::size_t k = 0; k < rows; ++k) {
+            normal[k][rows] = (*f)[k];
+            for (std::size_t j = 0; j < rows; ++j)
+                for (const std::vector<numeric>& slope : slopes) normal[k][j] += slope[k] * slope[j];
+        }
+        const auto weights = solve_rows(std::move(normal), rows);
+        if (!weights) return false;
+        numeric length = 0;
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            numeric step = 0;
+            for (std::size_t k = 0; k < rows; ++k) step += slopes[i][k] * (*weights)[k];
+            x[i] -= step;
+            length += GiNaC::abs(step);
+        }
+        if (length > 1000) return false;
+        if (length < GiNaC::pow(numeric(10), numeric(-45))) return at(keys.size()).has_value();
+    }
+    return false;
+}
+
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
+    if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
     for (const Motions::Step& step : motions.steps()) {
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
@@ -305,9 +358,10 @@ bool solve_positions(const Motions& motions, RealState& state, bool floats, unsi
         if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
         const auto rest = at(*root, false);
         if (!rest) return false;
-        if (!rest->is_zero() && (rest->is_rational() || GiNaC::abs(*rest) > GiNaC::pow(numeric(10), numeric(-35)))) return false;
+        if (!is_almost_zero(*rest)) return false;
     }
-    return true;
+    const auto implied = evaluate(motions.program(), state, motions.implied());
+    return implied && std::all_of(implied->begin(), implied->end(), is_almost_zero);
 }
 
 bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
@@ -404,6 +458,8 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     std::vector<int> entries = s.M;
     for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma}) entries.insert(entries.end(), part->begin(), part->end());
     for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
+    entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
+    entries.insert(entries.end(), motions.implied().begin(), motions.implied().end());
     find_variables(motions.program(), entries, angles, plain);
     find_variables(claims, roots, angles, plain);
 

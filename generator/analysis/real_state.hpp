@@ -32,7 +32,8 @@ struct RealState {
 /// The values of `roots`; nothing where one is not a finite real number.
 std::optional<std::vector<GiNaC::numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots);
 
-/// A state that obeys the constraints; the larger the seed, the odder the numbers, and only from seed 400 on floats where a
+inline constexpr unsigned first_float_seed = 400;
+/// A state that obeys the constraints; the larger the seed, the odder the numbers, and only from that seed on floats where a
 /// constraint has no fraction as a solution. `angles`: variables that stand in sines and cosines of the claims as well.
 /// Nothing at an unlucky seed.
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "analysis/assemble.hpp"
 #include "lower/lower.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "lower/lower.hpp"
 #include "lower/tape.hpp"
 

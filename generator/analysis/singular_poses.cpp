@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -126,11 +126,11 @@ private:
         double size = 1;
         for (const double x : q) size = std::max(size, std::abs(x));
         if (f_.lpNorm<Eigen::Infinity>() > small * size) return std::nullopt;
-        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A_, Eigen::ComputeFullU);
+        const SingularValues svd = singular_values(A_);
         SingularPose pose{.q = q, .rank = 0, .among = {}};
-        for (const double sigma : svd.singularValues()) pose.rank += sigma > small;
+        for (const double sigma : svd.values) pose.rank += sigma > small;
         if (pose.rank == A_.rows()) return std::nullopt;
-        const Eigen::MatrixXd null = svd.matrixU().rightCols(A_.rows() - pose.rank);
+        const Eigen::MatrixXd null = svd.left.rightCols(A_.rows() - pose.rank);
         for (Eigen::Index k = 0; k < A_.rows(); ++k)
             if (null.row(k).norm() > 1e-6) pose.among.push_back(static_cast<int>(k));
         return pose;

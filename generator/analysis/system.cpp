@@ -38,10 +38,10 @@ System system_of(const Equations& e, const Mechanism& m, const std::vector<int>&
     return s;
 }
 
-std::optional<ModularRates> rates_at(const System& s, std::uint64_t seed) {
+std::optional<ModularRates> rates_at(const System& s, const ModularPoint& point) {
     ModularRates result;
     if (s.is_plain()) return result;
-    const auto at = evaluate_mod(s.program, {.seed = seed}, s.rates);
+    const auto at = evaluate_mod(s.program, point, s.rates);
     if (!at) return std::nullopt;
     for (std::size_t i = 0; i < s.rates.size(); ++i) {
         result.rates[{Variable::Kind::rate, static_cast<int>(i)}] = at->value[s.rates[i]];
@@ -50,9 +50,9 @@ std::optional<ModularRates> rates_at(const System& s, std::uint64_t seed) {
     return result;
 }
 
-std::optional<Echelon> echelon(const System& s, std::uint64_t seed, const ModularRates& rates) {
-    ModularPoint point{.seed = seed};
-    if (s.is_plain()) point.given = rates.rates;
+std::optional<Echelon> echelon(const System& s, ModularPoint point, const ModularRates& rates) {
+    if (s.is_plain())
+        for (const auto& [key, value] : rates.rates) point.given[key] = value;
     Echelon result;
     double entry = 0, right = 0;
     bool lucky = true;

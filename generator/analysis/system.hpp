@@ -105,7 +105,7 @@ struct ModularRates {
     RatesModP rates;
     double degree = 1;
 };
-std::optional<ModularRates> rates_at(const System& system, std::uint64_t seed);
-std::optional<Echelon> echelon(const System& system, std::uint64_t seed, const ModularRates& rates);
+std::optional<ModularRates> rates_at(const System& system, const ModularPoint& point);
+std::optional<Echelon> echelon(const System& system, ModularPoint point, const ModularRates& rates);
 
 }  // namespace alembert

@@ -155,6 +155,12 @@ MatrixOf<Real> columns_of(const MatrixOf<Real>& from, const std::vector<int>& wh
     return result;
 }
 
+/// A x = b. Columns of b are right-hand sides.
+template <typename Real>
+MatrixOf<Real> solution(const MatrixOf<Real>& A, const MatrixOf<Real>& b) {
+    return A.partialPivLu().solve(b);
+}
+
 /// [Solution of dependent·x = right, zeros for independent ones] as rows of all.
 template <typename Real>
 MatrixOf<Real> spread(const MatrixOf<Real>& solution, const std::vector<int>& rows, Index n) {
@@ -207,19 +213,19 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     along.bottomRightCorner(extra, extra).setIdentity();
     result.position = value.vector(r.position);
     if (r.holonomic > 0) {
-        const Eigen::PartialPivLU<Matrix> dependent(columns_of<Real>(phi.leftCols(n), split.q_dependent));
-        along.topRows(n) += spread<Real>(dependent.solve(Matrix(-phi * along)), split.q_dependent, n);
-        result.to_position = dependent.solve(Vector(-result.position));
+        const Matrix dependent = columns_of<Real>(phi.leftCols(n), split.q_dependent);
+        along.topRows(n) += spread<Real>(solution<Real>(dependent, -phi * along), split.q_dependent, n);
+        result.to_position = solution<Real>(dependent, -result.position);
     }
     result.velocity = value.vector(r.velocity);
     const Matrix A = nu.middleCols(n, s);
-    const Eigen::PartialPivLU<Matrix> dependent(r.kept > 0 ? columns_of<Real>(A, split.u_dependent) : Matrix(Matrix::Identity(1, 1)));
+    const Matrix dependent = columns_of<Real>(A, split.u_dependent);
     const auto particular = [&](const Matrix& right) -> Matrix {  // A x = right, independent ones 0
         if (r.kept == 0) return Matrix::Zero(s, right.cols());
-        return spread<Real>(dependent.solve(right), split.u_dependent, s);
+        return spread<Real>(solution<Real>(dependent, right), split.u_dependent, s);
     };
     along.middleRows(n, s) += particular(-nu * along);
-    result.to_velocity = r.kept > 0 ? Vector(dependent.solve(Vector(-result.velocity))) : Vector(0);
+    result.to_velocity = r.kept > 0 ? Vector(solution<Real>(dependent, -result.velocity)) : Vector(0);
     const Matrix U = along.block(n, nr, s, p);
 
     // u' and λ of the undisturbed motion.
@@ -229,15 +235,14 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
     Vector udot = particular(gamma).col(0);
     result.mass = U.transpose() * M * U;
-    const Eigen::PartialPivLU<Matrix> inertia(result.mass);
-    result.speed_rates = p > 0 ? Vector(inertia.solve(Vector(U.transpose() * (f - M * udot)))) : Vector(0);
+    result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, U.transpose() * (f - M * udot))) : Vector(0);
     udot += U * result.speed_rates;
     Vector lambda(r.kept);
     if (r.kept > 0) {
         const Vector reaction = M * udot - f;
         Vector on_dependent(r.kept);
         for (Index k = 0; k < r.kept; ++k) on_dependent[k] = reaction[split.u_dependent[k]];
-        lambda = Matrix(columns_of<Real>(A, split.u_dependent).transpose()).partialPivLu().solve(on_dependent);
+        lambda = solution<Real>(dependent.transpose(), on_dependent);
     }
 
     // Residuals' derivatives with u' and λ held.
@@ -263,7 +268,7 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         }
     const Matrix forced = particular(-Gamma * along);
     result.force = U.transpose() * (R * along + M * forced);
-    result.speed_rates_by = p > 0 ? Matrix(-inertia.solve(result.force)) : Matrix(0, along.cols());
+    result.speed_rates_by = p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
 
     const Vector rates = value.vector(r.rate);
     const Matrix rates_by = value.jacobian(r.rate) * along;

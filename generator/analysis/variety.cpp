@@ -8,6 +8,7 @@
 #include <set>
 
 #include "analysis/angle_sum.hpp"
+#include "analysis/lucky.hpp"
 
 namespace alembert {
 
@@ -47,7 +48,11 @@ public:
             if (const Op op = program[id].op; op >= Op::sin && op != Op::sqrt && op != Op::abs)
                 arguments.insert(arguments.end(), program[id].args.begin(), program[id].args.end());
         inside_ = variables_of(arguments);
+        halvings_ = halvings(program_, all_);
         plan();
+        std::set<Key> solved;
+        for (const Step& step : steps_) solved.insert(step.unknown.key);
+        lucky_.emplace(std::vector{LuckyPoints::Part{&program_, all_}}, solved);
     }
 
     Variety go(int count) {
@@ -72,7 +77,9 @@ private:
         return result;
     }
 
-    ModularPoint start(std::uint64_t seed) const { return {.seed = seed, .given = given_, .given_angles = {}, .halves = halves_}; }
+    ModularPoint start(std::uint64_t seed) const {
+        return {.seed = seed, .given = given_, .given_angles = {}, .halves = halves_, .finer = std::max(0, halvings_ - halves_)};
+    }
 
     static void set(ModularPoint& point, const Unknown& unknown, Prime value) {
         if (unknown.how == How::turn)
@@ -136,7 +143,7 @@ private:
                 step.unknown.sum = *sum;
             }
             const int former = halves_;
-            if (how == How::turn) halves_ = 0;  // then sin(v/2) makes every point unlucky
+            if (how == How::turn) halves_ = 0;  // then sin(v/2), v given, makes every point unlucky
             for (std::uint64_t seed = 1; seed <= 3; ++seed)
                 if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree); c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
                     steps_.push_back(step);
@@ -149,7 +156,9 @@ private:
 
     std::optional<ModularPoint> solved(std::uint64_t seed) const {
         constexpr std::uint64_t most_turns = 40;
-        ModularPoint point = start(seed);
+        auto chosen = lucky_->at(start(seed));
+        if (!chosen) return std::nullopt;
+        ModularPoint point = std::move(*chosen);
         for (const Step& step : steps_) {
             std::optional<Prime> root = root_of(step, point, seed);
             // No square: another value of what the steps before do not hold.
@@ -185,7 +194,8 @@ private:
     std::set<Key> inside_;  ///< variables inside angles, exponents and the like
     std::vector<Step> steps_;
     bool turns_, solvable_ = true;
-    int halves_ = 2;
+    int halves_ = 2, halvings_ = 0;
+    std::optional<LuckyPoints> lucky_;
 };
 
 }  // namespace

@@ -118,22 +118,26 @@ int eval(const Request& request) {
         std::cout << result.dump(2) << "\n";
         return 0;
     }
-    fmt::print("t = {}\n\n{:<16}{:>24}{:>24}{:>24}\n", state.t, "", "value", "rate", "acceleration");
+    std::size_t width = 16;
+    for (const Quantity& q : program.coordinates) width = std::max(width, q.name.size() + 1);
+    for (const auto& [name, multiplier] : result["multipliers"].items()) width = std::max(width, name.size() + 1);
+    for (const JointLoad& load : joint_loads) width = std::max(width, load.joint.size() + 1);
+    fmt::print("t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", state.t, "", width, "value", "rate", "acceleration");
     for (int i = 0; i < d.mechanism.size(); ++i)
-        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, state.q[i], rates[i], accelerations[i]);
+        fmt::print("{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", program.coordinates[i].name, width, state.q[i], rates[i], accelerations[i]);
     for (const Mechanism::Speed& speed : d.mechanism.speeds) {
         const std::string name = speed.u.get_name();
-        fmt::print("{:<16}{:>24.16g}{:>24.16g}\n", name, result["speeds"][name].get<double>(), result["speed_rates"][name].get<double>());
+        fmt::print("{:<{}}{:>24.16g}{:>24.16g}\n", name, width, result["speeds"][name].get<double>(), result["speed_rates"][name].get<double>());
     }
     for (const auto& [name, multiplier] : result["multipliers"].items())
-        fmt::print("{:<16}{:>24.16g}\n", name, multiplier.get<double>());
+        fmt::print("{:<{}}{:>24.16g}\n", name, width, multiplier.get<double>());
     for (const std::string& line : moved) fmt::print("adjusted {}\n", line);
     fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single("kinetic"), single("potential"), single("energy"));
     for (const auto& [name, output] : result["outputs"].items()) fmt::print("{} = {:.16g}\n", name, output.get<double>());
     if (!joint_loads.empty()) fmt::print("\nJoints exert on their children, along the joint's axes:\n");
     for (const JointLoad& load : joint_loads)
         for (const auto& [what, v] : {std::pair("force", &load.force), std::pair("moment", &load.moment)})
-            fmt::print("{:<16}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, what, (*v)[0], (*v)[1], (*v)[2]);
+            fmt::print("{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1], (*v)[2]);
     return 0;
 }
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "analysis/assemble.hpp"
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 #include "commands/pipeline.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
@@ -145,10 +145,12 @@ int inverse(const Request& request) {
         std::cout << result.dump(2) << "\n";
         return 0;
     }
-    fmt::print("t = {:.6g}\n\n{:<16}{:>24}{:>24}{:>24}{:>24}\n", start.t, "", "value", "rate", "acceleration", "load");
+    std::size_t width = 16;
+    for (const GiNaC::symbol& q : m.q) width = std::max(width, q.get_name().size() + 1);
+    fmt::print("t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", start.t, "", width, "value", "rate", "acceleration", "load");
     for (std::size_t i = 0; i < m.q.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);
-        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), start.q[i], start.qdot[i], loads.acceleration[k], loads.load[k]);
+        fmt::print("{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), width, start.q[i], start.qdot[i], loads.acceleration[k], loads.load[k]);
     }
     for (std::size_t k = 0; k < m.constraints.size(); ++k)
         fmt::print("{}{} = {:.16g}\n", k == 0 ? "\n" : "", m.constraints[k].multiplier.get_name(), loads.multiplier[static_cast<Eigen::Index>(k)]);

@@ -41,7 +41,7 @@ struct State {
 class Paths {
 public:
     Paths(const Mechanism& m, const SystemGraph& graph)
-        : m_(m), z_(*m.z), graph_(graph), states_(m.masses.size()), modes_(graph.arcs.size()),
+        : m_(m), z_(*m.z), states_(m.masses.size()), modes_(graph.arcs.size()),
           arms_(m.masses.size()), paths_(m.masses.size()) {
         for (std::size_t a = 0; a < graph.arcs.size(); ++a) {
             const SystemGraph::Arc& arc = graph.arcs[a];
@@ -158,7 +158,6 @@ private:
 
     const Mechanism& m_;
     Intermediates& z_;
-    const SystemGraph& graph_;
     std::vector<State> states_;              // by body
     std::vector<std::vector<Mode>> modes_;   // by arc
     std::vector<std::vector<Vector3>> arms_;  // by body, along its path from the ground: from each arc's pivot to the mass centre

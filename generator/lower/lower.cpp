@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "formalism/kinematics.hpp"
 #include "lower/interpret.hpp"
@@ -50,9 +51,8 @@ public:
 
     /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
     void lower_definitions(const std::vector<ex>& roots) {
-        std::vector<char> wanted(m_.z->entries().size(), 0);
+        std::set<const Intermediates::Entry*> wanted;  // in the order of their making
         std::vector<ex> stack = roots;
-        std::vector<const Intermediates::Entry*> order;
         while (!stack.empty()) {
             const ex top = stack.back();
             stack.pop_back();
@@ -61,14 +61,13 @@ public:
                 continue;
             }
             const Intermediates::Entry* entry = m_.z->find(ex_to<GiNaC::symbol>(top));
-            if (entry == nullptr) continue;
-            char& seen = wanted[entry - m_.z->entries().data()];
-            if (seen != 0) continue;
-            seen = 1;
+            if (entry == nullptr || known_.contains(top) || !wanted.insert(entry).second) continue;
             for (const GiNaC::symbol& used : entry->uses) stack.push_back(used);
         }
-        for (std::size_t k = 0; k < wanted.size(); ++k)
-            if (wanted[k] != 0) (*this)(m_.z->entries()[k].symbol);
+        // Positions: the derivative of an input adds entries to the table, and moves it.
+        std::vector<std::ptrdiff_t> order;
+        for (const Intermediates::Entry* entry : wanted) order.push_back(entry - m_.z->entries().data());
+        for (const std::ptrdiff_t k : order) (*this)(m_.z->entries()[static_cast<std::size_t>(k)].symbol);
     }
 
 private:

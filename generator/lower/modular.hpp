@@ -44,6 +44,7 @@ struct ModularPoint {
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
     std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
     int halves = 2;                        ///< turns are kept of x/2^halves: sin(x/4) needs 2
+    int finer = 0;                         ///< turns that are not given, of x/2^(halves + finer): halvings() of analysis/lucky.hpp
 
     /// Uniform, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {
@@ -60,9 +61,19 @@ struct ModularPoint {
         if (const auto found = given.find({v.kind, v.index}); found != given.end()) return found->second;
         return random(100 + static_cast<std::uint64_t>(v.kind), static_cast<std::uint64_t>(v.index));
     }
+    /// The turn by the 2^parts-th part of a monomial of this value.
+    struct Part {
+        int parts;
+        PrimeTurn turn;
+    };
+    Part part(Prime monomial) const {
+        if (const auto found = given_angles.find(monomial); found != given_angles.end()) return {halves, found->second};
+        return {halves + finer, PrimeTurn::rational(random(200, monomial.bits()))};
+    }
+    /// By the `halves`-th.
     PrimeTurn angle(Prime monomial) const {
-        if (const auto found = given_angles.find(monomial); found != given_angles.end()) return found->second;
-        return PrimeTurn::rational(random(200, monomial.bits()));
+        const Part own = part(monomial);
+        return own.turn.power(std::uint64_t{1} << (own.parts - halves));
     }
 };
 
@@ -158,7 +169,10 @@ private:
                 const bool first = (point_.random(400, low.bits(), high.bits()).bits() & 1U) != 0;
                 return first == (node.op == Op::min) ? low : high;
             }
-            case Op::asin: case Op::acos: case Op::atan: case Op::log: case Op::pow: case Op::atan2: break;
+            case Op::log:
+                if (const Node& inner = program_[node.args[0]]; inner.op == Op::exp) return value(inner.args[0]);
+                break;
+            case Op::asin: case Op::acos: case Op::atan: case Op::pow: case Op::atan2: break;
         }
         result_.exact = false;
         degree += 1;
@@ -293,13 +307,13 @@ private:
                 continue;
             }
             cln::cl_I numerator = cln::numerator(c), odd = cln::denominator(c);
-            int halves = point_.halves;
+            const auto [parts, turn] = point_.part(leaf(monomial));
+            int halves = parts;
             for (; cln::evenp(odd) && halves > 0; --halves) odd = cln::exquo(odd, cln::cl_I(2));
             if (cln::evenp(odd)) return std::nullopt;
             note_denominator(odd);
             numerator = numerator << halves;
-            degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, point_.halves);
-            const PrimeTurn turn = point_.angle(leaf(monomial));
+            degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, parts);
             if (odd != 1 && !turn.is_plain()) return std::nullopt;
             result = result * turn.power(*PrimeTurn::exponent(numerator / odd));
         }

@@ -163,13 +163,13 @@ private:
 
     void add_to(Form& sum, const Weight& weight, const Form& f) {
         for (const Weight& c : f.constants) sum.constants.push_back(times(weight, c));
-        for (const auto& [w, node] : f.linear) {
-            const Weight factor = times(weight, w);
+        for (const auto& term : f.linear) {
+            const Weight factor = times(weight, term.weight);
             const auto same = std::find_if(sum.linear.begin(), sum.linear.end(), [&](const auto& l) {
-                return l.node == node && l.weight.constant == factor.constant;
+                return l.node == term.node && l.weight.constant == factor.constant;
             });
             if (same == sum.linear.end())
-                sum.linear.push_back({factor, node});
+                sum.linear.push_back({factor, term.node});
             else if (same->weight.number = same->weight.number + factor.number; cln::zerop(same->weight.number))
                 sum.linear.erase(same);
         }

@@ -2,6 +2,7 @@
 #include "model/energy.hpp"
 
 #include "symbolic/fourier.hpp"
+#include "symbolic/nonzero.hpp"
 
 namespace alembert {
 
@@ -26,6 +27,7 @@ std::vector<GiNaC::symbol> clock(const Mechanism& m) {
 
 std::optional<bool> vanishes(const ex& e, const Mechanism& mechanism) {
     if (e.is_zero()) return true;
+    if (shows_nonzero(e, *mechanism.z)) return false;
     if (mechanism.z->tree_size(e) > 20000) return std::nullopt;
     const auto normal = fourier(mechanism.z->expand(e), *mechanism.symbols);
     if (!normal) return std::nullopt;

@@ -26,7 +26,8 @@ struct Energy {
 /// t occur at all, are there loads at all) beyond.
 Energy energy_of(const Mechanism& mechanism);
 
-/// Is `e` zero for all values of its symbols? Decided by the Fourier normal form up to a size; nothing beyond that.
+/// Is `e` zero for all values of its symbols? No where one state shows it; else decided by the Fourier normal form up to a size;
+/// nothing beyond that.
 std::optional<bool> vanishes(const GiNaC::ex& e, const Mechanism& mechanism);
 
 /// The same, where "not seen to be" counts as no.

@@ -98,6 +98,8 @@ public:
             else
                 mover(joint, group);
         }
+        if (std::none_of(robot_.links.begin(), robot_.links.end(), [](const Robot::Link& l) { return l.mass != 0 || !l.inertia.isZero(0); }))
+            throw ModelError("no link of this robot has a mass, so that no joint moves a mass; expected <inertial> with <mass> and <inertia> in the links (meshes alone have none)");
         if (result_.coordinates.empty()) throw ModelError("this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or floating one, or --floating");
         result_.text += joints_ + dampers_;
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
@@ -192,7 +194,8 @@ private:
     void name_all() {
         const auto named = [&](Names& names, const std::string& wanted) {
             const std::string name = names.given(wanted);
-            if (name != wanted) result_.notes.push_back(fmt::format("{} is called {} in the scene", in_quotes(wanted), name));
+            const std::string note = fmt::format("{} is called {} in the scene", in_quotes(wanted), name);
+            if (name != wanted && std::find(result_.notes.begin(), result_.notes.end(), note) == result_.notes.end()) result_.notes.push_back(note);
             return name;
         };
         for (const std::size_t g : order_) {

@@ -17,6 +17,7 @@
 /// Sources: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, §III.1; Shampine & Reichelt, SIAM J.
 /// Sci. Comput. 18 (1997) 1-22, §2, with κ = 0; Hairer & Wanner II, §V.2, table 2.1 (the angles).
 
+#include "alembert/dense.hpp"
 #include "alembert/differences.hpp"
 #include "alembert/newton.hpp"
 
@@ -35,7 +36,6 @@ public:
           enough_(std::max(1e-2 * tolerance, 4e-16)),
           jacobian_(n_),
           matrix_(n_, n_),
-          lu_(n_),
           side_(n_),
           solution_(n_),
           old_(size_, rows),
@@ -137,7 +137,7 @@ private:
         if (!(std::abs(c - factored_for_) <= 1e-9 * c)) {
             matrix_.noalias() = -c * jacobian_.values;
             matrix_.diagonal().array() += 1;
-            lu_.compute(matrix_);
+            lu_.factor(matrix_);
             factored_for_ = c;
         }
         std::fill(d_.begin(), d_.end(), 0.0);
@@ -148,7 +148,7 @@ private:
             ends.evaluate(ends.t + h, state_.data(), rate_.data());
             for (std::size_t i = 0; i < size_; ++i)
                 side_[static_cast<Eigen::Index>(i)] = c * rate_[i] - known_[i] - d_[i];
-            solution_ = lu_.solve(side_);
+            lu_.solve(side_, solution_);
             for (std::size_t i = 0; i < size_; ++i) d_[i] += solution_[static_cast<Eigen::Index>(i)];
             const auto verdict = contraction.after(ends.norm(solution_.data()));
             if (verdict != Contraction::more) return verdict == Contraction::done;
@@ -160,7 +160,7 @@ private:
     double tolerance_, enough_;
     Jacobian jacobian_;
     Eigen::MatrixXd matrix_;
-    Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+    Elimination<double> lu_;
     Eigen::VectorXd side_, solution_;
     Differences old_, new_;  ///< of the state at the start and at the end; row 0 is not used
     std::vector<double> predicted_, known_, d_, state_, rate_;

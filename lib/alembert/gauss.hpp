@@ -17,6 +17,7 @@
 #include <numbers>
 #include <optional>
 
+#include "alembert/dense.hpp"
 #include "alembert/newton.hpp"
 
 namespace alembert {
@@ -110,15 +111,16 @@ private:
                     (i == j ? 1. : 0.) * Eigen::MatrixXd::Identity(n, n) -
                     h * a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * jacobian_->values;
         if (!matrix.allFinite()) return false;
-        const Eigen::PartialPivLU<Eigen::MatrixXd> lu(matrix);
-        Eigen::VectorXd side(stages * n);
+        Elimination<double> lu;
+        lu.factor(matrix);
+        Eigen::VectorXd side(stages * n), delta(stages * n);
         double before = HUGE_VAL;
         for (int round = 0; round < most_newton_rounds; ++round) {
             evaluate_stages(ends, h);
             for (std::size_t i = 0; i < stages; ++i)
                 for (std::size_t k = 0; k < size_; ++k)
                     side[static_cast<Eigen::Index>(i * size_ + k)] = wanted(h, i, k) - z_[i * size_ + k];
-            const Eigen::VectorXd delta = lu.solve(side);
+            lu.solve(side, delta);
             double largest = 0;
             for (std::size_t i = 0; i < stages; ++i) largest = std::max(largest, ends.norm(delta.data() + i * size_));
             if (!(largest < HUGE_VAL)) return false;

@@ -10,6 +10,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "alembert/dense.hpp"
+
 namespace alembert {
 
 namespace {
@@ -25,19 +27,14 @@ constexpr double slow = rest / rounding;  // approaches that do not bounce, in g
 constexpr int most_elastic = 1000;        // collisions in one instant; a thin wedge takes π over its angle
 constexpr int most_collisions = 2 * most_elastic;
 
-Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposed(const MatrixXd& matrix) {
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> result;
-    result.setThreshold(rank_threshold);
-    result.compute(matrix);
-    return result;
-}
+Orthogonal decomposed(const MatrixXd& matrix) { return {matrix, rank_threshold}; }
 
 bool is_definite(const MatrixXd& mass) {
     const VectorXd diagonal = mass.diagonal();
     if (!(diagonal.minCoeff() > 0)) return false;
     const VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scale.asDiagonal() * mass * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-    return solver.eigenvalues().minCoeff() > 1e-13 * solver.eigenvalues().maxCoeff();
+    const VectorXd values = eigenpairs(scale.asDiagonal() * mass * scale.asDiagonal()).values;
+    return values.minCoeff() > 1e-13 * values.maxCoeff();
 }
 
 /// M + s AᵀA where M alone is not definite: it moves only what the constraints fix anyhow. Λ changes by s A (q'⁺ − q'⁻), the
@@ -127,17 +124,14 @@ Push least_push(const MatrixXd& G, const VectorXd& h) {
 
 /// Rows in the metric of M; those of the contacts without what the bilateral ones forbid.
 struct Setting {
-    Eigen::LLT<MatrixXd> mass;
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> bilateral;
+    Cholesky mass;
+    Orthogonal bilateral;
     VectorXd bilateral_size;
     MatrixXd A, A_unit, G, G_free;
     VectorXd length;  ///< of the rows of G_free before they were given length 1
 
     Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
-        const auto in_metric = [this](const MatrixXd& list) -> MatrixXd {
-            if (list.rows() == 0) return list;  // Eigen would solve with a null pointer
-            return mass.matrixL().solve(list.transpose()).transpose();
-        };
+        const auto in_metric = [this](const MatrixXd& list) -> MatrixXd { return mass.solve_lower(list.transpose()).transpose(); };
         A = in_metric(rows);
         G = in_metric(contacts);
         bilateral_size = A.rowwise().norm();
@@ -187,21 +181,21 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     const auto [M, stiffening] = stiffened(mass, rows);
     if (!is_definite(M)) return failed("the mass matrix is singular");
     const Setting s(M, rows, contacts);
-    const auto back = [&](const VectorXd& x) -> VectorXd { return s.mass.matrixU().solve(x); };
+    const auto back = [&](const VectorXd& x) -> VectorXd { return s.mass.solve_upper(x); };
 
     ImpactResult result{.failure = {},
                         .after = {},
                         .bilateral = VectorXd::Zero(m),
                         .contact = VectorXd::Zero(k),
                         .stays_closed = std::vector<bool>(static_cast<std::size_t>(k))};
-    const VectorXd x_before = s.mass.matrixU() * before, push = s.mass.matrixL().solve(impulse);
+    const VectorXd x_before = s.mass.upper(before), push = s.mass.solve_lower(impulse);
     VectorXd x = x_before;
     if (m > 0) {
         const VectorXd misfit = s.unit_misfit(-bilateral_drift - s.A * x), step = s.bilateral.solve(misfit);
         if ((s.A_unit * step - misfit).norm() > rest * (misfit.norm() + x.norm()))
             return failed("the constraints contradict each other");
         x += step;
-        const VectorXd lost = s.mass.matrixU().solve(step);
+        const VectorXd lost = s.mass.solve_upper(step);
         result.loss = lost.dot(mass * lost) / 2;
     }
 
@@ -273,7 +267,7 @@ ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& 
     if (!result || k == 0) return result;
     const auto [M, stiffening] = stiffened(mass, bilateral_rows);
     const Setting s(M, bilateral_rows, contact_rows);
-    const VectorXd x = s.mass.matrixU() * result.after, pushed = s.mass.matrixL().solve(force);
+    const VectorXd x = s.mass.upper(result.after), pushed = s.mass.solve_lower(force);
     const VectorXd size = s.G.rowwise().norm() * std::max(x.norm(), pushed.norm()) + contact_drift.cwiseAbs();
     VectorXd h = -(contact_rows * result.after + contact_drift);
     for (Index i = 0; i < k; ++i) {
@@ -289,9 +283,10 @@ ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& 
     if (!given.exists) return {.failure = "no accelerations keep all contacts apart", .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
     result.contact = given.u.cwiseQuotient(s.length.cwiseMax(rank_threshold));
     const VectorXd y = s.G_free.transpose() * given.u, lacking = y - s.G.transpose() * result.contact;
-    result.after += VectorXd(s.mass.matrixU().solve(y));
+    const VectorXd gained = s.mass.solve_upper(y);
+    result.after += gained;
     if (bilateral_drift.size() > 0)
-        result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) - stiffening * bilateral_rows * VectorXd(s.mass.matrixU().solve(y));
+        result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) - stiffening * (bilateral_rows * gained);
     result.stays_closed.resize(static_cast<std::size_t>(k));
     const VectorXd left = contact_rows * result.after + contact_drift;
     for (Index i = 0; i < k; ++i) result.stays_closed[static_cast<std::size_t>(i)] = std::abs(left[i]) <= rest * size[i];

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 
 namespace alembert {
 
@@ -97,12 +97,12 @@ bool Projection::unrolled(double t, double* state) {
 /// M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ misfit = L⁻ᵀ (A L⁻ᵀ)⁺ misfit
 Eigen::VectorXd Projection::correction(const Rows& A, bool weighed, const Eigen::VectorXd& misfit) const {
     if (!weighed) return least(A, misfit);
-    const Eigen::LLT<Eigen::MatrixXd> factors(mass_);
-    if (factors.info() != Eigen::Success) {
+    const Cholesky factors(mass_);
+    if (!factors.exists()) {
         const Eigen::MatrixXd across = solve_symmetric(mass_, A.transpose());
         return across * least_norm(A * across, misfit).x;
     }
-    return factors.matrixU().solve(least(factors.matrixL().solve(A.transpose()).transpose(), misfit));
+    return factors.solve_upper(least(factors.solve_lower(A.transpose()).transpose(), misfit));
 }
 
 void Projection::operator()(double t, double* state) {
@@ -138,12 +138,12 @@ double Projection::residual(double t, const double* state) {
 bool Projection::accelerations(double t, const double* state, double* acceleration) {
     evaluate(t, state);
     module_.projection()->gamma_at(t, state, par_.data(), gamma_.data());
-    const Eigen::LLT<Eigen::MatrixXd> factors(mass_);
-    if (factors.info() != Eigen::Success) return false;
+    const Cholesky factors(mass_);
+    if (!factors.exists()) return false;
     const Eigen::Map<const Rows> A(rows_.data(), m_, n_);
-    const Eigen::MatrixXd across = factors.matrixL().solve(A.transpose());
-    const Eigen::VectorXd free = factors.matrixL().solve(forcing_);
-    const Eigen::VectorXd found = factors.matrixU().solve(free + least(across.transpose(), gamma_ - across.transpose() * free));
+    const Eigen::MatrixXd across = factors.solve_lower(A.transpose());
+    const Eigen::VectorXd free = factors.solve_lower(forcing_);
+    const Eigen::VectorXd found = factors.solve_upper(free + least(across.transpose(), gamma_ - across.transpose() * free));
     std::copy_n(found.data(), s_, acceleration);
     return true;
 }

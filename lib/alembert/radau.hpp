@@ -20,6 +20,7 @@
 /// equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
 
 #include "alembert/collocation.hpp"
+#include "alembert/dense.hpp"
 #include "alembert/newton.hpp"
 #include "alembert/step_size.hpp"
 
@@ -37,7 +38,7 @@ public:
           enough_(std::max(1e-2 * tolerance, 4e-16)),
           jacobian_(n_),
           real_(n_),
-          complex_((most - 1) / 2, Factored<Eigen::MatrixXcd>(n_)),
+          complex_((most - 1) / 2, Factored<std::complex<double>>(n_)),
           real_side_(n_),
           real_solution_(n_),
           complex_side_(n_),
@@ -134,11 +135,11 @@ private:
     void factorize(double h) {
         real_.values.noalias() = -jacobian_.values;
         real_.values.diagonal().array() += table_->lambda / h;
-        real_.lu.compute(real_.values);
+        real_.lu.factor(real_.values);
         for (std::size_t k = 0; k < table_->mu.size(); ++k) {
             complex_[k].values = (-jacobian_.values).template cast<Complex>();
             complex_[k].values.diagonal().array() += table_->mu[k] / h;
-            complex_[k].lu.compute(complex_[k].values);
+            complex_[k].lu.factor(complex_[k].values);
         }
         factored_for_ = h;
     }
@@ -183,10 +184,10 @@ private:
         side_.noalias() = z_ * table_->inverse.transpose();
         side_ = f_ - side_ / h;
         real_side_.noalias() = side_ * table_->back_real;
-        real_solution_ = real_.lu.solve(real_side_);
+        real_.lu.solve(real_side_, real_solution_);
         for (std::size_t pair = 0; pair < table_->mu.size(); ++pair) {
             complex_side_.noalias() = side_.template cast<Complex>() * table_->back_complex[pair];
-            complex_solution_[pair] = complex_[pair].lu.solve(complex_side_);
+            complex_[pair].lu.solve(complex_side_, complex_solution_[pair]);
         }
         double largest = 0;
         for (int k = 0; k < s_; ++k) {
@@ -207,7 +208,7 @@ private:
         const auto filtered = [&](const std::vector<double>& rate) {
             real_side_.noalias() = table_->lambda / h * (z_ * table_->e);
             for (int i = 0; i < n_; ++i) real_side_[i] += rate[static_cast<std::size_t>(i)];
-            real_solution_ = real_.lu.solve(real_side_);
+            real_.lu.solve(real_side_, real_solution_);
             for (int i = 0; i < n_; ++i) ends.error[static_cast<std::size_t>(i)] = real_solution_[i];
         };
         filtered(ends.rate);
@@ -217,19 +218,19 @@ private:
         filtered(rate_);
     }
 
-    template <class Matrix>
+    template <class Scalar>
     struct Factored {
-        explicit Factored(int n) : values(n, n), lu(n) {}
-        Matrix values;
-        Eigen::PartialPivLU<Matrix> lu;
+        explicit Factored(int n) : values(n, n) {}
+        typename Elimination<Scalar>::Matrix values;
+        Elimination<Scalar> lu;
     };
 
     int n_, s_ = fewest, wanted_ = fewest;
     double enough_;
     const RadauTable* table_ = nullptr;
     Jacobian jacobian_;
-    Factored<Eigen::MatrixXd> real_;
-    std::vector<Factored<Eigen::MatrixXcd>> complex_;
+    Factored<double> real_;
+    std::vector<Factored<std::complex<double>>> complex_;
     Eigen::MatrixXd z_, f_, poly_, kept_, side_;  ///< n × s: stages, rates, polynomials of the last and of this step
     Eigen::VectorXd real_side_, real_solution_;
     Eigen::VectorXcd complex_side_;

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "alembert/impact.hpp"
-#include "alembert/least_squares.hpp"
+#include "alembert/dense.hpp"
 
 namespace alembert {
 

@@ -4,11 +4,13 @@
 
     python3 scenes/benchmark/tree.py arm7.json > arm7.toml
     alembert eval arm7.toml
+    python3 scenes/benchmark/tree.py arm7.json --symbols > arm7_symbols.toml
 
 The JSON has, for each body, its parent (-1 is the ground), where its joint's frame stands in the parent's (R, p), the
 joint's axis, mass, mass centre and inertia (xx xy xz yy yz zz about the mass centre), along the joint's frame; and a
 reference state with torques, which become the scene's initial state and forces. Rotations are written as angles about
-z, y, x; the angles carry 17 digits, those of half turns are exact.
+z, y, x; the angles carry 17 digits, those of half turns are exact. With --symbols masses, mass centres, inertias, the places of the
+joints and gravity are [parameters] (m1, cx1 .. cz1, Ixx1 .. Izx1, px1 .. pz1, gx .. gz), those that are zero too.
 """
 import json
 import math
@@ -39,28 +41,64 @@ def vector(v):
     return "[" + ", ".join(number(x) for x in v) + "]"
 
 
+def letters(name, of, values):
+    """[parameters] of a vector, and the vector of their names."""
+    names = [f"{name}{axis}{of}" for axis in "xyz"]
+    parameters.extend(zip(names, values))
+    return names
+
+
+def joined(list):
+    return "[" + ", ".join(f'"{x}"' for x in list) + "]"
+
+
 system = json.load(open(sys.argv[1]))
+symbols = "--symbols" in sys.argv[2:]
 bodies, ref = system["bodies"], system["ref"]
-print(f'title = "{system["name"]}"')
+parameters, lines = [], []
+title = system["name"] + (", all its parameters as symbols" if symbols else "")
+print(f'title = "{title}"')
 if "source" in system:
     print(f'source = {json.dumps(system["source"])}')
-print(f'gravity = {vector(system["gravity"])}\n')
+gravity = letters("g", "", system["gravity"]) if symbols else []
+print(f'gravity = {joined(gravity) if symbols else vector(system["gravity"])}\n')
+say = lines.append
+centres = []
 for i, b in enumerate(bodies):
-    xx, xy, xz, yy, yz, zz = (number(x) for x in b["inertia"])
-    parent = b["parent"]
-    com = [0, 0, 0] if parent < 0 else bodies[parent]["com"]
-    print(f'[[body]]\nname = "B{i + 1}"\nmass = {number(b["mass"])}')
-    print(f'inertia = {{ xx = {xx}, yy = {yy}, zz = {zz}, xy = {xy}, yz = {yz}, zx = {xz} }}\n')
-    print(f'[[joint]]\nname = "J{i + 1}"\ntype = "revolute"')
-    print(f'parent = "{"N" if parent < 0 else f"B{parent + 1}"}"\nchild = "B{i + 1}"')
-    print(f'parent_point = {vector(round(p - c, 15) for p, c in zip(b["p"], com))}')
-    print(f'child_point = {vector(-c for c in b["com"])}')
+    k, parent = i + 1, b["parent"]
+    values = [b["inertia"][j] for j in (0, 3, 5, 1, 4, 2)]
+    if symbols:
+        parameters.append((f"m{k}", b["mass"]))
+        centres.append(letters("c", k, b["com"]))
+        names = [f"I{e}{k}" for e in ("xx", "yy", "zz", "xy", "yz", "zx")]
+        parameters.extend(zip(names, values))
+        mass, tensor = f'"m{k}"', [f'"{name}"' for name in names]
+        place = letters("p", k, b["p"])
+        parent_point = joined(place if parent < 0 else [f"{p} - {c}" for p, c in zip(place, centres[parent])])
+        child_point = joined([f"-{c}" for c in centres[i]])
+    else:
+        com = [0, 0, 0] if parent < 0 else bodies[parent]["com"]
+        mass, tensor = number(b["mass"]), [number(x) for x in values]
+        parent_point = vector(round(p - c, 15) for p, c in zip(b["p"], com))
+        child_point = vector(-c for c in b["com"])
+    say(f'[[body]]\nname = "B{k}"\nmass = {mass}')
+    say("inertia = {{ xx = {}, yy = {}, zz = {}, xy = {}, yz = {}, zx = {} }}\n".format(*tensor))
+    say(f'[[joint]]\nname = "J{k}"\ntype = "revolute"')
+    say(f'parent = "{"N" if parent < 0 else f"B{parent + 1}"}"\nchild = "B{k}"')
+    say(f"parent_point = {parent_point}")
+    say(f"child_point = {child_point}")
     if turns := rotations(b["R"]):
-        print(f"parent_rotate = [{turns}]")
+        say(f"parent_rotate = [{turns}]")
     axis = {(1, 0, 0): '"x"', (0, 1, 0): '"y"', (0, 0, 1): '"z"'}.get(tuple(b["axis"]), vector(b["axis"]))
-    print(f"axis = {axis}")
+    say(f"axis = {axis}")
     q, qd = number(ref["q"][i]), number(ref["qd"][i])
-    print(f'coordinates = {{ q{i + 1} = {{ initial = {q}, rate = {qd}, unit = "rad" }} }}\n')
-print("[forces]")
+    say(f'coordinates = {{ q{k} = {{ initial = {q}, rate = {qd}, unit = "rad" }} }}\n')
+say("[forces]")
 for i, tau in enumerate(ref["tau"]):
-    print(f"q{i + 1} = {number(tau)}")
+    say(f"q{i + 1} = {number(tau)}")
+if symbols:
+    print("[parameters]")
+    for name, value in parameters:
+        print(f"{name} = {number(value)}")
+    print()
+print("\n".join(lines))

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "model/building.hpp"
+#include "model/constraint.hpp"
+#include "model/energy.hpp"
+#include "model/joints.hpp"
+#include "scene/quaternions.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+// e·e − 1 = 0
+void add_norm(Building& here, const FrameQuaternion& quaternion, int index) {
+    SourceScope source(*here.m.z, "frame " + quaternion.of.text);
+    ex value = -1, start = 0;
+    bool moves = false;
+    for (const Name& name : quaternion.e) {
+        const std::size_t i = coordinate_index(name.text, here.m);
+        value += here.m.q[i] * here.m.q[i];
+        start += here.m.q_start[i] * here.m.q_start[i];
+        moves = moves || here.m.q_is_guess[i];
+    }
+    const double square = here.values->number(here.m.z->expand(start));
+    if (!moves && !(std::abs(square - 1) <= 1e-9))
+        throw SceneMistake{
+            {quaternion.e[0].place,
+             fmt::format("the sum of squares of the quaternion of frame '{}' is {:.12g} at the start; expected 1: "
+                         "divide each initial value by {:.12g}, or give them as guesses",
+                         quaternion.of.text, square, std::sqrt(square))}};
+    const std::string multiplier = multiplier_of(quaternion).text;
+    here.m.constraints.push_back(
+        constraint_of({.name = quaternion.of.text,
+                       .holonomic = true,
+                       .value = value,
+                       .multiplier = here.m.symbols->declare(multiplier, SymbolInfo::Kind::other, index),
+                       .place = quaternion.of.place,
+                       .at = quaternion.e[0].place},
+                      here.m));
+    here.m.constraints.back().norm = true;
+    here.translator.know(multiplier, here.m.constraints.back().multiplier);
+}
+
+// v_C + ω × c − v_on − ω_on × (r_C + c − r_on) = 0 along x, y, z
+void add_rolling(Building& here, const RollingRule& rule, int index) {
+    SourceScope source(*here.m.z, "rolling " + rule.name.text);
+    Intermediates& z = *here.m.z;
+    const Vector3 c = here.places.along(rule.contact, rule.axes);
+    const auto turning = [&](const std::string& body, const Vector3& arm) {
+        const Orientation& o = here.places.orientation(body);
+        return cross(o.to_inertial(o.angular_velocity(), z), arm, z);
+    };
+    Vector3 slip = add(here.places.velocity(rule.body.text), turning(rule.body.text, c), z);
+    if (rule.on.text != "N") {
+        const Vector3 touching = add(here.places.position(rule.body.text), c, z);
+        const Vector3 arm = add(touching, scale(-1, here.places.position(rule.on.text), z), z);
+        const Vector3 ground = add(here.places.velocity(rule.on.text), turning(rule.on.text, arm), z);
+        slip = add(slip, scale(-1, ground, z), z);
+    }
+    const std::array<Name, 3> multipliers = multipliers_of(rule);
+    std::vector<GiNaC::symbol> clock{here.m.t};
+    for (const Mechanism::Input& input : here.m.inputs)
+        clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
+    // Velocities are forms in the rates alone where no place and no attitude depends on time by itself.
+    const auto by_itself = [&](const Vector3& v) {
+        return std::any_of(v.begin(), v.end(), [&](const ex& e) { return z.depends(e, clock); });
+    };
+    bool drifts = false;
+    for (const std::string& body : {rule.body.text, rule.on.text})
+        for (int k = 0; k < 3; ++k)
+            if (body != "N")
+                drifts = drifts || by_itself(here.places.position(body)) ||
+                         by_itself(here.places.orientation(body).axis(k));
+    bool any = false;
+    for (int k = 0; k < 3; ++k) {
+        const std::string name = rule.name.text + "_" + "xyz"[k];
+        const auto [row, drift] = linear_form(slip[k], "rolling '" + name + "'", rule.contact.place, here.m);
+        if (std::all_of(row.begin(), row.end(),
+                        [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
+            if (drifts && !drift.is_zero())
+                throw SceneMistake{
+                    {rule.name.place,
+                     fmt::format("rolling '{}' cannot hold: along {} the contact moves by itself, whatever the "
+                                 "coordinates' rates",
+                                 rule.name.text, "xyz"[k])}};
+            here.translator.know(multipliers[k].text, 0);
+            continue;
+        }
+        any = true;
+        here.m.constraints.push_back(constraint_of(
+            {.name = name,
+             .holonomic = false,
+             .value = slip[k],
+             .multiplier = here.m.symbols->declare(multipliers[k].text, SymbolInfo::Kind::other, index + k),
+             .place = rule.name.place,
+             .at = rule.contact.place,
+             .drifts = drifts},
+            here.m));
+        here.translator.know(multipliers[k].text, here.m.constraints.back().multiplier);
+    }
+    if (!any)
+        throw SceneMistake{
+            {rule.name.place,
+             fmt::format("rolling '{}' says nothing: the point of '{}' at the contact moves with '{}' "
+                         "in every motion",
+                         rule.name.text, rule.body.text, rule.on.text)}};
+}
+
+void add_constraint(Building& here, const ConstraintRule& rule, int index) {
+    SourceScope source(*here.m.z, "constraint " + rule.name.text);
+    const std::string multiplier = rule.multiplier ? rule.multiplier->text : "lambda_" + rule.name.text;
+    here.m.constraints.push_back(constraint_of(
+        {.name = rule.name.text,
+         .holonomic = rule.holonomic,
+         .value = here.translator.scalar(rule.equation.lhs) - here.translator.scalar(rule.equation.rhs),
+         .multiplier = here.m.symbols->declare(multiplier, SymbolInfo::Kind::other, index),
+         .place = rule.name.place,
+         .at = rule.equation.lhs.place()},
+        here.m));
+    here.translator.know(multiplier, here.m.constraints.back().multiplier);
+}
+
+// A direction in which no coordinate moves the bodies against each other.
+void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
+    constexpr double closed = 1e-9;  // of lengths of order one; what initial values may break a constraint by
+    const bool moves = here.m.z->depends(value, {here.m.t}) &&
+                       !is_identically_zero(here.m.explicit_time_derivative({value})[0], here.m);
+    const double gap = moves ? std::nan("") : here.places.number(value);
+    if (std::abs(gap) <= closed) return;
+    throw SceneMistake{
+        {joint.name.place,
+         fmt::format("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "
+                     "as far as locked) the bodies stand apart {}, and no coordinate can change that",
+                     joint.name.text, k, moves ? "as time goes on" : fmt::format("by {:.6g}", gap))}};
+}
+
+void close(Building& here, const Joint& joint) {
+    SourceScope source(*here.m.z, "joint " + joint.name.text);
+    int k = 0;
+    for (const ClosingRow& row : closing_rows(joint, here.places)) {
+        const std::string name = fmt::format("{}_{}", joint.name.text, ++k), multiplier = "lambda_" + name;
+        const std::vector<ex> slopes =
+            here.m.z->pull_back({{row.value, 1}}, row.holonomic ? here.m.q : here.m.qdot);
+        if (std::all_of(slopes.begin(), slopes.end(),
+                        [&](const ex& e) { return is_identically_zero(e, here.m); })) {
+            if (row.holonomic) need_closed(here, joint, row.value, k);
+            here.m.identities.push_back(name);
+            here.translator.know(multiplier, 0);
+            continue;
+        }
+        here.m.constraints.push_back(
+            constraint_of({.name = name,
+                           .holonomic = row.holonomic,
+                           .value = row.value,
+                           .multiplier = here.m.symbols->declare(multiplier, SymbolInfo::Kind::other,
+                                                                 static_cast<int>(here.m.constraints.size())),
+                           .place = joint.name.place,
+                           .at = joint.name.place},
+                          here.m));
+        here.m.constraints.back().closes_loop = true;
+        here.translator.know(multiplier, here.m.constraints.back().multiplier);
+    }
+}
+
+// gap(q,t) ≥ 0
+void add_unilateral(Building& here, const UnilateralRule& rule, int index) {
+    SourceScope source(*here.m.z, "unilateral " + rule.name.text);
+    const std::string multiplier = "lambda_" + rule.name.text;
+    const double restitution = here.number_at(rule.restitution);
+    if (!(restitution >= 0 && restitution <= 1))
+        throw SceneMistake{{rule.restitution.place(),
+                            fmt::format("the restitution of '{}' is {}; expected a number from 0 (the bodies stay "
+                                        "together) to 1 (no energy is lost)",
+                                        rule.name.text, restitution)}};
+    here.m.unilateral.push_back(
+        {.gap = constraint_of({.name = rule.name.text,
+                               .holonomic = true,
+                               .value = here.translator.scalar(rule.gap),
+                               .multiplier = here.m.symbols->declare(multiplier, SymbolInfo::Kind::other, index),
+                               .place = rule.name.place,
+                               .at = rule.gap.place()},
+                              here.m),
+         .restitution = here.m.z->name(here.translator.scalar(rule.restitution))});
+    here.translator.know(multiplier, here.m.unilateral.back().gap.multiplier);
+}
+
+}  // namespace
+
+// f(q,t) = 0 or a·q' + b = 0, as rows (mechanism.hpp).
+void add_conditions(Building& here) {
+    for (std::size_t k = 0; k < here.scene.constraints.size(); ++k)
+        here.attempt([&] { add_constraint(here, here.scene.constraints[k], static_cast<int>(k)); });
+    int index = static_cast<int>(here.scene.constraints.size());
+    for (const FrameQuaternion& quaternion : quaternions_of(here.scene))
+        here.attempt([&] { add_norm(here, quaternion, index++); });
+    for (const RollingRule& rule : here.scene.rolling) {
+        here.attempt([&] { add_rolling(here, rule, index); });
+        index += 3;
+    }
+    for (const Joint& joint : here.scene.joints)
+        if (joint.closes_loop) here.attempt([&] { close(here, joint); });
+    for (const UnilateralRule& rule : here.scene.unilateral)
+        here.attempt([&] { add_unilateral(here, rule, index++); });
+}
+
+}  // namespace alembert

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "model/building.hpp"
+
+namespace alembert {
+
+using GiNaC::numeric;
+
+namespace {
+
+void declare_parameters(Building& here) {
+    for (std::size_t i = 0; i < here.scene.parameters.size(); ++i) {
+        const Parameter& p = here.scene.parameters[i];
+        const auto s = here.m.symbols->declare(p.name.text, SymbolInfo::Kind::parameter, static_cast<int>(i));
+        here.translator.know(p.name.text, s);
+        here.m.parameters.push_back({.symbol = s, .value = 0, .unit = p.unit, .about = p.about});
+    }
+    for (std::size_t i = 0; i < here.scene.parameters.size(); ++i)
+        here.attempt([&] {
+            here.m.parameters[i].value = here.m.z->expand(here.translator.scalar(here.scene.parameters[i].value));
+            here.m.parameters[i].independent = GiNaC::is_a<numeric>(here.m.parameters[i].value);
+        });
+}
+
+void declare_inputs(Building& here) {
+    for (std::size_t i = 0; i < here.scene.inputs.size(); ++i) {
+        const Input& input = here.scene.inputs[i];
+        Mechanism::Input made{.derivative = {}, .value = 0, .unit = input.unit};
+        for (int order = 0; order < 3; ++order)
+            made.derivative[order] =
+                here.m.symbols->declare(input.name.text, SymbolInfo::Kind::input, static_cast<int>(i), order);
+        here.translator.know(input.name.text, made.derivative[0]);
+        here.m.inputs.push_back(made);
+    }
+    for (std::size_t i = 0; i < here.scene.inputs.size(); ++i)
+        here.attempt(
+            [&] { here.m.inputs[i].value = here.m.z->name(here.translator.scalar(here.scene.inputs[i].value)); });
+}
+
+void declare_coordinates(Building& here) {
+    for (std::size_t i = 0; i < here.scene.coordinates.size(); ++i) {
+        const Coordinate& c = here.scene.coordinates[i];
+        const int index = static_cast<int>(i);
+        here.m.q.push_back(here.m.symbols->declare(c.name.text, SymbolInfo::Kind::coordinate, index, 0));
+        here.m.qdot.push_back(here.m.symbols->declare(c.name.text, SymbolInfo::Kind::coordinate, index, 1));
+        here.m.qddot.push_back(here.m.symbols->declare(c.name.text, SymbolInfo::Kind::coordinate, index, 2));
+        here.m.units.push_back(c.unit);
+        here.m.q_is_guess.push_back(c.initial_is_guess);
+        here.m.qdot_is_guess.push_back(c.rate_is_guess);
+    }
+    for (std::size_t i = 0; i < here.scene.speeds.size(); ++i) {
+        const Speed& s = here.scene.speeds[i];
+        const int index = static_cast<int>(i);
+        here.m.speeds.push_back({.u = here.m.symbols->declare(s.name.text, SymbolInfo::Kind::speed, index, 0),
+                                 .udot = here.m.symbols->declare(s.name.text, SymbolInfo::Kind::speed, index, 1),
+                                 .form = 0,
+                                 .row = {},
+                                 .drift = 0,
+                                 .start = {},
+                                 .unit = s.unit,
+                                 .place = s.name.place});
+    }
+    for (const Coordinate& c : here.scene.coordinates) {
+        here.m.q_start.emplace_back(0);
+        here.m.qdot_start.emplace_back(0);
+        here.attempt([&] {
+            here.m.q_start.back() = here.m.z->expand(here.translator.scalar(c.initial));
+            here.m.qdot_start.back() = here.m.z->expand(here.translator.scalar(c.rate));
+        });
+    }
+}
+
+void define(Building& here) {
+    for (const Speed& s : here.scene.speeds)
+        here.translator.know_later(s.name.text, [&here, &s] {
+            SourceScope source(*here.m.z, "speed " + s.name.text);
+            return here.m.z->name(here.translator.scalar(s.form));
+        });
+    for (const Definition& d : here.scene.definitions)
+        here.translator.know_later(d.name.text, [&here, &d] {
+            SourceScope source(*here.m.z, "definition " + d.name.text);
+            return here.m.z->name(here.translator.scalar(d.value));
+        });
+    for (const Definition& d : here.scene.definitions)
+        here.attempt([&] {
+            const Tree self{.kind = Tree::Kind::name, .text = d.name.text};
+            const Expression whole{d.name.text, {d.name.place}, std::make_shared<Tree>(self)};
+            here.m.definitions.push_back({d.name.text, here.translator.scalar(whole)});
+        });
+}
+
+void require(Building& here, const Expression& e, const std::string& what, bool not_negative) {
+    here.attempt([&] {
+        const double value = here.number_at(e);
+        if (!std::isfinite(value))
+            throw SceneMistake{{e.place(), what + " is not a finite real number at the scene's values"}};
+        if (not_negative && value < 0)
+            throw SceneMistake{{e.place(), fmt::format("{} is {}; expected zero or more", what, value)}};
+    });
+}
+
+void check_values(Building& here) {
+    for (const Parameter& p : here.scene.parameters)
+        require(here, p.value, "parameter '" + p.name.text + "'", false);
+    for (const Coordinate& c : here.scene.coordinates) {
+        require(here, c.initial, "the initial value of '" + c.name.text + "'", false);
+        require(here, c.rate, "the initial rate of '" + c.name.text + "'", false);
+    }
+    for (const Speed& s : here.scene.speeds)
+        if (s.initial) require(here, s.initial, "the initial value of '" + s.name.text + "'", false);
+    for (const Particle& p : here.scene.particles)
+        require(here, p.mass, "the mass of particle '" + p.name.text + "'", true);
+    for (const Body& b : here.scene.bodies) {
+        require(here, b.mass, "the mass of body '" + b.name.text + "'", true);
+        if (!b.inertia) continue;
+        if (b.inertia->planar)
+            require(here, *b.inertia->planar, "the moment of inertia of body '" + b.name.text + "'", true);
+        for (std::size_t k = 0; !b.inertia->planar && k < 6; ++k)
+            require(here, b.inertia->tensor[k], "the moment of inertia of body '" + b.name.text + "'", k < 3);
+    }
+    if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
+}
+
+}  // namespace
+
+void declare(Building& here) {
+    declare_parameters(here);
+    declare_inputs(here);
+    declare_coordinates(here);
+    define(here);
+    if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
+    here.values.emplace(here.m);
+    check_values(here);
+}
+
+}  // namespace alembert

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/dense.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+namespace alembert {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+LeastNorm least_norm(const MatrixXd& A, const MatrixXd& b) {
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A);
+    return {solver.solve(b), solver.rank()};
+}
+
+MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& b) { return M.ldlt().solve(b); }
+
+Orthogonal::Orthogonal(const MatrixXd& A, double threshold) {
+    factors_.setThreshold(threshold);
+    factors_.compute(A);
+}
+
+VectorXd Orthogonal::solve(const VectorXd& b) const { return factors_.solve(b); }
+
+Cholesky::Cholesky(const MatrixXd& M) : factors_(M) {}
+
+bool Cholesky::exists() const { return factors_.info() == Eigen::Success; }
+
+MatrixXd Cholesky::solve_lower(const MatrixXd& b) const {
+    if (b.size() == 0) return b;  // Eigen would solve with a null pointer
+    return factors_.matrixL().solve(b);
+}
+
+VectorXd Cholesky::solve_upper(const VectorXd& b) const { return factors_.matrixU().solve(b); }
+
+VectorXd Cholesky::upper(const VectorXd& x) const { return factors_.matrixU() * x; }
+
+template <class Scalar>
+void Elimination<Scalar>::factor(const Matrix& A) {
+    factors_.compute(A);
+}
+
+template <class Scalar>
+void Elimination<Scalar>::solve(const Vector& b, Vector& x) const {
+    x = factors_.solve(b);
+}
+
+template class Elimination<double>;
+template class Elimination<std::complex<double>>;
+
+Eigenpairs eigenpairs(const MatrixXd& M) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(M);
+    return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SingularValues singular_values(const MatrixXd& A) {
+    const Eigen::JacobiSVD<MatrixXd> solver(A, Eigen::ComputeFullU);
+    return {solver.singularValues(), solver.matrixU()};
+}
+
+}  // namespace alembert
