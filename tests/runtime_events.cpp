@@ -126,6 +126,19 @@ TEST_CASE("events: in one step they come in the order of time, simultaneous ones
     CHECK(motion.times.back() == doctest::Approx(5).epsilon(1e-14));
 }
 
+TEST_CASE("events: what is simultaneous with the one that stops is told, whichever is declared first") {
+    const Events events = make_events({{.name = "end", .stop = true}, {.name = "mark"}, {.name = "later"}}, [](double, const double* y, const double*, double* out) {
+        out[0] = y[0] - 5;
+        out[1] = y[0] * y[0] - 25;
+        out[2] = y[0] - 5.001;
+    });
+    const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
+    REQUIRE(motion.events.size() == 2);
+    CHECK(motion.events[0].name == "end");
+    CHECK(motion.events[1].name == "mark");
+    CHECK(motion.times.back() == doctest::Approx(5).epsilon(1e-14));
+}
+
 TEST_CASE("events: accelerations may take part") {
     // y'' + y = 0 with y = cos t: y'' = −1/2 at t = π/3
     const Trajectory motion = integrate(

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "alembert/abm.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/gauss.hpp"
 #include "alembert/integrate.hpp"
@@ -509,6 +510,26 @@ double equal_steps_error(int steps) {
     return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-5.)));
 }
 
+/// The same of a method that begins with order 1: steps of h³ at first, and twice as long ones after each five, until there is h.
+template <class Formula>
+double equal_steps_error_from_short_ones(int steps) {
+    const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
+    Stepper<Formula> step(rhs, 0, std::vector<double>{0.1}, 1e-14);
+    const auto go_to = [&](double t) {
+        step.attempt(t);
+        step.misfit();
+        step.finish();
+        step.advance();
+    };
+    const double h = 5. / steps;
+    for (double length = h * h * h; length < h; length *= 2)
+        for (int k = 0; k < 5; ++k) go_to(step.time() + length);
+    const double start = step.time();
+    const int left = static_cast<int>(std::lround((5 - start) / h));
+    for (int i = 1; i <= left; ++i) go_to(start + (5 - start) * i / left);
+    return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-5.)));
+}
+
 constexpr Method stiff_methods[] = {Method::bdf, Method::radau, Method::radau5, Method::radau9, Method::radau13};
 
 }  // namespace
@@ -632,6 +653,9 @@ TEST_CASE("implicit methods: with the exact Jacobian a stiff run takes fewer eva
 // with steps^(−k); that the control keeps a step until it can be much longer makes the observation rough.
 TEST_CASE("abm: the error of Kepler's orbit falls with order 4 against the number of steps") {
     CHECK(std::abs(order_by_steps(Method::abm, 1e-7, 1e-11) - 4) < 0.5);
+    const double coarse = equal_steps_error_from_short_ones<Abm>(400), fine = equal_steps_error_from_short_ones<Abm>(800);
+    MESSAGE("in equal steps: errors " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
+    CHECK(std::abs(std::log2(coarse / fine) - 4) < 0.1);
 }
 
 TEST_CASE("bdf: orders up to 5 are reached, and errors follow the tolerance") {

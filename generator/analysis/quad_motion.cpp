@@ -102,15 +102,20 @@ struct Gauss {
 
 class Collocation {
 public:
-    Collocation(const QuadRhs& rhs, std::size_t size, const QuadOptions& options)
-        : rhs_(rhs), options_(options), slopes_(Gauss::stages, Vector(size)), trial_(size), change_(size) {}
+    Collocation(const QuadRhs& rhs, const RoughRhs& rough, std::size_t size, const QuadOptions& options)
+        : rhs_(rhs), rough_(rough), options_(options), slopes_(Gauss::stages, Vector(size)), defect_(slopes_), here_(size), trial_(size), change_(size),
+          rough_slopes_(Gauss::stages, Rough(size)), correction_(rough_slopes_), rough_defect_(rough_slopes_), places_(rough_slopes_),
+          rates_(rough_slopes_), rough_trial_(size), rough_rate_(size) {
+        for (int i = 0; i < Gauss::stages; ++i)
+            for (int j = 0; j < Gauss::stages; ++j) a_[i][j] = static_cast<double>(gauss_.a[i][j]);
+    }
 
     bool step(Quad t, Vector& y, Quad h, int depth = 0) {
         if (evaluations > options_.budget || depth > 20) return false;
         if (iterate(t, y, h)) {
             for (std::size_t i = 0; i < y.size(); ++i) {
                 Quad sum = 0;
-                for (int j = 0; j < Gauss::stages; ++j) sum += gauss_.b[j] * slopes_[static_cast<std::size_t>(j)][i];
+                for (std::size_t j = 0; j < Gauss::stages; ++j) sum += gauss_.b[j] * slopes_[j][i];
                 y[i] += h * sum;
             }
             return true;
@@ -121,40 +126,120 @@ public:
     long evaluations = 0;
 
 private:
+    using Rough = std::vector<double>;
+    static constexpr int most_rounds = 60;
+
+    /// Where the corrections no longer shrink, rounding has the word.
     bool iterate(Quad t, const Vector& y, Quad h) {
-        rhs_(t, y.data(), slopes_[0].data());
+        rhs_(t, y.data(), change_.data());
         ++evaluations;
-        for (int j = 1; j < Gauss::stages; ++j) slopes_[static_cast<std::size_t>(j)] = slopes_[0];
+        for (std::size_t n = 0; n < y.size(); ++n) {
+            here_[n] = static_cast<double>(y[n]);
+            for (Rough& slope : rough_slopes_) slope[n] = static_cast<double>(change_[n]);
+        }
+        if (!begin(static_cast<double>(t), static_cast<double>(h))) return false;
+        for (std::size_t i = 0; i < Gauss::stages; ++i) std::copy(rough_slopes_[i].begin(), rough_slopes_[i].end(), slopes_[i].begin());
         double former = HUGE_VAL;
-        for (int round = 0; round < 60; ++round) {
-            double change = 0;
-            for (int i = 0; i < Gauss::stages; ++i) {  // each uses what the others have become (Gauss & Seidel)
-                for (std::size_t n = 0; n < y.size(); ++n) {
-                    Quad sum = 0;
-                    for (int j = 0; j < Gauss::stages; ++j) sum += gauss_.a[i][j] * slopes_[static_cast<std::size_t>(j)][n];
-                    trial_[n] = y[n] + h * sum;
-                }
-                rhs_(t + gauss_.c[i] * h, trial_.data(), change_.data());
-                ++evaluations;
-                Vector& slope = slopes_[static_cast<std::size_t>(i)];
-                for (std::size_t n = 0; n < y.size(); ++n) {
-                    change = std::max(change, static_cast<double>(h * abs(change_[n] - slope[n]) / size_of(y[n])));
-                    if (!is_finite(change_[n])) return false;
-                }
-                std::swap(slope, change_);
+        for (int round = 0; round < most_rounds; ++round) {
+            const double change = defects(t, y, h);
+            if (!(change < HUGE_VAL)) return false;
+            const bool stalls = round > 0 && !(change < former / 4);
+            if (change <= options_.tolerance || stalls) {
+                for (std::size_t i = 0; i < Gauss::stages; ++i)
+                    for (std::size_t n = 0; n < y.size(); ++n) slopes_[i][n] += defect_[i][n];
+                return change <= options_.tolerance || (change < 1e4 * options_.tolerance && change < former);
             }
-            if (change <= options_.tolerance) return true;
-            if (round > 1 && !(change < former / 4)) return change < 1e4 * options_.tolerance && change < former;
+            correct(static_cast<double>(t), static_cast<double>(h), change);
             former = change;
         }
         return false;
     }
 
+    /// k_i = f(y + h Σ a_ij k_j) in doubles, to rounding; each uses what the others have become (Gauss & Seidel).
+    bool begin(double t, double h) {
+        double former = HUGE_VAL;
+        for (int round = 0; round < most_rounds; ++round) {
+            double change = 0;
+            for (std::size_t i = 0; i < Gauss::stages; ++i) {
+                for (std::size_t n = 0; n < here_.size(); ++n) rough_trial_[n] = here_[n] + h * weighted(i, rough_slopes_, n);
+                rough_(t + static_cast<double>(gauss_.c[i]) * h, rough_trial_.data(), rough_rate_.data());
+                for (std::size_t n = 0; n < here_.size(); ++n) {
+                    const double difference = h * std::abs(rough_rate_[n] - rough_slopes_[i][n]) / std::max(1.0, std::abs(here_[n]));
+                    if (!std::isfinite(difference)) return false;
+                    change = std::max(change, difference);
+                }
+                std::swap(rough_slopes_[i], rough_rate_);
+            }
+            if (change < 1e-15) return true;
+            if (round > 1 && !(change < former / 4)) return change < 1e-10;
+            former = change;
+        }
+        return false;
+    }
+
+    /// f(y + h Σ a_ij k_j) − k_i, and the largest of them times h.
+    double defects(Quad t, const Vector& y, Quad h) {
+        double largest = 0;
+        for (std::size_t i = 0; i < Gauss::stages; ++i) {
+            for (std::size_t n = 0; n < y.size(); ++n) {
+                Quad sum = 0;
+                for (std::size_t j = 0; j < Gauss::stages; ++j) sum += gauss_.a[i][j] * slopes_[j][n];
+                trial_[n] = y[n] + h * sum;
+                places_[i][n] = static_cast<double>(trial_[n]);
+            }
+            rhs_(t + gauss_.c[i] * h, trial_.data(), change_.data());
+            ++evaluations;
+            for (std::size_t n = 0; n < y.size(); ++n) {
+                if (!is_finite(change_[n])) return HUGE_VAL;
+                defect_[i][n] = change_[n] - slopes_[i][n];
+                largest = std::max(largest, static_cast<double>(h * abs(defect_[i][n]) / size_of(y[n])));
+            }
+        }
+        return largest;
+    }
+
+    /// δ_i = d_i + J h Σ a_ij δ_j in doubles, J along the change by a difference of f: seven digits of δ, whatever its size.
+    void correct(double t, double h, double unit) {
+        constexpr double apart = 1e-8;
+        for (std::size_t i = 0; i < Gauss::stages; ++i) {
+            rough_(t + static_cast<double>(gauss_.c[i]) * h, places_[i].data(), rates_[i].data());
+            for (std::size_t n = 0; n < here_.size(); ++n) correction_[i][n] = rough_defect_[i][n] = static_cast<double>(defect_[i][n] / unit);
+        }
+        double former = HUGE_VAL;
+        for (int round = 0; round < most_rounds; ++round) {
+            double change = 0;
+            for (std::size_t i = 0; i < Gauss::stages; ++i) {
+                for (std::size_t n = 0; n < here_.size(); ++n) rough_trial_[n] = places_[i][n] + apart * h * weighted(i, correction_, n);
+                rough_(t + static_cast<double>(gauss_.c[i]) * h, rough_trial_.data(), rough_rate_.data());
+                for (std::size_t n = 0; n < here_.size(); ++n) {
+                    const double next = rough_defect_[i][n] + (rough_rate_[n] - rates_[i][n]) / apart;
+                    change = std::max(change, h * std::abs(next - correction_[i][n]) / std::max(1.0, std::abs(here_[n])));
+                    correction_[i][n] = next;
+                }
+            }
+            if (!(change > 1e-9) || !(change < former)) break;
+            former = change;
+        }
+        for (std::size_t i = 0; i < Gauss::stages; ++i)
+            for (std::size_t n = 0; n < here_.size(); ++n) slopes_[i][n] += static_cast<Quad>(unit) * static_cast<Quad>(correction_[i][n]);
+    }
+
+    double weighted(std::size_t i, const std::vector<Rough>& values, std::size_t n) const {
+        double sum = 0;
+        for (std::size_t j = 0; j < Gauss::stages; ++j) sum += a_[i][j] * values[j][n];
+        return sum;
+    }
+
     const QuadRhs& rhs_;
+    const RoughRhs& rough_;
     const QuadOptions& options_;
     const Gauss gauss_;
-    std::vector<Vector> slopes_;
+    double a_[Gauss::stages][Gauss::stages];
+    std::vector<Vector> slopes_, defect_;
+    Rough here_;
     Vector trial_, change_;
+    std::vector<Rough> rough_slopes_, correction_, rough_defect_, places_, rates_;
+    Rough rough_trial_, rough_rate_;
 };
 
 }  // namespace
@@ -199,8 +284,8 @@ QuadMotion extrapolate(const QuadRhs& rhs, Vector state, Quad start, Quad end, c
     return motion;
 }
 
-QuadMotion collocate(const QuadRhs& rhs, Vector state, const std::vector<Quad>& mesh, const QuadOptions& options) {
-    Collocation one(rhs, state.size(), options);
+QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, Vector state, const std::vector<Quad>& mesh, const QuadOptions& options) {
+    Collocation one(rhs, rough, state.size(), options);
     QuadMotion motion{.finished = true, .state = {}, .mesh = mesh};
     for (std::size_t k = 0; k + 1 < mesh.size() && motion.finished; ++k)
         motion.finished = one.step(mesh[k], state, mesh[k + 1] - mesh[k]);

@@ -157,6 +157,14 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
         tape(t, state, state + n, own_speeds ? rate : rate + n);
     };
 
+    std::vector<double> parameters;
+    for (const Quad& value : start.parameters) parameters.push_back(static_cast<double>(value));
+    Tape<double> rough_tape(program, wanted, parameters);
+    const RoughRhs rough = [&](double t, const double* state, double* rate) {
+        if (!own_speeds) std::copy_n(state + n, n, rate);
+        rough_tape(t, state, state + n, own_speeds ? rate : rate + n);
+    };
+
     std::vector<Quad> rate(start.state.size());
     const std::clock_t clock = std::clock();
     int calls = 0;
@@ -171,7 +179,7 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     for (const double tolerance : {1e-28, 1e-20}) {
         const QuadMotion first = extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
         if (!first.finished) continue;
-        const QuadMotion second = collocate(rhs, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
+        const QuadMotion second = collocate(rhs, rough, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
         if (!second.finished) continue;
         const double apart = agreement(first.state, second.state);
         Reference result{.coordinates = {first.state.begin(), first.state.begin() + static_cast<std::ptrdiff_t>(n)},

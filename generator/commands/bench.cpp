@@ -12,6 +12,7 @@
 #include "analysis/diagnose.hpp"
 #include "analysis/reference.hpp"
 #include "commands/bounces.hpp"
+#include "commands/canonical.hpp"
 #include "commands/measure.hpp"
 #include "commands/modes.hpp"
 #include "commands/peers.hpp"
@@ -212,9 +213,20 @@ SeriesModule series_of(const Program& program, bool with_work, const Request& re
     }
 }
 
+/// Null where the scene has no such form, or no method that needs it is asked for.
+std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module, const std::vector<double>& parameters, const Request& request) {
+    const auto asked = method_named(request.method);
+    if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
+    const Program form = canonical_form(d);
+    const Compiled compiled = compile(emit(form).text, form.name, {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}});
+    return make_canonical(module, load(compiled.object), parameters);
+}
+
 }  // namespace
 
 int bench(const Request& request) {
+    if (!request.method.empty() && !method_named(request.method))
+        throw ModelError(fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others come with --peers)", request.method, method_names()));
     const Derived d = derived(request, Use::run);
     const Energy energy = energy_of(d.mechanism);
     const Program program = lowered(d, request).program;
@@ -239,9 +251,10 @@ int bench(const Request& request) {
     const Module module = load(compiled.object);
     const SeriesModule series = series_of(program, false, request);
     const SeriesModule series_with_work = series && !energy.conserved ? series_of(program, true, request) : nullptr;
+    const std::shared_ptr<const Canonical> canonical = canonical_of(d, module, start.parameters, request);
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
-    Workbench workbench({.derived = d, .module = module, .series = series, .series_with_work = series_with_work, .parameters = start.parameters, .initial = initial, .conserved = energy.conserved});
+    Workbench workbench({.derived = d, .module = module, .series = series, .series_with_work = series_with_work, .canonical = canonical, .parameters = start.parameters, .initial = initial, .conserved = energy.conserved});
 
     Progress progress("measuring");
     const Options options{.start = start.t, .duration = duration, .budget = request.budget};
@@ -273,6 +286,7 @@ int bench(const Request& request) {
         progress.at(static_cast<double>(k) / static_cast<double>(methods.size()));
         if (needs_separable(methods[k]) && !separable) continue;
         if (needs_series(methods[k]) && !series) continue;
+        if (needs_canonical(methods[k]) && !canonical) continue;
         if (!request.method.empty() && name(methods[k]) != request.method) continue;
         Options these = options;
         these.method = methods[k];

@@ -36,6 +36,7 @@ Workbench::Workbench(Parts parts)
       projection_(parts_.module, parts_.parameters) {
     if (parts_.series) rhs_.series = make_series(parts_.series, parts_.parameters);
     if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
+    rhs_.canonical = with_work_.canonical = parts_.canonical;
     const Mechanism& m = parts_.derived.mechanism;
     if (!m.constraints.empty()) rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
     if (!m.constraints.empty()) return;  // their forces change the momenta

@@ -12,6 +12,7 @@
 
 #include <optional>
 
+#include "alembert/canonical.hpp"
 #include "alembert/drift.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/module.hpp"
@@ -44,6 +45,7 @@ public:
         const Derived& derived;
         const Module& module;
         SeriesModule series = {}, series_with_work = {};  ///< null where methods that need them are not measured
+        std::shared_ptr<const Canonical> canonical = {};      ///< likewise
         std::vector<double> parameters, initial;
         bool conserved = true;  ///< the energy is
         std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty

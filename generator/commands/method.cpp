@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "commands/canonical.hpp"
+#include "commands/foreign.hpp"
 #include "commands/separable.hpp"
 #include "lower/recurrence.hpp"
 
@@ -51,18 +53,29 @@ MethodChoice automatic(const Request& request, const Derived& d, const Program& 
             .why = fmt::format("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
 }
 
+std::string name_given(const Request& request, const Derived& d) {
+    return request.method.empty() ? d.mechanism.run.method : request.method;
+}
+
 }  // namespace
 
 std::optional<Method> given_method(const Request& request, const Derived& d) {
-    const std::string given = request.method.empty() ? d.mechanism.run.method : request.method;
+    const std::string given = name_given(request, d);
     if (given == "auto") return std::nullopt;
     const auto known = method_named(given);
-    if (!known) throw ModelError(fmt::format("method '{}' is not supported yet; expected auto, {}", given, method_names()));
+    if (is_foreign(given)) throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
+    if (!known) throw ModelError(fmt::format("unknown method '{}'; expected auto, {}; or cvode, ida", given, method_names()));
     if (needs_separable(*known)) need_separable(d, given);
+    if (needs_canonical(*known)) need_canonical(d, given);
     return known;
 }
 
 MethodChoice method_for(const Request& request, const Derived& d, const Program& program, const Start& start) {
+    const std::string name = name_given(request, d);
+    if (is_foreign(name)) {
+        need_foreign(d, name);
+        return {.method = Method::bdf, .foreign = name};  // which has the Jacobian emitted
+    }
     if (const auto given = given_method(request, d)) return {.method = *given};
     return automatic(request, d, program, start);
 }

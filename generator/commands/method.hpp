@@ -29,6 +29,7 @@ struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
     std::string why = {};  ///< empty where the method was given
+    std::string foreign = {};  ///< a method of somebody else's in the place of `method` (foreign.hpp)
 };
 
 /// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a method that

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "alembert/canonical.hpp"
 #include "alembert/compile.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/diagnose.hpp"
+#include "commands/canonical.hpp"
+#include "commands/foreign.hpp"
 #include "emit/taylor.hpp"
 #include "lower/differentiate.hpp"
 
@@ -99,12 +102,17 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         uses_jacobian(method_.method) ? affordable_derivatives(program, work_) : std::nullopt;
     std::optional<Source> series;
     if (needs_series(method_.method)) series = emit_taylor(program, work_ == Work::integrated);
+    std::optional<Source> form;
+    if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
     Source source = emit(derivatives ? derivatives->program : program);
     seconds_.emit += lap();
     const Compiled compiled = compile(source.text, program.name, options_of_compiler());
     const Module module = load(compiled.object);
     SeriesModule series_module;
     if (series) series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
+    std::shared_ptr<const Canonical> canonical;
+    if (form)
+        canonical = make_canonical(module, load(compile(form->text, program.name + "_canonical", options_of_compiler()).object), start_.parameters);
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
@@ -121,8 +129,10 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                         .from_cache = compiled.from_cache});
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
+    mode->contact.rhs.canonical = canonical;
     if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     if (!has_contacts) mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
+    if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);
     LoadedMode* const self = mode.get();
     if (constrained) {
         mode->contact.project = std::ref(self->projection);

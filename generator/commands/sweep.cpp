@@ -211,6 +211,8 @@ int sweep(const Request& request) {
     const bool steps_given = request.step > 0 || first_start.step > 0;
     const Options options =
         options_of(request, {.method = given_method(request, d).value_or(steps_given ? Method::rk4 : Method::dop853)}, first_start);
+    if (needs_series(options.method) || needs_canonical(options.method))
+        throw ModelError(fmt::format("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss", name(options.method)));
 
     const Source source = emit(program, {.batch = true});
     const double compile_begin = process_seconds();

@@ -179,8 +179,11 @@ public:
             for (std::size_t j = 0; j < sums.size(); ++j)
                 sums[j].emplace_back(1, p_.product(1, {{part.node, 1}, {row[j], 1}}));
         }
+        std::map<int, int> own;  // u' that the power names, as functions of the state
+        for (int i = 0; i < s_; ++i) own.emplace(p_.variable({Variable::Kind::acceleration, i}), acceleration[static_cast<std::size_t>(i)]);
+        Substitution at_state(p_, std::move(own));
         std::vector<int> gradient;
-        for (const auto& terms : sums) gradient.push_back(p_.sum(0, terms));
+        for (const auto& terms : sums) gradient.push_back(at_state(p_.sum(0, terms)));
         return gradient;
     }
 

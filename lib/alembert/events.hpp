@@ -16,7 +16,8 @@
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
-/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration.
+/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. Those that are simultaneous
+/// with one that stops the run are told too, but for a second one that would stop it.
 
 #include <concepts>
 #include <functional>

@@ -13,10 +13,12 @@
 
 #include "alembert/abm.hpp"
 #include "alembert/bdf.hpp"
+#include "alembert/canonical.hpp"
 #include "alembert/dop853.hpp"
 #include "alembert/error.hpp"
 #include "alembert/gauss.hpp"
 #include "alembert/radau.hpp"
+#include "alembert/rattle.hpp"
 #include "alembert/run.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
@@ -57,6 +59,9 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
     check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
           fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand side has not got",
+                      name(options.method)));
+    check(!needs_canonical(options.method) || (rhs.canonical && 2 * rhs.canonical->coordinates <= rhs.dimension),
+          fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand side has not got",
                       name(options.method)));
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
@@ -128,6 +133,8 @@ constexpr MethodEntry methods[] = {{Method::euler, "euler", true, run<Step<euler
                                    {Method::verlet, "verlet", true, run<Stepper<Verlet>>},
                                    {Method::kahanli8, "kahanli8", true, run<Stepper<KahanLi8>>},
                                    {Method::gauss, "gauss", true, run<Stepper<Gauss>>},
+                                   {Method::rattle, "rattle", true, run<Stepper<Rattle>>},
+                                   {Method::rattle8, "rattle8", true, run<Stepper<Rattle8>>},
                                    {Method::abm, "abm", false, run<Stepper<Abm>>},
                                    {Method::bdf, "bdf", false, run<Stepper<Bdf>>},
                                    {Method::radau, "radau", false, run<Stepper<RadauOfAnyOrder>>},
@@ -177,6 +184,10 @@ bool needs_series(Method method) {
     return method == Method::taylor;
 }
 
+bool needs_canonical(Method method) {
+    return method == Method::rattle || method == Method::rattle8;
+}
+
 bool needs_separable(Method method) {
     return method == Method::verlet || method == Method::kahanli8;
 }
@@ -185,7 +196,8 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
                      const Events& events) {
     check_options(rhs, initial, options);
     const double start = thread_seconds();
-    Trajectory result = entry(options.method).run(rhs, initial, options, events);
+    if (options.by && !events.list.empty()) throw std::invalid_argument("an integrator from elsewhere does not look for events");
+    Trajectory result = options.by ? options.by(rhs, initial, options) : entry(options.method).run(rhs, initial, options, events);
     if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;
     return result;

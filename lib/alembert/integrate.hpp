@@ -20,6 +20,8 @@
 /// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
 /// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
+/// | rattle | 2 | fixed; holonomic constraints, M(q) (rattle.hpp) | a shorter step, order 2 | oscillators with hω < 2 |
+/// | rattle8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
 /// | abm | 4 | adaptive | order 4 | -1.28 < hλ < 0 |
 /// | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of 90°, 90°, 86°, 73°, 51° to either side |
 /// | radau5 | 5, estimate of order 3 | adaptive, stiff | order 3 | everywhere left of 0; damps stiff parts |
@@ -48,7 +50,7 @@
 
 namespace alembert {
 
-enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, abm, bdf, radau, radau5, radau9, radau13, taylor };
+enum class Method { euler, rk2, rk4, dopri5, dop853, verner76, verner98, verlet, kahanli8, gauss, rattle, rattle8, abm, bdf, radau, radau5, radau9, radau13, taylor };
 
 /// "dop853" and so on.
 std::string_view name(Method method);
@@ -60,6 +62,8 @@ bool uses_jacobian(Method method);
 bool needs_separable(Method method);
 /// Only for right-hand sides with Rhs::series.
 bool needs_series(Method method);
+/// Only for right-hand sides with Rhs::canonical.
+bool needs_canonical(Method method);
 /// In the order above.
 std::vector<Method> all_methods();
 /// "euler, rk2, ... or verner98", for messages.
@@ -67,6 +71,11 @@ std::string method_names();
 
 /// Called with the start, then with the end of each accepted step (or the event that cuts it short).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
+
+struct Options;
+/// Somebody else's integrator for one system. It is given options that have been checked, `by` left out, and gives rows, statistics
+/// (with its name) and failures as `integrate` does.
+using Integrator = std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial, const Options& options)>;
 
 struct Options {
     Method method = Method::dop853;
@@ -84,6 +93,7 @@ struct Options {
     OnStep on_step = {};       ///< may be empty
     /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
     std::function<void(double t, double* state)> project = {};
+    Integrator by = {};  ///< in the place of `method`, for a run without events; may be empty
 };
 
 /// What `integrate` begins with.

@@ -118,6 +118,7 @@ private:
         here.project = mode.project;
         here.rhs_when_stiff = mode.rhs_when_stiff;
         here.on_step = mode.on_step;
+        here.by = mode.by;
         const Events events = count_ > 0 ? watched(mode) : mode.events;
         Trajectory motion = integrate(mode.rhs, state_, here, events);
         add_up(motion.statistics);

@@ -25,6 +25,7 @@ struct ContactMode {
     std::function<Rhs()> rhs_when_stiff = {};  ///< with the Jacobian (Options); may be empty
     std::function<void(double t, double* state)> project = {};  ///< to the constraints of the mode; may be empty
     OnStep on_step = {};                                        ///< may be empty
+    Integrator by = {};                                         ///< Options::by; may be empty
 };
 
 /// Asked once for each phase. The reference stays good.

@@ -27,6 +27,8 @@
 
 namespace alembert {
 
+struct Canonical;
+
 struct Rhs {
     using Call = void (*)(const void* context, double t, const double* state, double* rate);
 
@@ -37,6 +39,7 @@ struct Rhs {
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
     Series series = {};       ///< of the motion, for the method taylor; may be missing
+    std::shared_ptr<const Canonical> canonical = {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
@@ -62,7 +65,8 @@ Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {
                        double* rate) { static_cast<const Both*>(context)->first(t, state, rate); },
             .jacobian = [](const void* context, double t, const double* state,
                            double* values) { static_cast<const Both*>(context)->second(t, state, values); },
-            .series = {}};
+            .series = {},
+            .canonical = {}};
 }
 
 /// Any function f(t, const double* state, double* rate).
@@ -80,7 +84,8 @@ Rhs make_rhs(int dimension, Function function, int extra = 0) {
             .context = std::make_shared<const Function>(std::move(function)),
             .call = call,
             .jacobian = nullptr,
-            .series = {}};
+            .series = {},
+        .canonical = {}};
 }
 
 }  // namespace alembert

@@ -167,13 +167,15 @@ private:
     void accept() {
         ++result_.statistics.steps;
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
-        for (const Crossing& crossing : crossings) {
-            add_rows_before(crossing.time);
-            step_.interpolate(crossing.theta, row_.data());
-            const Event& event = events_.list[static_cast<std::size_t>(crossing.index)];
-            result_.events.push_back(
-                {.index = crossing.index, .name = event.name, .time = crossing.time, .state = row_});
-            if (event.stop) return stop_at(crossing.time);
+        for (std::size_t k = 0; k < crossings.size(); ++k) {
+            add_rows_before(crossings[k].time);
+            step_.interpolate(crossings[k].theta, row_.data());
+            tell_event(crossings[k]);
+            if (!event_of(crossings[k]).stop) continue;
+            const double latest = crossings[k].time + 1e-12 * std::max(std::abs(step_.end_time()), step_.length());
+            for (std::size_t j = k + 1; j < crossings.size() && crossings[j].time <= latest; ++j)
+                if (!event_of(crossings[j]).stop) tell_event(crossings[j]);
+            return stop_at(crossings[k].time);
         }
         add_rows_before(step_.end_time());
         step_.advance();
@@ -188,6 +190,13 @@ private:
                                                  .step = step_.length()};
             if (result_.times.back() < step_.time()) add_row(step_.time(), step_.state());
         }
+    }
+
+    const Event& event_of(const Crossing& crossing) const { return events_.list[static_cast<std::size_t>(crossing.index)]; }
+
+    /// The state there is in row_.
+    void tell_event(const Crossing& crossing) {
+        result_.events.push_back({.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = row_});
     }
 
     std::vector<Crossing> look_for_events() {

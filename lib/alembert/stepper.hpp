@@ -17,7 +17,8 @@
 /// A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in Ends::knows_end_rate.
 /// Adaptive formulas write the error of each component to Ends::error and have `estimate_order`; those
 /// that find the rate at the end by a way of their own, after projection, have `evaluate_end(ends)`; those with a memory
-/// have `finished(ends)` and `advance(ends)`, those with a polynomial `interpolate(ends, theta, out)`.
+/// have `finished(ends)` and `advance(ends)`, those with a polynomial `interpolate(ends, theta, out)`. One whose steps end on the
+/// constraints of their own says so by `static constexpr bool keeps_constraints = true`: it is not projected.
 ///
 /// The state is the sum of two doubles as in step.hpp, and errors are measured as there.
 
@@ -141,6 +142,7 @@ public:
     }
 
     void correct(const std::function<void(double t, double* state)>& project) {
+        if constexpr (requires { Formula::keeps_constraints; }) return;
         project(ends_.end, ends_.next.data());
         std::fill(ends_.next_rest.begin(), ends_.next_rest.end(), 0);
         ends_.knows_end_rate = false;
