@@ -53,8 +53,9 @@ TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where 
     CHECK(std::abs(coordinate(comet, "x") + 0.1351664773678210293925794571396607994198) < 1e-8);
     CHECK(std::abs(rate(comet, "y") - 0.7844989436495845826968187373479917536626) < 1e-8);
     const Json stars = simulated(benchmark("pleiades"), {"--tolerance", "1e-13"});
-    CHECK(std::abs(coordinate(stars, "x1") - 0.37061391439705129009) < 1e-11);
-    CHECK(std::abs(rate(stars, "y7") + 1.947020434263291900674262585469) < 1e-11);
+    // Close encounters: rounding alone leaves 2e-12 to 3e-11, whichever tolerance from 1e-11 to 1e-14.
+    CHECK(std::abs(coordinate(stars, "x1") - 0.37061391439705129009) < 1e-10);
+    CHECK(std::abs(rate(stars, "y7") + 1.947020434263291900674262585469) < 1e-10);
     const Json planets = simulated(benchmark("outer_solar_system"), {"--tolerance", "1e-13"});
     CHECK(std::abs(coordinate(planets, "xJupiter") - 2.6110795701128633600809602078737) < 1e-8);
     CHECK(std::abs(coordinate(planets, "ySun") + 0.48994382114427497636788620635032) < 1e-10);

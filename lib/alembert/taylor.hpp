@@ -7,11 +7,12 @@
 ///
 /// The step is chosen before it is taken: with n_j the largest of |c_j| / max(1, |y|),
 ///
-///     h = min over j = p−1, p of (½ tolerance / n_j)^(1/j)
+///     h = min over j = p−1, p of (a tolerance / n_j)^(1/j)
 ///
-/// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is the same for p = ⌈1 − ½ ln tolerance⌉), so
-/// that the last terms are half the tolerance and what is left out less. Steps go with tolerance^(1/p) and the time that a series takes
-/// is about 1 + a p + b p² (a, b from the emitted file); p makes their quotient least. Where products of series take all the time
+/// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln tolerance⌉ and
+/// a = ½), so that the last terms are a times the tolerance and what is left out less. Here a = 1/20: the errors of the steps of a
+/// long run add up. Steps go with tolerance^(1/p) and the time that a series takes
+/// is about 1 + c p + d p² (c, d from the emitted file); p makes their quotient least. Where products of series take all the time
 /// that is Jorba & Zou's order (§3.1); where they do not, it is higher. The polynomial is kept: states within the step cost its
 /// evaluation. `error` is the last term.
 
@@ -25,9 +26,11 @@
 
 namespace alembert {
 
+inline constexpr double taylor_share = 0.05;  ///< of the tolerance, for the last term
+
 /// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉ and 4.
 inline int taylor_order(double tolerance, double order_cost = 0, double product_cost = 1, int most = most_order) {
-    const double digits = -std::log(tolerance / 2);
+    const double digits = -std::log(taylor_share * tolerance);
     int best = std::clamp(static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)), 4, most);
     const auto effort = [&](int p) { return (1 + order_cost * p + product_cost * p * p) * std::exp(digits / p); };
     while (best < most && effort(best + 1) < effort(best)) ++best;
@@ -41,7 +44,7 @@ public:
     static constexpr Between between = Between::own;
 
     Taylor(const Ends& ends, double tolerance)
-        : log_tolerance_(std::log(tolerance / 2)),
+        : log_tolerance_(std::log(taylor_share * tolerance)),
           order_(taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
           size_(ends.y.size()),
           coefficients_(static_cast<std::size_t>(order_ + 1) * size_),
