@@ -12,6 +12,7 @@
 #include "alembert/gauss.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/radau.hpp"
+#include "alembert/shifted.hpp"
 #include "alembert/step.hpp"
 #include "alembert/symplectic.hpp"
 #include "alembert/tableau.hpp"
@@ -693,6 +694,37 @@ TEST_CASE("stiff methods: van der Pol's oscillator agrees with dop853 at a tight
 
 // A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular solution
 // is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
+TEST_CASE("radau: shifted systems of first and of second order are solved as Eigen does, work included") {
+    const unsigned seed = 64;
+    std::srand(seed);
+    for (const int size : {1, 2, 5, 6, 7, 24, 25}) {
+        CAPTURE(size);
+        for (const bool is_second : {false, true}) {
+            Eigen::MatrixXd J = Eigen::MatrixXd::Random(size, size) * 30;
+            const int n = size / 2;
+            if (is_second) {
+                J.topRows(n).setZero();
+                J.block(0, n, n, n).setIdentity();
+                J.rightCols(size - 2 * n).setZero();
+            }
+            CHECK(second_order(J) == (is_second ? n : 0));
+            const std::complex<double> sigma(7, 40);
+            const Eigen::MatrixXcd A = Eigen::MatrixXcd::Identity(size, size) * sigma - J.cast<std::complex<double>>();
+            const Eigen::VectorXcd b = Eigen::VectorXcd::Random(size), expected = A.partialPivLu().solve(b);
+            Shifted<std::complex<double>> system(size);
+            system.factor(J, second_order(J), sigma);
+            Eigen::VectorXcd x(size);
+            system.solve(b, x);
+            CHECK((x - expected).norm() < 1e-11 * expected.norm());
+            Shifted<double> real(size);
+            real.factor(J, second_order(J), 50.0);
+            Eigen::VectorXd y(size);
+            real.solve(b.real(), y);
+            CHECK((50 * y - J * y - b.real()).norm() < 1e-11 * (J.norm() * y.norm() + 1));
+        }
+    }
+}
+
 TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") {
     for (const auto& choice : {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
         const Method method = choice.first;

@@ -160,7 +160,7 @@ private:
     double tolerance_, enough_;
     Jacobian jacobian_;
     Eigen::MatrixXd matrix_;
-    Elimination<double> lu_;
+    Elimination lu_;
     Eigen::VectorXd side_, solution_;
     Differences old_, new_;  ///< of the state at the start and at the end; row 0 is not used
     std::vector<double> predicted_, known_, d_, state_, rate_;

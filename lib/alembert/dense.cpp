@@ -36,18 +36,9 @@ VectorXd Cholesky::solve_upper(const VectorXd& b) const { return factors_.matrix
 
 VectorXd Cholesky::upper(const VectorXd& x) const { return factors_.matrixU() * x; }
 
-template <class Scalar>
-void Elimination<Scalar>::factor(const Matrix& A) {
-    factors_.compute(A);
-}
+void Elimination::factor(const MatrixXd& A) { factors_.compute(A); }
 
-template <class Scalar>
-void Elimination<Scalar>::solve(const Vector& b, Vector& x) const {
-    x = factors_.solve(b);
-}
-
-template class Elimination<double>;
-template class Elimination<std::complex<double>>;
+void Elimination::solve(const VectorXd& b, VectorXd& x) const { x = factors_.solve(b); }
 
 Eigenpairs eigenpairs(const MatrixXd& M) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(M);

@@ -13,7 +13,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <complex>
 
 namespace alembert {
 
@@ -51,20 +50,15 @@ private:
     Eigen::LLT<Eigen::MatrixXd> factors_;
 };
 
-/// A by Gaussian elimination with row pivots; real or complex. A: n×n.
-template <class Scalar>
+/// A by Gaussian elimination with row pivots. A: n×n.
 class Elimination {
 public:
-    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-    void factor(const Matrix& A);
-    void solve(const Vector& b, Vector& x) const;  ///< x is not b
+    void factor(const Eigen::MatrixXd& A);
+    void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;  ///< x is not b
 
 private:
-    Eigen::PartialPivLU<Matrix> factors_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
 };
-extern template class Elimination<double>;
-extern template class Elimination<std::complex<double>>;
 
 struct Eigenpairs {
     Eigen::VectorXd values;   ///< ascending

@@ -111,7 +111,7 @@ private:
                     (i == j ? 1. : 0.) * Eigen::MatrixXd::Identity(n, n) -
                     h * a[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * jacobian_->values;
         if (!matrix.allFinite()) return false;
-        Elimination<double> lu;
+        Elimination lu;
         lu.factor(matrix);
         Eigen::VectorXd side(stages * n), delta(stages * n);
         double before = HUGE_VAL;

@@ -20,8 +20,8 @@
 /// equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
 
 #include "alembert/collocation.hpp"
-#include "alembert/dense.hpp"
 #include "alembert/newton.hpp"
+#include "alembert/shifted.hpp"
 #include "alembert/step_size.hpp"
 
 namespace alembert {
@@ -38,7 +38,7 @@ public:
           enough_(std::max(1e-2 * tolerance, 4e-16)),
           jacobian_(n_),
           real_(n_),
-          complex_((most - 1) / 2, Factored<std::complex<double>>(n_)),
+          complex_((most - 1) / 2, Shifted<std::complex<double>>(n_)),
           real_side_(n_),
           real_solution_(n_),
           complex_side_(n_),
@@ -58,6 +58,7 @@ public:
         if (wanted_ != s_) take(wanted_);
         if (!has_jacobian_) {
             jacobian_.evaluate(ends);
+            pairs_ = second_order(jacobian_.values);
             has_jacobian_ = is_fresh_ = true;
             factored_for_ = 0;
         }
@@ -133,14 +134,8 @@ private:
     }
 
     void factorize(double h) {
-        real_.values.noalias() = -jacobian_.values;
-        real_.values.diagonal().array() += table_->lambda / h;
-        real_.lu.factor(real_.values);
-        for (std::size_t k = 0; k < table_->mu.size(); ++k) {
-            complex_[k].values = (-jacobian_.values).template cast<Complex>();
-            complex_[k].values.diagonal().array() += table_->mu[k] / h;
-            complex_[k].lu.factor(complex_[k].values);
-        }
+        real_.factor(jacobian_.values, pairs_, table_->lambda / h);
+        for (std::size_t k = 0; k < table_->mu.size(); ++k) complex_[k].factor(jacobian_.values, pairs_, table_->mu[k] / h);
         factored_for_ = h;
     }
 
@@ -184,10 +179,10 @@ private:
         side_.noalias() = z_ * table_->inverse.transpose();
         side_ = f_ - side_ / h;
         real_side_.noalias() = side_ * table_->back_real;
-        real_.lu.solve(real_side_, real_solution_);
+        real_.solve(real_side_, real_solution_);
         for (std::size_t pair = 0; pair < table_->mu.size(); ++pair) {
             complex_side_.noalias() = side_.template cast<Complex>() * table_->back_complex[pair];
-            complex_[pair].lu.solve(complex_side_, complex_solution_[pair]);
+            complex_[pair].solve(complex_side_, complex_solution_[pair]);
         }
         double largest = 0;
         for (int k = 0; k < s_; ++k) {
@@ -208,7 +203,7 @@ private:
         const auto filtered = [&](const std::vector<double>& rate) {
             real_side_.noalias() = table_->lambda / h * (z_ * table_->e);
             for (int i = 0; i < n_; ++i) real_side_[i] += rate[static_cast<std::size_t>(i)];
-            real_.lu.solve(real_side_, real_solution_);
+            real_.solve(real_side_, real_solution_);
             for (int i = 0; i < n_; ++i) ends.error[static_cast<std::size_t>(i)] = real_solution_[i];
         };
         filtered(ends.rate);
@@ -218,19 +213,13 @@ private:
         filtered(rate_);
     }
 
-    template <class Scalar>
-    struct Factored {
-        explicit Factored(int n) : values(n, n) {}
-        typename Elimination<Scalar>::Matrix values;
-        Elimination<Scalar> lu;
-    };
-
     int n_, s_ = fewest, wanted_ = fewest;
     double enough_;
     const RadauTable* table_ = nullptr;
     Jacobian jacobian_;
-    Factored<double> real_;
-    std::vector<Factored<std::complex<double>>> complex_;
+    int pairs_ = 0;  ///< of second_order(jacobian)
+    Shifted<double> real_;
+    std::vector<Shifted<std::complex<double>>> complex_;
     Eigen::MatrixXd z_, f_, poly_, kept_, side_;  ///< n × s: stages, rates, polynomials of the last and of this step
     Eigen::VectorXd real_side_, real_solution_;
     Eigen::VectorXcd complex_side_;

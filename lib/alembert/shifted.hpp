@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// (σ − J) x = b for real and complex shifts σ, what implicit Runge-Kutta methods solve at each step.
+///
+///     Shifted<std::complex<double>> system(size);
+///     system.factor(J, second_order(J), mu / h);
+///     system.solve(b, x);
+///
+/// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing that depends on W. Then q and W are
+/// eliminated and Gaussian elimination with row pivots is of half the size:
+///
+///     (σ − J_u − J_q/σ) u = b_u + J_q b_q/σ,    q = (b_q + u)/σ,    W = (b_W + J_Wq q + J_Wu u)/σ.
+///
+/// J must live as long as it is solved with. Nothing is thrown; a singular system gives values that are not finite.
+
+#include <Eigen/Core>
+#include <cmath>
+#include <complex>
+#include <utility>
+#include <vector>
+
+namespace alembert {
+
+/// The number of coordinates if J is that of a system of second order, exactly; else 0.
+inline int second_order(const Eigen::MatrixXd& J) {
+    const Eigen::Index n = J.rows() / 2;
+    for (Eigen::Index j = 0; j < J.cols(); ++j) {
+        for (Eigen::Index i = 0; i < n; ++i)
+            if (J(i, j) != (j == n + i ? 1 : 0)) return 0;
+        if (j >= 2 * n && J.col(j).cwiseAbs().maxCoeff() != 0) return 0;
+    }
+    return static_cast<int>(n);
+}
+
+template <class Scalar>
+class Shifted {
+public:
+    using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+    explicit Shifted(int size)
+        : size_(size), entries_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)), reciprocal_(size), order_(size), side_(size) {}
+
+    /// `pairs`: second_order(J), or 0.
+    void factor(const Eigen::MatrixXd& J, int pairs, Scalar sigma) {
+        J_ = &J;
+        n_ = pairs;
+        over_ = Scalar(1) / sigma;
+        m_ = pairs > 0 ? pairs : size_;
+        for (int i = 0; i < m_; ++i) {
+            for (int j = 0; j < m_; ++j) at(i, j) = Scalar(-J(n_ + i, n_ + j)) - (n_ > 0 ? J(n_ + i, j) * over_ : Scalar(0));
+            at(i, i) += sigma;
+            order_[i] = i;
+        }
+        for (int k = 0; k < m_; ++k) {
+            int pivot = k;
+            for (int i = k + 1; i < m_; ++i)
+                if (size_of(at(i, k)) > size_of(at(pivot, k))) pivot = i;
+            if (pivot != k) {
+                for (int j = 0; j < m_; ++j) std::swap(at(k, j), at(pivot, j));
+                std::swap(order_[k], order_[pivot]);
+            }
+            reciprocal_[k] = Scalar(1) / at(k, k);
+            for (int i = k + 1; i < m_; ++i) {
+                const Scalar factor = product(at(i, k), reciprocal_[k]);
+                at(i, k) = factor;
+                for (int j = k + 1; j < m_; ++j) at(i, j) -= product(factor, at(k, j));
+            }
+        }
+    }
+
+    /// x is not b.
+    void solve(const Vector& b, Vector& x) {
+        for (int i = 0; i < m_; ++i) side_[i] = b[n_ + i];
+        for (int j = 0; j < n_; ++j) {
+            const Scalar q = product(b[j], over_);
+            for (int i = 0; i < n_; ++i) side_[i] += (*J_)(n_ + i, j) * q;
+        }
+        Scalar* const u = x.data() + n_;
+        for (int i = 0; i < m_; ++i) {
+            Scalar sum = side_[order_[i]];
+            for (int j = 0; j < i; ++j) sum -= product(at(i, j), u[j]);
+            u[i] = sum;
+        }
+        for (int i = m_; i-- > 0;) {
+            Scalar sum = u[i];
+            for (int j = i + 1; j < m_; ++j) sum -= product(at(i, j), u[j]);
+            u[i] = product(sum, reciprocal_[i]);
+        }
+        for (int i = 0; i < n_; ++i) x[i] = product(b[i] + u[i], over_);
+        for (int i = 2 * n_; n_ > 0 && i < size_; ++i) {
+            Scalar sum = b[i];
+            for (int j = 0; j < 2 * n_; ++j) sum += (*J_)(i, j) * x[j];
+            x[i] = product(sum, over_);
+        }
+    }
+
+private:
+    Scalar& at(int i, int j) { return entries_[static_cast<std::size_t>(i * m_ + j)]; }
+    static double size_of(double a) { return std::abs(a); }
+    static double size_of(const std::complex<double>& a) { return std::abs(a.real()) + std::abs(a.imag()); }
+    static double product(double a, double b) { return a * b; }
+    /// Without the detour of operator* for infinite factors.
+    static std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
+        return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+    }
+
+    int size_, n_ = 0, m_ = 0;
+    const Eigen::MatrixXd* J_ = nullptr;
+    Scalar over_{};
+    std::vector<Scalar> entries_;  ///< m × m, by rows: L below, U above
+    std::vector<Scalar> reciprocal_;
+    std::vector<int> order_;
+    std::vector<Scalar> side_;
+};
+
+}  // namespace alembert
