@@ -26,6 +26,14 @@ Checked checked(const std::string& name, const std::string& claims) {
     return checked(with_claims(read_scene(test::source_path("scenes/textbook/" + name + ".toml")), claims, "claims.txt"));
 }
 
+void check_verdicts(const Checked& result, const std::vector<Verdict>& expected) {
+    REQUIRE(result.claims.size() == expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        CAPTURE(k);
+        CHECK(result.claims[k].verdict == expected[k]);
+    }
+}
+
 }  // namespace
 
 TEST_CASE("check: every hand derivation that a textbook scene carries is proved") {
@@ -195,11 +203,7 @@ abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'
 )");
     const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved, Verdict::proved,
                                         Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved};
-    REQUIRE(result.claims.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-        CAPTURE(k);
-        CHECK(result.claims[k].verdict == expected[k]);
-    }
+    check_verdicts(result, expected);
 }
 
 TEST_CASE("check: a drive whose frequency is a decimal, beside a constraint that is solved for an angle") {
@@ -226,11 +230,7 @@ cos(1.005*t) = 4*cos(0.25125*t)^3 - 3*cos(0.25125*t)
 cos(1.005*t) = 2*cos(0.5025*t)^2 - 1
 )", "claims.txt"));
     const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
-    REQUIRE(result.claims.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-        CAPTURE(k);
-        CHECK(result.claims[k].verdict == expected[k]);
-    }
+    check_verdicts(result, expected);
 }
 
 // The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
@@ -258,11 +258,7 @@ beta = 2*atan(2/3)
 )", "claims.txt"));
     const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
                                         Verdict::refuted, Verdict::proved, Verdict::proved};
-    REQUIRE(result.claims.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-        CAPTURE(k);
-        CHECK(result.claims[k].verdict == expected[k]);
-    }
+    check_verdicts(result, expected);
     CHECK_FALSE(result.claims[1].counterexample.empty());
     CHECK_FALSE(result.claims[3].counterexample.empty());
 }
@@ -297,12 +293,8 @@ sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
 )", "claims.txt"));
     const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
                                         Verdict::refuted, Verdict::proved, Verdict::refuted};
-    REQUIRE(result.claims.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-        CAPTURE(k);
-        CHECK(result.claims[k].verdict == expected[k]);
-        CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
-    }
+    check_verdicts(result, expected);
+    for (std::size_t k = 0; k < expected.size(); ++k) CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
 }
 
 // x² = l² has two branches; nothing says which.
@@ -335,11 +327,7 @@ m*x'' = 2*lambda_c1
 )", "claims.txt"), without_constraints(all, redundant_constraints(all)));
     const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
                                         Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
-    REQUIRE(result.claims.size() == expected.size());
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-        CAPTURE(k);
-        CHECK(result.claims[k].verdict == expected[k]);
-    }
+    check_verdicts(result, expected);
 }
 
 // Beyond the readable size the equations are in intermediate symbols z1, z2 …, which claims may name.
