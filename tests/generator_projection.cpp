@@ -88,6 +88,30 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
     CHECK(scenes >= 5);
 }
 
+TEST_CASE("projection: a run that went astray is forgotten before the next") {
+    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml")));
+    const Program program = choose(m, routh(m)).program;
+    const Module module = load(compile(emit(program).text, program.name, {}).object);
+    REQUIRE(module.projection() != nullptr);
+    const Start start = start_of(m);
+    Projection projection(module, start.parameters);
+    std::vector<double> home = start.q, lost;
+    for (const double rate : start.qdot) home.push_back(rate);
+    lost = home;
+    for (double& x : lost) x = 1e6 * (x + 1);
+    for (double& x : home) x += 1e-3;
+    std::vector<double> at = lost;
+    projection(0, at.data());
+    at = home;
+    projection(0, at.data());
+    CHECK(projection.is_near_singular());  // its row is small beside that of the lost one
+    projection.forget();
+    at = home;
+    projection(0, at.data());
+    CHECK_FALSE(projection.is_near_singular());
+    CHECK(projection.residual(0, at.data()) < 1e-12);
+}
+
 TEST_CASE("projection: gamma is the rate of A q' that keeps it, and the careful accelerations are the emitted ones") {
     const Mechanism m = build(read_scene(test::source_path("scenes/textbook/four_bar.toml")));
     const Program program = choose(m, routh(m)).program;

@@ -69,6 +69,7 @@ Measured Workbench::measure(Options options) {
     double sum = 0;
     Trajectory motion;
     do {
+        projection_.forget();
         motion = integrate(rhs_, parts_.initial, options);
         seconds.push_back(motion.statistics.seconds);
         sum += seconds.back();
@@ -103,6 +104,7 @@ void Workbench::kept(const Options& given, Measured& result) {
     };
     std::vector<double> initial = parts_.initial;
     if (work) initial.push_back(0);
+    projection_.forget();
     if (integrate(work ? with_work_ : rhs_, initial, options).failure) return;
     result.energy_drift = work ? drift.balance() : drift.energy();
     result.work = work;
@@ -113,6 +115,7 @@ std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
     Options options = given;
     options.sample = options.duration > 0 ? options.duration : 1;
     if (!parts_.derived.mechanism.constraints.empty()) options.project = std::ref(projection_);
+    projection_.forget();
     const Trajectory motion = integrate(rhs_, parts_.initial, options);
     if (motion.failure) return std::nullopt;
     return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(), parts_.derived.mechanism.q.size());

@@ -52,6 +52,10 @@ Modes::Modes(const Request& request, const Derived& derived, const Start& start,
 
 void Modes::take_free(Program program) { free_ = std::move(program); }
 
+void Modes::forget() {
+    for (auto& entry : loaded_) entry.second->projection.forget();
+}
+
 const LoadedMode& Modes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
     if (!mode) mode = made(closed);

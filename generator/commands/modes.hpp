@@ -58,6 +58,9 @@ public:
     /// Takes the program of the mode {} from one who has it.
     void take_free(Program program);
 
+    /// Before another run (Projection::forget).
+    void forget();
+
     struct Seconds {
         double derive = 0, emit = 0, compile = 0;  ///< processor time
     };

@@ -224,6 +224,7 @@ int simulate(const Request& request) {
     const Modes::Seconds before = modes.seconds();
     const double integrate_begin = process_seconds();
     const auto run = [&](const Options& with, const std::vector<double>& from) {
+        modes.forget();
         return follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, from, with);
     };
     const PhasedMotion motion = run(options, initial);

@@ -44,6 +44,11 @@ void Projection::evaluate(double t, const double* state) {
     module_.table().mass_forcing(t, state, par_.data(), mass_.data(), forcing_.data());
 }
 
+void Projection::forget() {
+    std::fill(largest_pivots_.begin(), largest_pivots_.end(), 0);
+    is_near_singular_ = false;
+}
+
 /// Of those that the emitted step has met.
 bool Projection::pivots_are_small() {
     bool small = false;

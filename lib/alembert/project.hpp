@@ -18,7 +18,7 @@
 /// B = A L⁻ᵀ, M = LLᵀ, and τ = 5e-5: directions that are held by less than τ are left to inertia, which carries the motion through on the
 /// branch that it is on. Forces Bᵀλ of whatever λ do no work in motions that obey the constraints; what strays from these in the moments
 /// where they do not hold is taken off, with its energy, which is of second order. Smaller τ would gain nothing: rounding of
-/// the positions, 1e-16, moves the rates that obey them by 1e-16/σ². One object serves one thread and one run.
+/// the positions, 1e-16, moves the rates that obey them by 1e-16/σ². One object serves one thread, and one run after the other.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -32,6 +32,9 @@ class Projection {
 public:
     explicit Projection(const Module& module, const std::vector<double>& values = {});
     void operator()(double t, double* state);
+
+    /// Before another run: what was large in the last one, which may have gone astray, is no measure for this one.
+    void forget();
 
     /// The largest |f| and |A q' + b| at a state.
     double residual(double t, const double* state);
