@@ -3,9 +3,9 @@
 
 /// (σ − J) x = b for real and complex shifts σ, what implicit Runge-Kutta methods solve at each step.
 ///
-///     Shifted<std::complex<double>> system(size);
-///     system.factor(J, second_order(J), mu / h);
-///     system.solve(b, x);
+///     Shifted<std::complex<double>> shifted(size);
+///     shifted.factor(J, second_order(J), mu / h);
+///     shifted.solve(b, x);
 ///
 /// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing that depends on W. Then q and W are
 /// eliminated and Gaussian elimination with row pivots is of half the size:
