@@ -306,6 +306,11 @@ private:
         std::string text = fmt::format("{} {} {}", static_cast<int>(x.kind), static_cast<int>(x.op), x.linear.size());
         for (const auto& [weight, a, b] : x.bilinear) text += a == b ? " s" : " p";
         if (x.kind == Kind::power) text += joined({piece(x.exponent, "")});
+        // Which positions hold the same argument: it is then from one pack in all lanes.
+        const std::vector<int> list = positions(id);
+        for (std::size_t k = 0; k < list.size(); ++k)
+            if (const auto same = std::find(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(k), list[k]) - list.begin(); same < static_cast<std::ptrdiff_t>(k))
+                text += fmt::format(" {}={}", k, same);
         return text;
     }
 
@@ -328,13 +333,20 @@ private:
 
     int level(int id) const { return levels_[id]; }
 
+    /// What the solve needs stands below what needs the solve: they are never lanes of one pack.
     void find_levels() {
-        int last_row = 0;
-        for (int id = 0; id < size(); ++id) {
-            int highest = node(id).kind == Kind::unknown ? last_row : 0;
-            for (const int arg : arguments(id)) highest = std::max(highest, levels_[arg]);
-            levels_.push_back(highest + 1);
-            if (node(id).kind == Kind::residual) last_row = std::max(last_row, highest + 1);
+        levels_.assign(static_cast<std::size_t>(size()), 0);
+        int solve = 0;
+        for (const bool is_known : {false, true}) {
+            for (int id = 0; id < size(); ++id) {
+                int highest = node(id).kind == Kind::unknown ? solve : 0;
+                for (const int arg : arguments(id)) highest = std::max(highest, levels_[arg]);
+                levels_[id] = highest + 1;
+            }
+            if (is_known) break;
+            for (const int id : r_.residuals) solve = std::max(solve, levels_[id]);
+            for (const SeriesEntry& e : r_.matrix)
+                if (e.node >= 0) solve = std::max(solve, levels_[e.node]);
         }
     }
 
@@ -891,7 +903,8 @@ private:
         };
         const auto ready = [&](int id) {
             if (node(id).kind == Kind::unknown) return solved;
-            const auto list = arguments(id);
+            std::vector<int> list = arguments(id);
+            for (const auto& [weight, m, a] : node(id).implied) list.push_back(m);  // its first coefficient is met at order 0 by the solve
             return std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
         };
         const auto finish = [&](int id) {
@@ -902,6 +915,10 @@ private:
             moved = false;
             for (int id = 0; id < size(); ++id) {
                 if (done[id] != 0 || !ready(id)) continue;
+                if (is_packed(id)) {
+                    const auto& lanes = packs_[place_[id].pack].nodes;
+                    if (!std::all_of(lanes.begin(), lanes.end(), ready)) continue;
+                }
                 moved = true;
                 if (!is_packed(id)) {
                     if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value(id, view(id))));
@@ -909,10 +926,6 @@ private:
                     continue;
                 }
                 const Pack& pack = packs_[place_[id].pack];
-                if (!std::all_of(pack.nodes.begin(), pack.nodes.end(), ready)) {
-                    moved = false;
-                    continue;
-                }
                 if (pack.by_lanes) {
                     for (const int lane : pack.nodes) lines.push_back(fmt::format("{} = {};", now(lane), value(lane, view(lane))));
                 } else {
