@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/real_state.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <functional>
 #include <random>
 #include <set>
-#include <sstream>
 
 namespace alembert {
 
@@ -16,165 +13,6 @@ using GiNaC::numeric;
 namespace {
 
 using Key = RealState::Key;
-
-/// fifty digits, for as long as it lives
-class Precision {
-public:
-    Precision() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
-    ~Precision() { GiNaC::Digits = former_; }
-    Precision(const Precision&) = delete;
-    Precision& operator=(const Precision&) = delete;
-
-private:
-    long former_;
-};
-
-struct Turned {
-    numeric cos = 1, sin = 0;
-};
-Turned operator*(const Turned& a, const Turned& b) {
-    return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
-}
-
-/// Σ c·variable + c·π, where an expression is that.
-struct Linear {
-    std::map<Key, Rational> angles;
-    Rational pi = 0;
-};
-
-class Evaluation {
-public:
-    Evaluation(const Program& program, const RealState& state) : p_(program), s_(state) {}
-
-    std::optional<std::vector<numeric>> run(const std::vector<int>& roots) {
-        value_.resize(p_.size());
-        for (const int id : p_.needed(roots)) {
-            const std::optional<numeric> value = of(id);
-            if (!value || !value->is_real()) return std::nullopt;
-            value_[id] = *value;
-        }
-        std::vector<numeric> result;
-        for (const int id : roots) result.push_back(value_[id]);
-        return result;
-    }
-
-private:
-    static numeric number(const Rational& r) { return numeric(cln::cl_N(r)); }
-
-    std::optional<numeric> of(int id) try {
-        const Node& node = p_[id];
-        const auto arg = [&](std::size_t k) -> const numeric& { return value_[node.args[k]]; };
-        switch (node.op) {
-            case Op::number: return number(node.number);
-            case Op::pi: return GiNaC::ex_to<numeric>(GiNaC::Pi.evalf());
-            case Op::variable: return s_.value.at({node.variable.kind, node.variable.index});
-            case Op::sum: {
-                numeric sum = number(node.number);
-                for (std::size_t k = 0; k < node.args.size(); ++k) sum += number(node.coefficients[k]) * arg(k);
-                return sum;
-            }
-            case Op::product: {
-                numeric product = 1;
-                for (std::size_t k = 0; k < node.args.size(); ++k) {
-                    if (node.exponents[k] < 0 && arg(k).is_zero()) return std::nullopt;
-                    product *= GiNaC::pow(arg(k), numeric(node.exponents[k]));
-                }
-                return product;
-            }
-            case Op::sin:
-            case Op::cos:
-            case Op::tan: {
-                if (const auto turn = turned(node.args[0])) {
-                    if (node.op == Op::tan && turn->cos.is_zero()) return std::nullopt;
-                    return node.op == Op::sin ? turn->sin : node.op == Op::cos ? turn->cos : turn->sin / turn->cos;
-                }
-                const numeric x = real(arg(0));
-                return node.op == Op::sin ? GiNaC::sin(x) : node.op == Op::cos ? GiNaC::cos(x) : GiNaC::tan(x);
-            }
-            case Op::sqrt: return GiNaC::sqrt(arg(0));  // exact for squares of fractions
-            case Op::abs: return GiNaC::abs(arg(0));
-            case Op::sign: return numeric(arg(0).csgn());
-            case Op::asin: return GiNaC::asin(real(arg(0)));
-            case Op::acos: return GiNaC::acos(real(arg(0)));
-            case Op::atan: return GiNaC::atan(real(arg(0)));
-            case Op::sinh: return GiNaC::sinh(real(arg(0)));
-            case Op::cosh: return GiNaC::cosh(real(arg(0)));
-            case Op::tanh: return GiNaC::tanh(real(arg(0)));
-            case Op::exp: return arg(0).is_zero() ? numeric(1) : GiNaC::exp(real(arg(0)));
-            case Op::log: return arg(0).is_positive() ? std::optional(GiNaC::log(real(arg(0)))) : std::nullopt;
-            case Op::pow: return GiNaC::pow(real(arg(0)), real(arg(1)));
-            case Op::atan2: return GiNaC::atan(real(arg(0)), real(arg(1)));
-            case Op::min: return std::min(arg(0), arg(1));
-            case Op::max: return std::max(arg(0), arg(1));
-        }
-        return std::nullopt;
-    } catch (const std::exception&) {  // a pole
-        return std::nullopt;
-    }
-
-    static numeric real(const numeric& x) { return GiNaC::ex_to<numeric>(GiNaC::ex(x).evalf()); }
-
-    std::optional<Linear> linear(int id) const {
-        const Node& node = p_[id];
-        Linear result;
-        if (node.op == Op::pi) {
-            result.pi = 1;
-            return result;
-        }
-        if (node.op == Op::variable) {
-            const Key key{node.variable.kind, node.variable.index};
-            if (!s_.angle.contains(key)) return std::nullopt;
-            result.angles[key] = 1;
-            return result;
-        }
-        if (node.op != Op::sum || !cln::zerop(node.number)) return std::nullopt;
-        for (std::size_t k = 0; k < node.args.size(); ++k) {
-            const auto part = linear(node.args[k]);
-            if (!part) return std::nullopt;
-            result.pi = result.pi + node.coefficients[k] * part->pi;
-            for (const auto& [key, c] : part->angles) {
-                Rational& to = result.angles.emplace(key, 0).first->second;
-                to = to + node.coefficients[k] * c;
-            }
-        }
-        return result;
-    }
-
-    std::optional<Turned> turned(int id) const {
-        const auto sum = linear(id);
-        if (!sum) return std::nullopt;
-        Turned result;
-        const auto turn = [&](Turned by, const Rational& times) {
-            if (cln::denominator(times) != 1 || cln::abs(times) > 1000) return false;
-            int count = cln::cl_I_to_int(cln::numerator(times));
-            if (count < 0) by.sin = -by.sin;
-            for (count = std::abs(count); count > 0; --count) result = result * by;
-            return true;
-        };
-        if (!turn({0, 1}, 2 * sum->pi)) return std::nullopt;
-        for (const auto& [key, c] : sum->angles) {
-            const RealState::Angle& angle = s_.angle.at(key);
-            if (angle.half_turn) {
-                if (!turn({0, 1}, 2 * c)) return std::nullopt;
-                continue;
-            }
-            const numeric below = 1 + angle.tangent * angle.tangent;
-            if (!turn({(1 - angle.tangent * angle.tangent) / below, 2 * angle.tangent / below}, c * (1 << s_.halves)))
-                return std::nullopt;
-        }
-        return result;
-    }
-
-    const Program& p_;
-    const RealState& s_;
-    std::vector<numeric> value_;
-};
-
-void put_angle(RealState& state, const Key& key, const RealState::Angle& angle) {
-    state.angle[key] = angle;
-    state.value[key] = angle.half_turn ? GiNaC::ex_to<numeric>(GiNaC::Pi.evalf())
-                                       : numeric(2 << state.halves) * GiNaC::atan(GiNaC::ex_to<numeric>(GiNaC::ex(angle.tangent).evalf()));
-}
 
 /// Variables in angles, and those outside.
 void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
@@ -260,49 +98,12 @@ void put(RealState& state, const Key& key, const numeric& x) {
         state.value[key] = x;
 }
 
-/// Newton's method for two conditions, in 50 digits; the derivatives from differences of 1e-25.
-bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
-    const std::array<Key, 2> keys{Key{step.variable.kind, step.variable.index}, Key{step.second->variable.kind, step.second->variable.index}};
-    const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
-    std::array<numeric, 2> x{numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)};
-    for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
-    const auto at = [&](const numeric& first, const numeric& second) {
-        put(state, keys[0], first);
-        put(state, keys[1], second);
-        return evaluate(motions.program(), state, {step.node, step.second->node});
-    };
-    for (int round = 0; round < 40; ++round) {
-        const auto f = at(x[0], x[1]), fx = at(x[0] + small, x[1]), fy = at(x[0], x[1] + small);
-        if (!f || !fx || !fy) return false;
-        const auto change = solve_rows({{((*fx)[0] - (*f)[0]) / small, ((*fy)[0] - (*f)[0]) / small, (*f)[0]},
-                                        {((*fx)[1] - (*f)[1]) / small, ((*fy)[1] - (*f)[1]) / small, (*f)[1]}}, 2);
-        if (!change) return false;
-        numeric length = 0;
-        for (std::size_t k = 0; k < 2; ++k) {
-            x[k] -= (*change)[k];
-            length += GiNaC::abs((*change)[k]);
-        }
-        if (length > 1000) return false;
-        if (length > GiNaC::pow(numeric(10), numeric(-45))) continue;
-        return at(x[0], x[1]).has_value();
-    }
-    return false;
-}
-
-/// Newton's method for all loose conditions together, in 50 digits; the shortest steps, of all coordinates in them.
-bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
-    const std::vector<int>& conditions = motions.loose();
-    std::set<Key> angles, plain;
-    find_variables(motions.program(), conditions, angles, plain);
-    std::vector<Key> keys;
-    for (const std::set<Key>* part : {&angles, &plain})
-        for (const Key& key : *part)
-            if (key.first == Variable::Kind::coordinate && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+/// Newton's method in 50 digits from `x`: derivatives from differences of 1e-25, steps of least length where there are more unknowns
+/// than conditions. Angles are moved by the tangent of their half.
+bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions, const std::vector<Key>& keys, std::vector<numeric> x) {
     const std::size_t rows = conditions.size();
     const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
-    std::vector<numeric> x;
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        x.push_back(GiNaC::ex_to<numeric>(GiNaC::ex(numeric(static_cast<int>((seed * 7 + i * 5) % 23) - 11, 9)).evalf()));
+    for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
     const auto at = [&](std::size_t moved) {
         for (std::size_t i = 0; i < keys.size(); ++i) put(state, keys[i], i == moved ? x[i] + small : x[i]);
         return evaluate(motions.program(), state, conditions);
@@ -310,7 +111,7 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     for (int round = 0; round < 60; ++round) {
         const auto f = at(keys.size());
         if (!f) return false;
-        std::vector<std::vector<numeric>> slopes;  // by coordinate
+        std::vector<std::vector<numeric>> slopes;  // by unknown
         for (std::size_t i = 0; i < keys.size(); ++i) {
             auto moved = at(i);
             if (!moved) return false;
@@ -336,6 +137,27 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
         if (length < GiNaC::pow(numeric(10), numeric(-45))) return at(keys.size()).has_value();
     }
     return false;
+}
+
+bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
+    return solve_together(motions, state, {step.node, step.second->node},
+                          {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
+                          {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
+}
+
+/// All loose conditions together, for all coordinates in them.
+bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
+    std::set<Key> angles, plain;
+    find_variables(motions.program(), motions.loose(), angles, plain);
+    angles.merge(plain);
+    std::vector<Key> keys;
+    std::vector<numeric> x;
+    for (const Key& key : angles) {
+        if (key.first != Variable::Kind::coordinate) continue;
+        x.emplace_back(static_cast<int>((seed * 7 + keys.size() * 5) % 23) - 11, 9);
+        keys.push_back(key);
+    }
+    return solve_together(motions, state, motions.loose(), keys, std::move(x));
 }
 
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
@@ -425,29 +247,6 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
 
 }  // namespace
 
-std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots) {
-    const Precision digits;
-    return Evaluation(program, state).run(roots);
-}
-
-std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>> rows, std::size_t columns) {
-    for (std::size_t c = 0; c < columns; ++c) {
-        std::size_t pivot = c;
-        for (std::size_t r = c + 1; r < rows.size(); ++r)
-            if (GiNaC::abs(rows[r][c]) > GiNaC::abs(rows[pivot][c])) pivot = r;
-        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30))) return std::nullopt;
-        std::swap(rows[c], rows[pivot]);
-        for (std::size_t r = 0; r < rows.size(); ++r) {
-            if (r == c || rows[r][c].is_zero()) continue;
-            const numeric factor = rows[r][c] / rows[c][c];
-            for (std::size_t k = c; k <= columns; ++k) rows[r][k] -= factor * rows[c][k];
-        }
-    }
-    std::vector<numeric> result;
-    for (std::size_t c = 0; c < columns; ++c) result.push_back(rows[c][columns] / rows[c][c]);
-    return result;
-}
-
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed) {
     if (!motions.obstacle().empty()) return std::nullopt;
     const Precision digits;
@@ -487,29 +286,6 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
     for (const auto& [key, value] : state.value) state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
     return state;
-}
-
-std::string text_of(const numeric& value) {
-    std::ostringstream stream;
-    if (value.is_rational()) {
-        stream << value;
-        return stream.str();
-    }
-    const long former = GiNaC::Digits;
-    GiNaC::Digits = 30;
-    stream << GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
-    GiNaC::Digits = former;
-    std::string text = stream.str();
-    std::replace(text.begin(), text.end(), 'E', 'e');
-    return text;
-}
-
-std::string text_of(const RealState& state, const Key& key) {
-    const auto angle = state.angle.find(key);
-    if (angle == state.angle.end()) return text_of(state.value.at(key));
-    if (angle->second.half_turn) return "pi";
-    if (angle->second.tangent.is_zero()) return "0";
-    return fmt::format("{}*atan({})", 2 << state.halves, text_of(angle->second.tangent));
 }
 
 }  // namespace alembert
