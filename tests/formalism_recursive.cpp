@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "analysis/agree.hpp"
+#include "emit/emit.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
@@ -328,6 +329,21 @@ TEST_CASE("recursive: the operations of articulated bodies grow linearly with th
     // The pattern of axes and branches repeats every three bodies.
     const int nine = operations(tree_in_space(9), LinkAxes::own), eighteen = operations(tree_in_space(18), LinkAxes::own), all = operations(tree_in_space(27), LinkAxes::own);
     CHECK(all - eighteen == eighteen - nine);
+}
+
+TEST_CASE("recursive: without the mass matrix, the same accelerations") {
+    for (const std::string& text : {chain(5), tree_in_space(6)}) {
+        const Mechanism m = from_text(text);
+        const Program expected = lower(m, lagrange(m), energy_of(m)), found = choose(m, recursive_without_matrix(m)).program;
+        CHECK(found.nodes_of("mass").empty());
+        CHECK(emit(found).text.find("void mass_forcing") == std::string::npos);
+        const std::vector<int> a = expected.nodes_of("acceleration"), b = found.nodes_of("acceleration");
+        REQUIRE(a.size() == b.size());
+        const auto x = evaluate_mod(expected, {.seed = 5}, a), y = evaluate_mod(found, {.seed = 5}, b);
+        REQUIRE(x);
+        REQUIRE(y);
+        for (std::size_t i = 0; i < a.size(); ++i) CHECK(x->value[a[i]] == y->value[b[i]]);
+    }
 }
 
 TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, with and without regrouped bodies") {

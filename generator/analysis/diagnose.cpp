@@ -35,8 +35,9 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const st
 }  // namespace
 
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
-    const std::vector<double> value = interpret(program, state);
     const std::vector<int> lower = program.nodes_of("mass");
+    if (lower.empty()) return std::nullopt;  // of a tree, whose joints are resisted one by one
+    const std::vector<double> value = interpret(program, state);
     std::vector<std::string> names;
     for (const Quantity& speed : program.speeds) names.push_back(speed.name);
     for (const Quantity& q : program.coordinates)

@@ -38,7 +38,7 @@ Json reactions_of(const Mechanism& m, const Json& outputs) {
 }  // namespace
 
 int eval(const Request& request) {
-    Derived d = derived(request, Use::run);
+    Derived d = derived(request, Use::asked);
     Program program = lowered(d, request).program;
     const Overrides overrides = overrides_of(request);
     Start start = start_of(d.mechanism, overrides);

@@ -109,7 +109,7 @@ int inverse(const Request& request) {
     of_state.at.clear();
     std::vector<std::string> accelerations;
     for (const std::string& item : request.at) (item.substr(0, item.find('=')).ends_with("''") ? accelerations : of_state.at).push_back(item);
-    const Derived d = derived(of_state, Use::run);
+    const Derived d = derived(of_state, Use::asked);
     const Mechanism& m = d.mechanism;
     std::vector<std::optional<double>> given(m.q.size());
     of_state.at.swap(accelerations);

@@ -22,6 +22,7 @@
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/joint_tree.hpp"
+#include "formalism/recursive.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -47,10 +48,11 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
 }
 
 constexpr int many_pairs = 128;  // of bodies above each other: 16 in a row
+constexpr int most_with_matrix = 80;  // joints; of more, M would be most of what is derived, emitted and compiled
 
 /// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are as many operations for
 /// all formalisms but articulated bodies.
-std::optional<Equations> recursive_for_large_trees(const Mechanism& m) {
+std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
     if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m)) return {};
     try {
         const JointTree tree = joint_tree(m);
@@ -61,6 +63,7 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m) {
             pairs += depth.back();
         }
         if (pairs < many_pairs) return {};
+        if (use == Use::run && static_cast<int>(tree.joints.size()) > most_with_matrix) return recursive_without_matrix(m);
         return formalism("recursive").derive(m);
     } catch (const ModelError&) {  // it does not apply
         return {};
@@ -122,7 +125,7 @@ Derived derived(const Request& request, Use use) {
     if (request.reactions) add_reactions(mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
     std::optional<Equations> at_once;
-    if (use == Use::run && request.by.empty()) at_once = recursive_for_large_trees(mechanism);
+    if (use != Use::shown && request.by.empty()) at_once = recursive_for_large_trees(mechanism, use);
     Equations equations = at_once ? *std::move(at_once) : equations_by(request.by, mechanism);
     if (mechanism.speeds.empty() && !equations.poles.empty())
         std::cerr << "warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
@@ -156,7 +159,9 @@ Choice lowered(const Derived& d, const Request& request) {
 
 std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
     if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
-    const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism));
+    LowerOptions options;
+    if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
+    const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
                            *combination);

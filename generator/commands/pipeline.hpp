@@ -24,8 +24,9 @@ struct Derived {
 /// for a mass or a principal moment that is negative there.
 void check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& overrides);
 
-/// What equations are for: to be read (without --by the ones that a teacher would choose) or to be run.
-enum class Use { shown, run };
+/// What equations are for: to be read (without --by the ones that a teacher would choose), to be run, or to be asked for numbers at
+/// a state, M among them.
+enum class Use { shown, run, asked };
 
 /// Reads, builds and derives. To be run, a large tree of joints gets the recursive equations at once, which are the fastest there. Prints the scene's warnings to standard error. Throws what the stages throw;
 /// ModelError for a formalism that does not exist or does not apply.

@@ -66,7 +66,11 @@ public:
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
         mustache::data file;
-        functions << prepare() << right_hand_side() << mass_forcing() << energy() << list("output") << list("event") << constraints()
+        functions << prepare() << right_hand_side();
+        const bool has_matrix = !p_.nodes_of("mass").empty();
+        if (has_matrix) functions << mass_forcing();
+        file.set("has_matrix", has_matrix);
+        functions << energy() << list("output") << list("event") << constraints()
                   << multipliers();
         add_projection(functions, file);
         add_derivatives(functions, file);
@@ -86,7 +90,9 @@ public:
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
         file.set("batch", options_.batch);
-        file.set("one_by_one", p_.count(joined(p_.nodes_of("mass"), p_.nodes_of("forcing"))).total() > most_for_packs);
+        const bool one_by_one = p_.count(joined(p_.nodes_of("mass"), p_.nodes_of("forcing"))).total() > most_for_packs;
+        file.set("one_by_one", one_by_one);
+        file.set("together", has_matrix && !one_by_one);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
         file.set("output_names", quoted(joined(labels("output"), labels("speed"))));

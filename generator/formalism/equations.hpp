@@ -26,7 +26,7 @@ struct Equations {
     std::string formalism;                ///< as in --by: "lagrange"
     std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates unless there is an h
     std::vector<GiNaC::symbol> udot;      ///< the unknowns
-    GiNaC::matrix M;                      ///< n×n, symmetric
+    GiNaC::matrix M;                      ///< n×n, symmetric; no rows where it is left out (recursive_without_matrix)
     std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
     std::vector<GiNaC::ex> dissipative;   ///< generalized forces of dampers
     std::vector<GiNaC::ex> applied;       ///< all other generalized forces

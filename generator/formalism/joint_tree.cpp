@@ -53,7 +53,7 @@ public:
 private:
     Named named(const ex& e) { return {e, z_}; }
     NamedVector named(const Vector3& v) { return {named(v[0]), named(v[1]), named(v[2])}; }
-    bool moves(const ex& e) const { return m_.z->depends(e, m_.moving()); }
+    bool moves(const ex& e) const { return m_.z->depends(e, moving_); }
 
     [[noreturn]] void refuse(const std::string& why) const { throw ModelError("the recursive formalism goes from body to body along joints: " + why); }
 
@@ -214,11 +214,13 @@ private:
         std::vector<std::pair<NamedVector, ex>> slides;  // direction along the frame's axes, position
         std::array<ex, 3> rest;
         for (int k = 0; k < 3; ++k) rest[k] = moves(step.offset[k]) ? z_.expand(step.offset[k]) : step.offset[k];
-        for (int i = 0; i < m_.size(); ++i) {
+        std::array<bool, 3> is_moved{};
+        for (int k = 0; k < 3; ++k) is_moved[k] = moves(step.offset[k]);
+        for (int i = 0; i < m_.size() && (is_moved[0] || is_moved[1] || is_moved[2]); ++i) {
             NamedVector direction{0, 0, 0};
             bool any = false;
             for (int k = 0; k < 3; ++k) {
-                if (!moves(step.offset[k]) || !rest[k].has(m_.q[i])) continue;
+                if (!is_moved[k] || !rest[k].has(m_.q[i])) continue;
                 const ex slope = rest[k].diff(m_.q[i]);
                 if (moves(slope)) refuse(fmt::format("{} is on a point shifted by '{}', which is not linear in the coordinates; place it by frames or joints, or use --by lagrange or kane", label_, shown(step.offset[k])));
                 direction[k] = named(slope);
@@ -292,6 +294,7 @@ private:
 
     const Mechanism& m_;
     Intermediates& z_;
+    const std::vector<GiNaC::symbol> moving_ = m_.moving();
     JointTree tree_;
     std::string label_;
     std::map<int, Fixed> fixed_;

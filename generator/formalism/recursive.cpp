@@ -29,6 +29,13 @@ JointTree loaded_tree(const Mechanism& m) {
     return joints;
 }
 
+Equations recursive_without_matrix(const Mechanism& m) {
+    Equations equations = equations_without_terms("recursive", m);
+    equations.M = GiNaC::matrix(0, 0);
+    equations.tree = std::make_shared<const JointTree>(loaded_tree(m));
+    return equations;
+}
+
 Equations recursive(const Mechanism& m) {
     check_masses_known(m, "The recursive equations");
     JointTree joints = joint_tree(m);

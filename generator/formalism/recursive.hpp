@@ -13,6 +13,10 @@ namespace alembert {
 /// Throws ModelError for a scene that is no tree of links with joints (see joint_tree.hpp), with what is missing.
 Equations recursive(const Mechanism& mechanism);
 
+/// The tree alone, for what is made by articulated bodies or from both ends of a chain: M, and with it all that has as many
+/// elements, is left out (Equations::M has no rows). For trees of hundreds of joints without constraints.
+Equations recursive_without_matrix(const Mechanism& mechanism);
+
 /// The tree with all forces but gravity's along its coordinates: what is needed where M is not.
 JointTree loaded_tree(const Mechanism& mechanism);
 

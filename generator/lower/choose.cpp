@@ -113,7 +113,8 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
         intermediate.formalism += ", intermediate symbols";
         programs.push_back({lower(m, intermediate, energy, options)});
     }
-    if (const std::optional<Equations> textbook = textbook_equations(m, equations))
+    const bool has_matrix = equations.M.rows() > 0;
+    if (const std::optional<Equations> textbook = has_matrix ? textbook_equations(m, equations) : std::nullopt)
         programs.push_back({lower(m, *textbook, readable_energy(m, energy), options)});
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
@@ -123,6 +124,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
             const RecursionForm form{axes, solve};
             if (axes == LinkAxes::still && !parallel) continue;
             if (axes == LinkAxes::own && parallel && equations.tree->joints.size() > many_joints) continue;
+            if (solve == Solve::matrix && !has_matrix) continue;
             if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree))) continue;
             // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
             if (solve != Solve::matrix ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
@@ -136,6 +138,8 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
                 // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
             }
         }
+    if (programs.size() == before && !has_matrix)
+        throw ModelError("no inertia resists some motion of the joints; give every body a mass and moments of inertia");
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
 }
 

@@ -302,7 +302,7 @@ std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const 
 }  // namespace
 
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes) {
-    if (program.singular) return std::nullopt;
+    if (program.singular || program.nodes_of("mass").empty()) return std::nullopt;
     const Route* best = nullptr;
     Operations fewest;
     const bool is_large = program.count(program.right_hand_side()).total() > few_operations;

@@ -37,7 +37,7 @@ struct Differentiated {
     std::string route;      ///< "implicit, least fill" and so on: which was the shortest
 };
 
-/// Nothing where the program is singular, or where its derivatives would be larger than the budget.
+/// Nothing where the program is singular or has no M, or where its derivatives would be larger than the budget.
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes = {});
 
 }  // namespace alembert

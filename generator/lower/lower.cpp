@@ -306,7 +306,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     define_rates(lowering, program, m, equations, udot);
 
     std::vector<ex> wanted{energy.kinetic, energy.potential, energy.energy, energy.jacobi};
-    const bool recursive = options.recursion && equations.tree;
+    const bool recursive = options.recursion && equations.tree, has_matrix = equations.M.rows() > 0;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j <= i && !recursive; ++j) wanted.push_back(equations.M(i, j));
         wanted.push_back(recursive ? equations.tree->forces[i] : equations.forcing(i));
@@ -349,8 +349,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     };
     std::vector<int> mass, forcing;
     RecursionNodes by_tree;
-    if (recursive) by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, [&](const ex& e) { return lowering(e); });
-    for (int i = 0; i < n; ++i)
+    if (recursive) by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, has_matrix, [&](const ex& e) { return lowering(e); });
+    for (int i = 0; i < n && has_matrix; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
             std::vector<Program::Term> terms{{1, recursive ? by_tree.mass[i * (i + 1) / 2 + j] : lowering(equations.M(i, j))}};
@@ -359,7 +359,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
             mass.push_back(program.sum(0, terms));
             program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < n && has_matrix; ++i) {
         blame_row(i);
         std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : lowering(equations.forcing(i))}};
         for (const auto& [c, row, gamma] : norms)
@@ -391,6 +391,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.roots.push_back({"position", constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
         program.roots.push_back({"velocity", constraint.name, program.sum(0, velocity)});
     }
+    if (!has_matrix && !by_tree.acceleration)
+        throw ModelError("the rates of the joints do not determine those of the coordinates; take --by recursive");
     if (const auto solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration : solve_symmetric(program, mass, forcing, n)) {
         for (int i = 0; i < n; ++i) program.roots.push_back({"acceleration", fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)

@@ -6,7 +6,7 @@
 ///     const Program program = lower(mechanism, equations, energy_of(mechanism));
 ///     program.nodes_of("acceleration");
 ///
-/// Groups of roots: "mass" (lower triangle, row by row), "forcing", "acceleration", "kinetic", "potential",
+/// Groups of roots: "mass" (lower triangle, row by row) and "forcing", unless the equations have no M; "acceleration", "kinetic", "potential",
 /// "energy", "power", "jacobi", "output", "event"; of constraints "row" (A, n each), "position", "velocity", "gamma" (of those
 /// with a multiplier), "multiplier"; where the speeds are the rates "projected" (q, q' at the constraints), "pivot" (solve.hpp); of a scene with speeds "speed", "speed_rate".
 /// Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u',

@@ -114,7 +114,7 @@ std::string RecursionForm::text() const {
     return name + (axes == LinkAxes::still ? ", parallel axes" : "");
 }
 
-RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
+RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form, bool with_matrix,
                          const std::function<int(const GiNaC::ex&)>& lowering) {
     const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
     const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
@@ -132,15 +132,17 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
     std::vector<int> Q;
     for (const GiNaC::ex& force : joints.forces) Q.push_back(lowering(force));
     const Bias<Symbolic> bias(tree);
-    const std::vector<std::vector<Symbolic>> M = composite_bodies(tree);
     const std::vector<int> n = nodes(joint_loads(tree, bias.wrenches));
-
-    std::vector<std::vector<int>> full(M.size(), std::vector<int>(M.size(), program.number(0)));
     std::vector<int> lower;
-    for (std::size_t j = 0; j < M.size(); ++j)
-        for (std::size_t i = 0; i <= j; ++i) lower.push_back(full[j][i] = full[i][j] = M[j][i].node(program));
-    RecursionNodes result{.mass = change.mass(full), .forcing = change.forces(n)};
-    for (std::size_t a = 0; a < Q.size(); ++a) result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
+    RecursionNodes result;
+    if (with_matrix) {
+        const std::vector<std::vector<Symbolic>> M = composite_bodies(tree);
+        std::vector<std::vector<int>> full(M.size(), std::vector<int>(M.size(), program.number(0)));
+        for (std::size_t j = 0; j < M.size(); ++j)
+            for (std::size_t i = 0; i <= j; ++i) lower.push_back(full[j][i] = full[i][j] = M[j][i].node(program));
+        result = {.mass = change.mass(full), .forcing = change.forces(n)};
+        for (std::size_t a = 0; a < Q.size(); ++a) result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
+    }
     if (!change.determines()) return result;
     const std::vector<int> loads = change.loads(Q);
     if (form.solve == RecursionForm::Solve::articulated) {

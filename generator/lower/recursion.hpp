@@ -15,13 +15,14 @@
 namespace alembert {
 
 struct RecursionNodes {
-    std::vector<int> mass, forcing;                       ///< in coordinates; mass: lower triangle by rows
+    std::vector<int> mass, forcing;                       ///< in coordinates; mass: lower triangle by rows; both empty if not wanted
     std::optional<std::vector<int>> acceleration = {};    ///< q''; nothing where the joints' rates do not
                                                           ///< determine the coordinates', or the form is not one of this tree
 };
 
 /// `lowering` gives the node of an expression. Sources of nodes are left as they are.
-RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form,
+/// Without `with_matrix` the form is one that needs none.
+RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form, bool with_matrix,
                          const std::function<int(const GiNaC::ex&)>& lowering);
 
 /// The loads along the coordinates that accelerations q'' need beside those of the tree: Newton-Euler outwards at these

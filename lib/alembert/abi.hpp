@@ -39,7 +39,7 @@ struct alembert_solver_table {
     const double* parameter_values;  ///< the scene's own values, p of them
     void (*prepare)(double* par);
     void (*rhs)(double t, const double* state, const double* par, double* rate);
-    /// mass: s×s symmetric, forcing: s; M u' = f + Aᵀλ.
+    /// mass: s×s symmetric, forcing: s; M u' = f + Aᵀλ. Null for trees of so many joints that M would be most of the file.
     void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
     /// `rate` as from `rhs` at the same t and state; energy: T, V, E, power; jacobi: one number.
     void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
