@@ -102,10 +102,18 @@ public:
         return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
     }
 
-    /// Moves the end of an attempt back to where it belongs (to its constraints); the rate there is made anew.
+    /// Moves the end of an attempt back to where it belongs (to its constraints), and makes the rate anew. What is there already stays,
+    /// with what rounding has left of it.
     void correct(const std::function<void(double t, double* state)>& project) {
+        std::copy_n(real(next_), rhs_.dimension, real(trial_));
         project(end_, real(next_));
-        std::fill_n(lanes(next_rest_), blocks_, Lane{});
+        bool moved = false;
+        for (int i = 0; i < rhs_.dimension; ++i) {
+            if (real(next_)[i] == real(trial_)[i]) continue;
+            real(next_rest_)[i] = 0;
+            moved = true;
+        }
+        if (!moved) return;
         if constexpr (last_stage_in_estimate()) rate_into(stages, end_, real(next_));
     }
 
