@@ -182,14 +182,27 @@ private:
         ++evaluations_;
     }
 
-    /// Σ_j weight_j k_j of block b, j running over the non-zero weights; `Row` gives weight j as a constant.
-    template <class Row>
+    /// Σ_j weight_j k_j of block b, j running over the non-zero weights; `Row` gives weight j as a constant. `fresh` is the stage that
+    /// has just been written, number by number: a load of two would wait until these have left for the cache.
+    template <class Row, int fresh = -1>
     void weighted_sum(int b, Lane& sum) const {
         sum = Lane{};
         repeat<tableau.all_stages>([&]<int j>() {
             constexpr double weight = Row::weight(j);
-            if constexpr (weight != 0) sum += weight * stage(j)[b];
+            if constexpr (weight != 0 && j == fresh)
+                sum += weight * loaded_singly(real(stage(j)) + width * b);
+            else if constexpr (weight != 0)
+                sum += weight * stage(j)[b];
         });
+    }
+
+    static Lane loaded_singly(const double* from) {
+        double first = from[0], second = from[1];
+#if defined(__x86_64__)
+        __asm__("" : "+x"(first));
+        __asm__("" : "+x"(second));
+#endif
+        return Lane{first, second};
     }
 
     template <int i>
@@ -209,7 +222,7 @@ private:
     void evaluate() {
         for (int b = 0; b < blocks_; ++b) {
             Lane sum;
-            weighted_sum<StageRow<i>>(b, sum);
+            weighted_sum<StageRow<i>, i - 1>(b, sum);
             lanes(trial_)[b] = lanes(y_)[b] + (h_ * sum + lanes(rest_)[b]);
         }
         rate_into(i, t_ + tableau.c[i] * h_, real(trial_));
@@ -219,7 +232,7 @@ private:
     void add_up() {
         for (int b = 0; b < blocks_; ++b) {
             Lane sum;
-            weighted_sum<StageRow<stages>>(b, sum);
+            weighted_sum<StageRow<stages>, stages - 1>(b, sum);
             const Lane y = lanes(y_)[b];
             const Lane change = h_ * sum + lanes(rest_)[b];
             const Lane next = y + change;
