@@ -87,15 +87,11 @@ public:
     }
 
     double misfit() {
-        for (int b = 0; b < blocks_; ++b) {
-            weighted_sum<ErrorRow<0>>(b, lanes(error_)[b]);
-            if constexpr (tableau.error_rows == 2) weighted_sum<ErrorRow<1>>(b, lanes(trial_)[b]);
-        }
+        for (int b = 0; b < blocks_; ++b) lanes(error_)[b] = squared_error(b);
         double largest = 0;
         double zero = 0;
         for (int i = 0; i < controlled_; ++i) {
-            const double square = squared_error(i);
-            real(error_)[i] = square;
+            const double square = real(error_)[i];
             largest = std::max(largest, square);
             zero += (square + end_state()[i]) * 0;
         }
@@ -242,15 +238,25 @@ private:
         }
     }
 
-    /// From the sums that `misfit` has left, in units of max(1, |y_i|).
-    double squared_error(int i) const {
-        const double scale = h_ / std::max({1.0, std::abs(state()[i]), std::abs(end_state()[i])});
-        const double error = real(error_)[i] * scale;
-        const double square = error * error;
-        if constexpr (tableau.error_rows == 1) return square;
-        const double third = real(trial_)[i] * scale;
-        constexpr double tiny = 1e-300;  // 0/0 is 0
-        return square * (square / (square + 0.01 * third * third + tiny));
+    static Lane larger(const Lane& a, const Lane& b) { return a > b ? a : b; }
+
+    /// Of block b, in units of max(1, |y_i|).
+    Lane squared_error(int b) const {
+        const Lane y = lanes(y_)[b], next = lanes(next_)[b];
+        const Lane scale = h_ / larger(larger(larger(y, -y), larger(next, -next)), Lane{} + 1);
+        Lane error;
+        weighted_sum<ErrorRow<0>>(b, error);
+        error *= scale;
+        const Lane square = error * error;
+        if constexpr (tableau.error_rows == 1) {
+            return square;
+        } else {
+            Lane third;
+            weighted_sum<ErrorRow<1>>(b, third);
+            third *= scale;
+            constexpr double tiny = 1e-300;  // 0/0 is 0
+            return square * (square / (square + 0.01 * third * third + tiny));
+        }
     }
 
     bool is_finite(const double* values) const {
