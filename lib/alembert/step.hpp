@@ -178,18 +178,26 @@ private:
         ++evaluations_;
     }
 
-    /// Σ_j weight_j k_j of block b, j running over the non-zero weights; `Row` gives weight j as a constant. `fresh` is the stage that
-    /// has just been written, number by number: a load of two would wait until these have left for the cache.
-    template <class Row, int fresh = -1>
+    /// Σ_j weight_j k_j of block b, j running over the non-zero weights; `Row` gives weight j as a constant.
+    template <class Row>
     void weighted_sum(int b, Lane& sum) const {
         sum = Lane{};
         repeat<tableau.all_stages>([&]<int j>() {
             constexpr double weight = Row::weight(j);
-            if constexpr (weight != 0 && j == fresh)
-                sum += weight * loaded_singly(real(stage(j)) + width * b);
-            else if constexpr (weight != 0)
-                sum += weight * stage(j)[b];
+            if constexpr (weight != 0) sum += weight * stage(j)[b];
         });
+    }
+
+    /// rest + h Σ_j weight_j k_j of block b. Stage `fresh` has just been written and is what everything waits for: it enters last, and is
+    /// loaded number by number, as a load of two would wait until these have left for the cache.
+    template <class Row, int fresh>
+    Lane change(int b) const {
+        Lane sum;
+        weighted_sum<Without<Row, fresh>>(b, sum);
+        const Lane known = h_ * sum + lanes(rest_)[b];
+        constexpr double weight = Row::weight(fresh);
+        if constexpr (weight == 0) return known;
+        return known + (h_ * weight) * loaded_singly(real(stage(fresh)) + width * b);
     }
 
     static Lane loaded_singly(const double* from) {
@@ -205,6 +213,10 @@ private:
     struct StageRow {
         static constexpr double weight(int j) { return tableau.a[i][static_cast<std::size_t>(j)]; }
     };
+    template <class Row, int fresh>
+    struct Without {
+        static constexpr double weight(int j) { return j == fresh ? 0 : Row::weight(j); }
+    };
     template <int i>
     struct ErrorRow {
         static constexpr double weight(int j) { return tableau.e[i][static_cast<std::size_t>(j)]; }
@@ -216,25 +228,19 @@ private:
 
     template <int i>
     void evaluate() {
-        for (int b = 0; b < blocks_; ++b) {
-            Lane sum;
-            weighted_sum<StageRow<i>, i - 1>(b, sum);
-            lanes(trial_)[b] = lanes(y_)[b] + (h_ * sum + lanes(rest_)[b]);
-        }
+        for (int b = 0; b < blocks_; ++b) lanes(trial_)[b] = lanes(y_)[b] + change<StageRow<i>, i - 1>(b);
         rate_into(i, t_ + tableau.c[i] * h_, real(trial_));
     }
 
     /// y₁ + rest₁ = y + (rest + h Σ b_j k_j), by Knuth's exact sum of two doubles.
     void add_up() {
         for (int b = 0; b < blocks_; ++b) {
-            Lane sum;
-            weighted_sum<StageRow<stages>, stages - 1>(b, sum);
             const Lane y = lanes(y_)[b];
-            const Lane change = h_ * sum + lanes(rest_)[b];
-            const Lane next = y + change;
+            const Lane added = change<StageRow<stages>, stages - 1>(b);
+            const Lane next = y + added;
             const Lane taken = next - y;
             lanes(next_)[b] = next;
-            lanes(next_rest_)[b] = (y - (next - taken)) + (change - taken);
+            lanes(next_rest_)[b] = (y - (next - taken)) + (added - taken);
         }
     }
 
