@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <kainjow/mustache.hpp>
 #include <map>
@@ -17,6 +18,7 @@
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "emit/templates.hpp"
+#include "emit/timely.hpp"
 #include "emit/writer.hpp"
 #include "lower/recurrence.hpp"
 #include "lower/solve.hpp"
@@ -49,6 +51,8 @@ std::string exact_text(const Rational& value) {
 constexpr std::size_t least_lanes = 4;   // of a pack
 // Measured on chains, planets and a governor; 1 is what a step takes beside its series.
 constexpr double operation_cost = 0.0008, product_cost = 0.0055;
+constexpr double operation_time = 4, gathering_time = 15;  // cycles
+constexpr int orders_to_settle = 12;     // of dependences that go from order to order
 constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
@@ -79,6 +83,7 @@ public:
         };
         const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
         set("first", order_zero());
+        find_times();
         set("given", given());
         set("gathering", gathering());
         set("chain", chain());
@@ -270,12 +275,10 @@ private:
                     if (rate && named_[arg].rate.empty()) named_[arg].rate = names_.fresh(named_[arg].now + "_times");
             }
         }
+        if (!has_edges()) return;
         for (const Lane& lane : lanes_in_order_)
-            for (const auto& factor : {std::pair(lane.a, lane.a_rate), std::pair(lane.b, lane.b_rate)})
-                if (has_edges() && !edges_.contains(factor)) {
-                    const std::string name = named_[factor.first].now + (factor.second ? "_rate" : "");
-                    edges_[factor] = {names_.fresh(name + "_one"), names_.fresh(name + "_before")};
-                }
+            for (const int id : {lane.a, lane.b})
+                if (!edges_.contains(id)) edges_[id] = {names_.fresh(named_[id].now + "_one"), names_.fresh(named_[id].now + "_before")};
     }
 
     static Lane lane_of(const Product& x) {
@@ -285,16 +288,8 @@ private:
     /// The first and the last term of each sum are added one by one: the coefficients of the order before need not come back from memory.
     bool has_edges() const { return lanes_in_order_.size() <= most_edges; }
 
-    /// The sum of a product over orders below k.
-    std::string inner_sum(const Product& product) const {
-        const Lane lane = lane_of(product);
-        const std::string middle = fmt::format("gathered[{}]", lanes_.at(lane));
-        if (!has_edges()) return middle;
-        const auto& [a_one, a_before] = edges_.at({lane.a, lane.a_rate});
-        const auto& [b_one, b_before] = edges_.at({lane.b, lane.b_rate});
-        if (a_one == b_one) return fmt::format("({} + Real(2) * {} * {})", middle, a_one, a_before);
-        return fmt::format("({} + {} * {} + {} * {})", middle, a_one, b_before, a_before, b_one);
-    }
+    /// The sum of a product over orders below k; where ends are added one by one, without these.
+    std::string inner_sum(const Product& product) const { return fmt::format("gathered[{}]", lanes_.at(lane_of(product))); }
 
     std::size_t lanes_padded() const { return (lanes_in_order_.size() + 7) / 8 * 8; }
 
@@ -869,6 +864,91 @@ private:
         }
     }
 
+    /// The coefficient of order k of a node that stands alone, where the ends of its sums of products are added one by one.
+    Timely timely(int id) {
+        const SeriesNode& x = node(id);
+        TimelySum sum;
+        const auto text = [this](const Weight& weight, const std::string& factor) { return piece(weight, factor); };
+        const auto add_now = [&](const Piece& factor, int arg) {
+            sum.terms.push_back({.factor = factor.text == "Real(1)" ? "" : factor.text, .late = now(arg), .ready = times_[0][arg], .negative = factor.negative});
+        };
+        const bool by_order = x.kind != Kind::sum && x.kind != Kind::residual && x.kind != Kind::quotient && x.kind != Kind::root;
+        if (by_order) sum.inner = "per_k";
+        if (const int of = divisor(id); of >= 0) sum.outer = (x.kind == Kind::root ? "Real(0.5) * " : "") + named_[of].inverse;
+
+        // All lanes of a row are read at once, when the last of them has been stored.
+        double gathered = 0;
+        for (const Lane& lane : lanes_in_order_) gathered = std::max({gathered, times_[2][lane.a] + gathering_time, times_[2][lane.b] + gathering_time});
+        for (const Product& product : products_[id]) {
+            const Lane lane = lane_of(product);
+            const Piece weight = text(product.weight, "");
+            sum.terms.push_back({.weight = weight.text == "Real(1)" ? "" : weight.text, .late = inner_sum(product), .ready = gathered, .is_inner = true, .negative = weight.negative});
+            const auto add_edge = [&](int one, int before, bool before_rate, const char* twice) {
+                const Piece weight = text(product.weight, before_rate ? "(number - Real(1))" : twice);
+                sum.terms.push_back({.weight = weight.text, .factor = edges_.at(one).first, .late = edges_.at(before).second, .ready = times_[1][before], .is_inner = true, .negative = weight.negative});
+            };
+            if (lane.a == lane.b && lane.a_rate == lane.b_rate) {
+                add_edge(lane.a, lane.a, lane.a_rate, "Real(2)");
+            } else {
+                add_edge(lane.a, lane.b, lane.b_rate, "");
+                add_edge(lane.b, lane.a, lane.a_rate, "");
+            }
+        }
+        for (const auto& [weight, a] : x.linear) add_now(text(weight, ""), a);
+        for (const auto& [weight, a, b] : x.bilinear) {
+            if (a == b) {
+                add_now(text(weight, "Real(2) * " + first(a)), a);
+            } else {
+                add_now(text(weight, first(a)), b);
+                add_now(text(weight, first(b)), a);
+            }
+        }
+        for (const auto& [weight, m, a] : x.implied) add_now(text(weight, first(a)), m);
+        const Weight plus{1, -1}, minus{-1, -1};
+        switch (x.kind) {
+            case Kind::quotient: add_now(text(minus, first(id)), x.w); break;
+            case Kind::root: case Kind::ratio: add_now(text(plus, ""), x.a); break;
+            case Kind::power: add_now(text(x.exponent, first(id)), x.a); break;
+            case Kind::cosine: add_now(text(minus, first(x.w)), x.a); break;
+            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area: add_now(text(plus, first(x.w)), x.a); break;
+            case Kind::exponential: add_now(text(plus, first(id)), x.a); break;
+            case Kind::turn:
+                add_now(text(plus, first(x.b)), x.a);
+                add_now(text(minus, first(x.a)), x.b);
+                break;
+            default: break;
+        }
+        return in_time(std::move(sum));
+    }
+
+    bool is_timely(int id) const { return has_edges() && !is_packed(id) && !products_[id].empty(); }
+
+    /// When each coefficient is ready, cycles after that of the first state: a few orders, one after the other.
+    void find_times() {
+        for (std::vector<double>& times : times_) times.assign(r_.nodes.size(), 0);
+        for (int order = 0; order < orders_to_settle; ++order) {
+            std::rotate(times_.begin(), times_.end() - 1, times_.end());
+            std::vector<double>& here = times_[0];
+            double solved = 0;
+            for (int id = 0; id < size(); ++id) {
+                const SeriesNode& x = node(id);
+                const int state = x.kind == Kind::coordinate ? x.index : x.kind == Kind::speed ? n_ + x.index : -1;
+                double latest = 0;
+                for (const int arg : arguments(id)) latest = std::max(latest, here[arg]);
+                if (state >= 0)
+                    here[id] = times_[1][rate_of(state)] + operation_time;
+                else if (x.kind == Kind::unknown)
+                    here[id] = solved + operation_time * 3 * static_cast<double>(r_.unknowns.size());
+                else
+                    here[id] = is_timely(id) ? timely(id).ready : latest + (is_packed(id) ? 4 : 1) * operation_time;
+                if (x.kind == Kind::residual) solved = std::max(solved, here[id]);
+            }
+            const double first_state = here.empty() ? 0 : here[0];
+            for (std::vector<double>& times : times_)
+                for (double& time : times) time -= first_state;
+        }
+    }
+
     /// Sums of products in packs: all of orders below k, needed by nothing but this order.
     Lines gathering() {
         Lines lines;
@@ -921,7 +1001,7 @@ private:
                 }
                 moved = true;
                 if (!is_packed(id)) {
-                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value(id, view(id))));
+                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), is_timely(id) ? timely(id).text : value(id, view(id))));
                     finish(id);
                     continue;
                 }
@@ -976,21 +1056,21 @@ private:
             lines.push_back(fmt::format("left[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.a, lane.a_rate)));
             lines.push_back(fmt::format("right[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.b, lane.b_rate)));
         }
-        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, scalar(factor.first, factor.second)));
+        for (const auto& [id, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, now(id)));
         return lines;
     }
 
     /// The first coefficients for the edges, half at order 1: the only term of order 2 is then counted once.
     Lines ones() const {
         Lines lines;
-        for (const auto& [factor, names] : edges_)
-            lines.push_back(fmt::format("{} = k == 1 ? Real(0.5) * {} : Real(2) * {};", names.first, scalar(factor.first, factor.second), names.first));
+        for (const auto& [id, names] : edges_)
+            lines.push_back(fmt::format("{} = k == 1 ? Real(0.5) * {} : Real(2) * {};", names.first, now(id), names.first));
         return lines;
     }
 
     Lines edges() const {
         Lines lines;
-        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("Real {} = 0, {} = 0;", names.first, names.second));
+        for (const auto& [id, names] : edges_) lines.push_back(fmt::format("Real {} = 0, {} = 0;", names.first, names.second));
         return lines;
     }
 
@@ -1070,10 +1150,11 @@ private:
     int columns_count_ = 0, single_count_ = 0;
     std::map<Lane, int> lanes_;
     std::vector<Lane> lanes_in_order_;
-    std::map<std::pair<int, bool>, std::pair<std::string, std::string>> edges_;  ///< coefficient of order 1, of the order before
+    std::map<int, std::pair<std::string, std::string>> edges_;  ///< of a factor: coefficient of order 1 (its rate's too), of the order before
     std::vector<Pack> packs_;
     std::vector<Place> place_;                    // of each node
     std::vector<int> levels_;
+    std::array<std::vector<double>, 3> times_;    ///< of each node, when it is ready at this order, the one before, and two before
     Lines weight_lines_;
 };
 
