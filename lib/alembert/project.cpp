@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_rounds = 8;  // Newton's method from the end of an accepted step needs one or two
 constexpr double small_change = 1e-8;  // its square is rounding
-constexpr double last_bit = 0x1p-52;
+constexpr double rounding = 0x1p-53;  // of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
@@ -100,7 +100,7 @@ bool Projection::unrolled(double t, double* state) {
             is_near_singular_ = true;
             return false;
         }
-        if ((!(size < former / 2) && size > 0) || std::max(changes[0], changes[1]) <= last_bit) return true;
+        if ((!(size < former / 2) && size > 0) || std::max(changes[0], changes[1]) <= rounding) return true;
         former = size;
         std::copy(moved_.begin(), moved_.end(), state);
         if (changes[0] < small_change) return true;

@@ -12,7 +12,7 @@
 /// (Hairer & Wanner, Solving ODEs II, §VII.2). The mass-weighted norm leaves the motion along the constraints alone. Where the speeds
 /// are not the rates, q' = S u + …, M and A S belong to the speeds: these are moved as above, and positions along S. Where the speeds
 /// have eliminated the holonomic constraints, Aₑ S = 0, these hold in speeds by themselves; positions are moved by Aₑ⁺ f, the least
-/// change in the plain metric. A step that would change no number by more than its last bit is not taken.
+/// change in the plain metric. A step that would not change the last bit of a number of size 1 is not taken.
 ///
 /// Where the file has it, its own unrolled step does that, for the price of a right-hand side. That divides by the pivots of A M⁻¹Aᵀ,
 /// which vanish as the square of the distance to a pose where rows of A vanish or depend on each other (linkages that lie flat). Where
