@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <kainjow/mustache.hpp>
 #include <map>
@@ -51,7 +50,7 @@ std::string exact_text(const Rational& value) {
 constexpr std::size_t least_lanes = 4;   // of a pack
 // Measured on chains, planets and a governor; 1 is what a step takes beside its series.
 constexpr double operation_cost = 0.0008, product_cost = 0.0055;
-constexpr double operation_time = 4, gathering_time = 15;  // cycles
+constexpr double operation_time = 4, packing_time = 16, gathering_time = 15, solving_time = 12;  // cycles
 constexpr int orders_to_settle = 12;     // of dependences that go from order to order
 constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
@@ -865,28 +864,27 @@ private:
     }
 
     /// The coefficient of order k of a node that stands alone, where the ends of its sums of products are added one by one.
-    Timely timely(int id) {
+    TimelySum timely(int id) {
         const SeriesNode& x = node(id);
         TimelySum sum;
-        const auto text = [this](const Weight& weight, const std::string& factor) { return piece(weight, factor); };
-        const auto add_now = [&](const Piece& factor, int arg) {
-            sum.terms.push_back({.factor = factor.text == "Real(1)" ? "" : factor.text, .late = now(arg), .ready = times_[0][arg], .negative = factor.negative});
+        const auto add_now = [&](const Weight& weight, const std::string& factor, int arg) {
+            const Piece outside = piece(weight, "");
+            sum.terms.push_back({.weight = outside.text == "Real(1)" ? "" : outside.text, .factor = factor, .late = now(arg), .ready = {.node = arg}, .negative = outside.negative});
         };
         const bool by_order = x.kind != Kind::sum && x.kind != Kind::residual && x.kind != Kind::quotient && x.kind != Kind::root;
         if (by_order) sum.inner = "per_k";
         if (const int of = divisor(id); of >= 0) sum.outer = (x.kind == Kind::root ? "Real(0.5) * " : "") + named_[of].inverse;
 
-        // All lanes of a row are read at once, when the last of them has been stored.
-        double gathered = 0;
-        for (const Lane& lane : lanes_in_order_) gathered = std::max({gathered, times_[2][lane.a] + gathering_time, times_[2][lane.b] + gathering_time});
         for (const Product& product : products_[id]) {
             const Lane lane = lane_of(product);
-            const Piece weight = text(product.weight, "");
-            sum.terms.push_back({.weight = weight.text == "Real(1)" ? "" : weight.text, .late = inner_sum(product), .ready = gathered, .is_inner = true, .negative = weight.negative});
-            const auto add_edge = [&](int one, int before, bool before_rate, const char* twice) {
-                const Piece weight = text(product.weight, before_rate ? "(number - Real(1))" : twice);
-                sum.terms.push_back({.weight = weight.text, .factor = edges_.at(one).first, .late = edges_.at(before).second, .ready = times_[1][before], .is_inner = true, .negative = weight.negative});
+            const auto add_part = [&](const std::string& times, const std::string& factor, const std::string& late, Moment ready) {
+                const Piece weight = piece(product.weight, times);
+                sum.terms.push_back({.weight = weight.text == "Real(1)" ? "" : weight.text, .factor = factor, .late = late, .ready = ready, .is_inner = true, .negative = weight.negative});
             };
+            const auto add_edge = [&](int one, int before, bool before_rate, const char* twice) {
+                add_part(before_rate ? "(number - Real(1))" : twice, edges_.at(one).first, edges_.at(before).second, {.node = before, .before = 1});
+            };
+            add_part("", "", inner_sum(product), {.node = size(), .before = 2, .delay = gathering_time});
             if (lane.a == lane.b && lane.a_rate == lane.b_rate) {
                 add_edge(lane.a, lane.a, lane.a_rate, "Real(2)");
             } else {
@@ -894,58 +892,61 @@ private:
                 add_edge(lane.b, lane.a, lane.a_rate, "");
             }
         }
-        for (const auto& [weight, a] : x.linear) add_now(text(weight, ""), a);
+        for (const auto& [weight, a] : x.linear) add_now(weight, "", a);
         for (const auto& [weight, a, b] : x.bilinear) {
-            if (a == b) {
-                add_now(text(weight, "Real(2) * " + first(a)), a);
-            } else {
-                add_now(text(weight, first(a)), b);
-                add_now(text(weight, first(b)), a);
-            }
+            add_now(weight, (a == b ? "Real(2) * " : "") + first(a), b);
+            if (a != b) add_now(weight, first(b), a);
         }
-        for (const auto& [weight, m, a] : x.implied) add_now(text(weight, first(a)), m);
+        for (const auto& [weight, m, a] : x.implied) add_now(weight, first(a), m);
         const Weight plus{1, -1}, minus{-1, -1};
         switch (x.kind) {
-            case Kind::quotient: add_now(text(minus, first(id)), x.w); break;
-            case Kind::root: case Kind::ratio: add_now(text(plus, ""), x.a); break;
-            case Kind::power: add_now(text(x.exponent, first(id)), x.a); break;
-            case Kind::cosine: add_now(text(minus, first(x.w)), x.a); break;
-            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area: add_now(text(plus, first(x.w)), x.a); break;
-            case Kind::exponential: add_now(text(plus, first(id)), x.a); break;
+            case Kind::quotient: add_now(minus, first(id), x.w); break;
+            case Kind::root: case Kind::ratio: add_now(plus, "", x.a); break;
+            case Kind::power: add_now(x.exponent, first(id), x.a); break;
+            case Kind::cosine: add_now(minus, first(x.w), x.a); break;
+            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area: add_now(plus, first(x.w), x.a); break;
+            case Kind::exponential: add_now(plus, first(id), x.a); break;
             case Kind::turn:
-                add_now(text(plus, first(x.b)), x.a);
-                add_now(text(minus, first(x.a)), x.b);
+                add_now(plus, first(x.b), x.a);
+                add_now(minus, first(x.a), x.b);
                 break;
             default: break;
         }
-        return in_time(std::move(sum));
+        return sum;
     }
 
-    bool is_timely(int id) const { return has_edges() && !is_packed(id) && !products_[id].empty(); }
+    std::string value_alone(int id) {
+        const auto sum = sums_.find(id);
+        return sum != sums_.end() ? sum->second.text(times_) : value(id, view(id));
+    }
 
-    /// When each coefficient is ready, cycles after that of the first state: a few orders, one after the other.
+    /// When each coefficient is ready: a few orders, one after the other.
     void find_times() {
-        for (std::vector<double>& times : times_) times.assign(r_.nodes.size(), 0);
+        for (int id = 0; id < size(); ++id)
+            if (has_edges() && !is_packed(id) && !products_[id].empty()) sums_.emplace(id, timely(id));
+        for (std::vector<double>& times : times_) times.assign(r_.nodes.size() + 1, 0);
         for (int order = 0; order < orders_to_settle; ++order) {
             std::rotate(times_.begin(), times_.end() - 1, times_.end());
             std::vector<double>& here = times_[0];
-            double solved = 0;
+            double solved = 0, stored = 0;
             for (int id = 0; id < size(); ++id) {
                 const SeriesNode& x = node(id);
                 const int state = x.kind == Kind::coordinate ? x.index : x.kind == Kind::speed ? n_ + x.index : -1;
-                double latest = 0;
-                for (const int arg : arguments(id)) latest = std::max(latest, here[arg]);
-                if (state >= 0)
+                if (state >= 0) {
                     here[id] = times_[1][rate_of(state)] + operation_time;
-                else if (x.kind == Kind::unknown)
-                    here[id] = solved + operation_time * 3 * static_cast<double>(r_.unknowns.size());
-                else
-                    here[id] = is_timely(id) ? timely(id).ready : latest + (is_packed(id) ? 4 : 1) * operation_time;
+                } else if (x.kind == Kind::unknown) {
+                    here[id] = solved + solving_time * static_cast<double>(r_.unknowns.size());
+                } else if (const auto sum = sums_.find(id); sum != sums_.end()) {
+                    here[id] = sum->second.ready(times_);
+                } else {
+                    double latest = 0;
+                    for (const int arg : arguments(id)) latest = std::max(latest, here[arg]);
+                    here[id] = latest + (is_packed(id) ? packing_time : operation_time);
+                }
                 if (x.kind == Kind::residual) solved = std::max(solved, here[id]);
             }
-            const double first_state = here.empty() ? 0 : here[0];
-            for (std::vector<double>& times : times_)
-                for (double& time : times) time -= first_state;
+            for (const Lane& lane : lanes_in_order_) stored = std::max({stored, here[lane.a], here[lane.b]});
+            here.back() = stored;  // a row is read as a whole, when the last of its lanes has been stored
         }
     }
 
@@ -1001,7 +1002,7 @@ private:
                 }
                 moved = true;
                 if (!is_packed(id)) {
-                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), is_timely(id) ? timely(id).text : value(id, view(id))));
+                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value_alone(id)));
                     finish(id);
                     continue;
                 }
@@ -1154,7 +1155,8 @@ private:
     std::vector<Pack> packs_;
     std::vector<Place> place_;                    // of each node
     std::vector<int> levels_;
-    std::array<std::vector<double>, 3> times_;    ///< of each node, when it is ready at this order, the one before, and two before
+    Times times_;                                 ///< of each node; then of a row of lanes
+    std::map<int, Timely> sums_;                  ///< of nodes that stand alone, where sums have edges
     Lines weight_lines_;
 };
 

@@ -2,13 +2,13 @@
 #include "emit/timely.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace alembert {
 
 namespace {
 
-constexpr double latency = 4;  // cycles of a multiplication with addition
-constexpr int most_apart = 8;     // values that enter by themselves
+constexpr double latency = 4;  // cycles of a multiplication, an addition, or both
 
 std::string product(const std::vector<std::string>& factors) {
     std::string text;
@@ -19,13 +19,39 @@ std::string product(const std::vector<std::string>& factors) {
 
 std::string grouped(const std::string& text) { return text.find(' ') == std::string::npos ? text : "(" + text + ")"; }
 
-struct Signed {
-    bool negative;
-    std::string text;
-};
+double time_of(const Times& times, const Moment& moment) {
+    return times[static_cast<std::size_t>(moment.before)][static_cast<std::size_t>(moment.node)] + moment.delay;
+}
+
+}  // namespace
+
+Timely::Timely(const TimelySum& sum) : outer_(sum.outer), inner_(sum.inner) {
+    for (const TimelyTerm& term : sum.terms) {
+        const auto same = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.late == term.late && g.factor == term.factor && g.is_inner == term.is_inner; });
+        Group& group = same != groups_.end() ? *same : groups_.emplace_back(Group{term.factor, term.late, term.ready, term.is_inner, {}});
+        group.weights.push_back({term.negative, term.weight});
+    }
+}
+
+std::vector<int> Timely::in_order(const Times& times) const {
+    std::vector<int> order(groups_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return time_of(times, groups_[a].ready) < time_of(times, groups_[b].ready); });
+    return order;
+}
+
+double Timely::ready(const Times& times) const {
+    double inner = 0, plain = 0;
+    for (const int k : in_order(times)) {
+        double& sum = groups_[k].is_inner ? inner : plain;
+        sum = std::max(sum, time_of(times, groups_[k].ready)) + latency;
+    }
+    if (inner > 0 && !inner_.empty()) inner += latency;
+    return std::max(inner, plain) + (outer_.empty() ? 0 : latency);
+}
 
 /// Begins with something that is not subtracted, where there is one.
-std::string joined(std::vector<Signed> pieces) {
+std::string Timely::joined(std::vector<Signed> pieces) {
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Signed& x) { return !x.negative; });
     if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);
     std::string text;
@@ -33,73 +59,49 @@ std::string joined(std::vector<Signed> pieces) {
     return text;
 }
 
-/// All terms with the same factor of the same late value.
-struct Group {
-    std::string factor, late;
-    double ready;
-    bool is_inner;
+/// Of one weight the sign goes outside; a sum of several is multiplied as a whole.
+Timely::Signed Timely::weight_of(const Group& group) {
+    if (group.weights.size() == 1) return group.weights[0];
+    std::vector<Signed> weights = group.weights;
+    for (Signed& weight : weights)
+        if (weight.text.empty()) weight.text = "Real(1)";
+    return {false, "(" + joined(weights) + ")"};
+}
+
+/// Terms with the same weight in one bracket.
+std::string Timely::together(const std::vector<const Group*>& groups) {
     std::vector<Signed> weights;
-};
-
-/// Of one term the sign goes outside; a sum of several is multiplied as a whole.
-Signed times(const std::string& scale, const Group& group, bool apart) {
-    const bool is_sum = group.weights.size() > 1;
-    const std::string factor = product({scale, is_sum ? "(" + joined(group.weights) + ")" : group.weights[0].text == "Real(1)" ? "" : group.weights[0].text, group.factor});
-    const std::string text = product({apart && !group.late.empty() ? grouped(factor) : factor, group.late});
-    return {!is_sum && group.weights[0].negative, text.empty() ? "Real(1)" : text};
-}
-
-/// The last `apart` of the groups, which are in the order in which they are ready, enter by themselves.
-Timely written(const TimelySum& sum, const std::vector<Group>& groups, std::size_t apart) {
-    const std::size_t together = groups.size() - apart;
-    std::vector<Signed> inner, plain;
-    double ready = 0;
-    for (std::size_t k = 0; k < together; ++k) {
-        const Group& group = groups[k];
-        (group.is_inner ? inner : plain).push_back(times("", group, false));
-        ready = std::max(ready, group.ready) + latency;
+    std::vector<std::vector<std::string>> terms;
+    for (const Group* group : groups) {
+        const Signed weight = weight_of(*group);
+        const auto same = std::find_if(weights.begin(), weights.end(), [&](const Signed& w) { return w.negative == weight.negative && w.text == weight.text; });
+        const auto place = static_cast<std::size_t>(same - weights.begin());
+        if (same == weights.end()) weights.push_back(weight), terms.emplace_back();
+        terms[place].push_back(product({group->factor, group->late}));
     }
-    // What is multiplied may be one product: then the factors can be multiplied before.
     std::vector<Signed> pieces;
-    if (!inner.empty()) {
-        const std::string scale = plain.empty() ? product({sum.outer, sum.inner}) : sum.inner;
-        pieces.push_back({false, scale.empty() ? joined(inner) : product({grouped(scale), grouped(joined(inner))})});
-        if (!scale.empty()) ready += latency;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        std::string sum;
+        for (const std::string& term : terms[k]) sum += (sum.empty() ? "" : " + ") + term;
+        if (weights[k].text.empty() && !weights[k].negative)
+            for (const std::string& term : terms[k]) pieces.push_back({false, term});
+        else
+            pieces.push_back({weights[k].negative, product({weights[k].text, terms[k].size() > 1 ? "(" + sum + ")" : sum})});
     }
-    if (!plain.empty()) {
-        pieces.insert(pieces.end(), plain.begin(), plain.end());
-        if (!sum.outer.empty()) {
-            pieces = {{false, product({sum.outer, grouped(joined(pieces))})}};
-            ready += latency;
-        }
-    }
-    for (std::size_t k = together; k < groups.size(); ++k) {
-        const Group& group = groups[k];
-        ready = std::max(ready, group.ready) + latency;
-        pieces.push_back(times(product({sum.outer, group.is_inner ? sum.inner : ""}), group, true));
-    }
-    // In this order: what comes first is added first.
-    std::string text;
-    for (const Signed& x : pieces) text += (text.empty() ? x.negative ? "-" : "" : x.negative ? " - " : " + ") + x.text;
-    return {text.empty() ? "Real(0)" : text, ready};
+    return joined(pieces);
 }
 
-}  // namespace
-
-Timely in_time(TimelySum sum) {
-    std::vector<Group> groups;
-    for (const TimelyTerm& term : sum.terms) {
-        const auto same = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.late == term.late && g.factor == term.factor && g.is_inner == term.is_inner; });
-        Group& group = same != groups.end() ? *same : groups.emplace_back(Group{term.factor, term.late, term.ready, term.is_inner, {}});
-        group.weights.push_back({term.negative, term.weight.empty() ? "Real(1)" : term.weight});
+std::string Timely::text(const Times& times) const {
+    std::vector<const Group*> inner, plain;
+    for (const int k : in_order(times)) (groups_[k].is_inner ? inner : plain).push_back(&groups_[k]);
+    if (plain.empty()) {
+        const std::string scale = product({outer_, inner_});
+        return scale.empty() ? together(inner) : product({grouped(scale), grouped(together(inner))});
     }
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.ready < b.ready; });
-    Timely best = written(sum, groups, 0);
-    for (std::size_t apart = 1; apart <= std::min<std::size_t>(groups.size(), most_apart); ++apart) {
-        if (groups[groups.size() - apart].late.empty()) break;
-        if (Timely other = written(sum, groups, apart); other.ready < best.ready) best = std::move(other);
-    }
-    return best;
+    std::string text = inner.empty() ? "" : inner_.empty() ? together(inner) : product({inner_, grouped(together(inner))});
+    const std::string rest = together(plain);
+    text += text.empty() ? rest : rest[0] == '-' ? " - " + rest.substr(1) : " + " + rest;
+    return outer_.empty() ? text : product({outer_, grouped(text)});
 }
 
 }  // namespace alembert
