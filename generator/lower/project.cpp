@@ -48,7 +48,9 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     if (kept.empty() && across.empty()) return;
 
     std::vector<std::pair<GiNaC::symbol, int>> given;
-    for (std::size_t k = 0; k < s && own_speeds; ++k) given.emplace_back(equations.u[k], program.variable({Variable::Kind::rate, static_cast<int>(k)}));
+    std::vector<int> u, change(s, program.number(0));
+    for (std::size_t k = 0; k < s; ++k) u.push_back(program.variable({Variable::Kind::rate, static_cast<int>(k)}));
+    for (std::size_t k = 0; k < s && own_speeds; ++k) given.emplace_back(equations.u[k], u[k]);
     const auto here = lowering_into(program, m, given, fold);
     std::vector<int> pivots(position.size(), program.number(0)), misfit, off;
     const auto solve = [&](const std::vector<int>& right) {
@@ -86,8 +88,6 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         given.emplace_back(m.q[i], program.sum(0, {{1, q}, {-1, off[i]}}));
         program.roots.push_back({"projected", m.q[i].get_name(), given.back().second});
     }
-    std::vector<int> u, change(s, program.number(0));
-    for (std::size_t k = 0; k < s; ++k) u.push_back(program.variable({Variable::Kind::rate, static_cast<int>(k)}));
     if (!kept.empty()) {
         const auto there = lowering_into(program, m, given, fold);
         const std::vector<int> rates = own_speeds ? lowered(there, equations.h) : u;
@@ -96,8 +96,10 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
             misfit.push_back(dot(program, lowered(there, row_of(k)), rates, there(m.constraints[kept[k]].drift)));
         change = solve(misfit);
     }
-    for (std::size_t k = 0; k < s; ++k)
-        program.roots.push_back({"projected", own_speeds ? equations.u[k].get_name() : m.q[k].get_name() + "'", program.sum(0, {{1, u[k]}, {-1, change[k]}})});
+    for (std::size_t k = 0; k < s; ++k) {
+        const std::string name = own_speeds ? equations.u[k].get_name() : m.q[k].get_name() + "'";
+        program.roots.push_back({"projected", name, program.sum(0, {{1, u[k]}, {-1, change[k]}})});
+    }
     for (const int pivot : pivots) program.roots.push_back({"pivot", "", pivot});
 }
 
