@@ -89,21 +89,23 @@ bool Projection::unrolled(double t, double* state) {
     double former = HUGE_VAL;
     for (int round = 0; round < most_rounds && project != nullptr; ++round) {
         project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
-        double size = 0, zero = 0, changes[2] = {0, 0};  // of coordinates, of speeds
+        double size = 0, zero = 0;
+        bool moves = false, is_large = false;
         for (const double misfit : misfit_) size = std::max(size, std::abs(misfit));
         for (std::size_t i = 0; i < moved_.size(); ++i) {
-            double& change = changes[i < static_cast<std::size_t>(n_) ? 0 : 1];
-            change = std::max(change, std::abs(moved_[i] - state[i]) / std::max(1.0, std::abs(state[i])));
+            const double change = std::abs(moved_[i] - state[i]), scale = std::max(1.0, std::abs(state[i]));
+            moves |= change > rounding * scale;
+            is_large |= i < static_cast<std::size_t>(n_) && change >= small_change * scale;
             zero += moved_[i] * 0;
         }
         if (zero != 0 || pivots_are_small()) {
             is_near_singular_ = true;
             return false;
         }
-        if ((!(size < former / 2) && size > 0) || std::max(changes[0], changes[1]) <= rounding) return true;
+        if (!moves || (!(size < former / 2) && size > 0)) return true;
         former = size;
         std::copy(moved_.begin(), moved_.end(), state);
-        if (changes[0] < small_change) return true;
+        if (!is_large) return true;
     }
     return true;
 }
