@@ -607,7 +607,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.4, 0.05, 3, 0};
 
 constexpr alembert_solver_table table{
-    3, 5, 3, 3, 12, 3, 0, 2, "ball_on_turntable", "kane, textbook form",
+    4, 5, 3, 3, 12, 3, 0, 2, "ball_on_turntable", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -632,4 +632,23 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    nullptr,
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -152,7 +152,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.5, 9.81, 1, 0.7, 0};
 
 constexpr alembert_solver_table table{
-    3, 1, 1, 4, 2, 1, 0, 0, "bouncing_ball", "lagrange, intermediate symbols",
+    4, 1, 1, 4, 2, 1, 0, 0, "bouncing_ball", "lagrange, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

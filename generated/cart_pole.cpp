@@ -373,7 +373,7 @@ constexpr const char* event_names[] = { "pole_level", nullptr};
 constexpr double parameter_values[] = { 1, 0.3, 0.5, 0.2, 2, 4, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 7, 7, 2, 1, 0, "cart_pole", "lagrange, textbook form",
+    4, 2, 2, 7, 7, 2, 1, 0, "cart_pole", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

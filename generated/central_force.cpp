@@ -348,7 +348,7 @@ constexpr const char* event_names[] = { "apsis", nullptr};
 constexpr double parameter_values[] = { 1, 1, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 2, 3, 3, 1, 0, "central_force", "lagrange, textbook form",
+    4, 2, 2, 2, 3, 3, 1, 0, "central_force", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -373,7 +373,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 0.5, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 2, 3, 6, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
+    4, 3, 2, 3, 6, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -398,4 +398,23 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    nullptr,
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -201,7 +201,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 0.5, 20, 5, 15, 0.05, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 7, 11, 1, 0, 0, "coupled_oscillators", "lagrange, textbook form",
+    4, 2, 2, 7, 11, 1, 0, 0, "coupled_oscillators", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -396,7 +396,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 50, 20, 9.81, 30, 4, 1.5, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 3, 6, 6, 2, 0, 0, "crane", "lagrange, textbook form",
+    4, 3, 3, 6, 6, 2, 0, 0, "crane", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -379,7 +379,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 1, 0.8, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 5, 10, 0, 0, 0, "double_pendulum", "lagrange, textbook form",
+    4, 2, 2, 5, 10, 0, 0, 0, "double_pendulum", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -367,7 +367,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 2, 2.5, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 3, 4, 7, 3, 0, 0, "free_body", "kane, textbook form",
+    4, 3, 3, 4, 7, 3, 0, 0, "free_body", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

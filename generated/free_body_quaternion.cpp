@@ -257,22 +257,22 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z6 = k3 * k0 * w2 * w3;
     const Real z7 = k4 * k1 * w1 * w3;
     const Real z8 = k5 * k2 * w1 * w2;
-    const Real z9 = e2 * z6;
-    const Real z10 = e0 * z8;
-    const Real z11 = e1 * z7;
-    const Real z12 = w2 * z4;
-    const Real z13 = Real(0.5) * z9 - Real(0.5) * z10 + Real(0.5) * z11 - Real(0.25) * z12 + Real(0.25) * w1 * z0
-        + Real(0.25) * w3 * z3;
-    const Real z14 = Real(1) / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3);
-    const Real z15 = e2 * z14;
+    const Real z9 = Real(1) / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3);
+    const Real z10 = e2 * z6;
+    const Real z11 = e0 * z8;
+    const Real z12 = e1 * z7;
+    const Real z13 = w2 * z4;
+    const Real z14 = Real(0.5) * z10 - Real(0.5) * z11 + Real(0.5) * z12 - Real(0.25) * z13 + Real(0.25) * w1
+        * z0 + Real(0.25) * w3 * z3;
+    const Real z15 = e2 * z9;
     const Real z16 = A * z15;
-    const Real z17 = e1 * z14;
+    const Real z17 = e1 * z9;
     const Real z18 = B * z17;
-    const Real z19 = e0 * z14;
+    const Real z19 = e0 * z9;
     const Real z20 = C * z19;
-    const Real z21 = e3 * z14;
+    const Real z21 = e3 * z9;
     const Real z22 = z16 * z17 - z18 * z15 - z20 * z21;
-    const Real z23 = z13 * z22;
+    const Real z23 = z14 * z22;
     const Real z24 = e2 * z7;
     const Real z25 = e3 * z8;
     const Real z26 = e1 * z6;
@@ -304,18 +304,18 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z49 = z46 * z17 - z47 * z15 + z48 * z21;
     const Real z50 = e0 * z4;
     const Real z51 = z50 + e3 * z0 - e2 * z2 + e1 * z3;
-    const Real z52 = z14 * z51;
+    const Real z52 = z9 * z51;
     const Real z53 = k6 * z52;
     const Real z54 = e3 * z4;
     const Real z55 = z54 - e0 * z0 - e1 * z2 - e2 * z3;
-    const Real z56 = z14 * z55;
+    const Real z56 = z9 * z55;
     const Real z57 = k7 * z56;
     const Real z58 = z53 * z56 - z57 * z52;
     const Real z59 = e2 * z4;
     const Real z60 = z59 - e1 * z0 + e0 * z2 + e3 * z3;
-    const Real z61 = z14 * z14 * z5;
+    const Real z61 = z9 * z9 * z5;
     const Real z62 = z58 - k8 * z60 * z61;
-    const Real z63 = z14 * z60;
+    const Real z63 = z9 * z60;
     const Real z64 = k8 * z63;
     const Real z65 = z53 * z63 - z64 * z52;
     const Real z66 = z65 + k7 * z55 * z61;
@@ -330,23 +330,50 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z75 = z16 * z15 + z18 * z17 + z20 * z19;
     const Real z76 = z16 * z21 - z18 * z19 + z20 * z17;
     const Real z77 = z66 * z17 + z62 * z19 + z68 * z15;
-    const Real z78 = z72 - z74 - z13 * z75 + z36 * z76 + z77;
+    const Real z78 = z72 - z74 - z14 * z75 + z36 * z76 + z77;
     const Real z79 = z46 * z19 + z47 * z21 + z48 * z15;
     const Real z80 = z45 * z79;
     const Real z81 = z37 * z19 - z38 * z21 - z39 * z15;
     const Real z82 = z36 * z81;
     const Real z83 = z68 * z19 - z62 * z15 + z66 * z21;
-    const Real z84 = z80 - z82 + z13 * z73 - z28 * z49 - z83;
+    const Real z84 = z80 - z82 + z14 * z73 - z28 * z49 - z83;
     const Real z85 = z37 * z21 + z38 * z19 + z39 * z17;
     const Real z86 = z36 * z85;
     const Real z87 = z45 * z81;
     const Real z88 = z66 * z19 - z68 * z21 - z62 * z17;
-    const Real z89 = z86 - z87 - z13 * z76 + z28 * z40 - z88;
+    const Real z89 = z86 - z87 - z14 * z76 + z28 * z40 - z88;
     const Real z90 = z71 - e3 * z78 - e1 * z84 + e2 * z89;
-    const Real lambda_F = -Real(2) * z90 * z14;
+    const Real lambda_F = -Real(2) * z90 * z9;
 
     // Result
     lambda[0] = lambda_F;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
+    const Real &w3 = state[6];
+
+    // Projection
+    const Real z0 = e0 * e0;
+    const Real z1 = e1 * e1;
+    const Real z2 = e2 * e2;
+    const Real z3 = e3 * e3;
+    const Real z4 = z0 + z1 + z2 + z3 - Real(1);
+    const Real z5 = z0 + z1 + z2 + z3;
+    const Real z6 = z4 / z5;
+
+    // Result
+    out[0] = e0 - Real(0.5) * e0 * z6;
+    out[1] = e1 - Real(0.5) * e1 * z6;
+    out[2] = e2 - Real(0.5) * e2 * z6;
+    out[3] = e3 - Real(0.5) * e3 * z6;
+    out[4] = w1;
+    out[5] = w2;
+    out[6] = w3;
+    position[0] = z4;
+    pivots[0] = Real(4) * z5;
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -388,7 +415,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 2, 3, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 3, 3, 9, 6, 0, 1, "free_body_quaternion", "kane, textbook form",
+    4, 4, 3, 3, 9, 6, 0, 1, "free_body_quaternion", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -413,4 +440,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

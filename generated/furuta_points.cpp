@@ -387,7 +387,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.6, 0.3, 0.25, 0.35, 9.81, 0.05, 4, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 7, 7, 1, 0, 0, "furuta_points", "lagrange, textbook form",
+    4, 2, 2, 7, 7, 1, 0, 0, "furuta_points", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -365,7 +365,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 0.5, 1, 1, 0.5, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 3, 5, 7, 0, 0, 0, "heavy_top", "lagrange, textbook form",
+    4, 3, 3, 5, 7, 0, 0, 0, "heavy_top", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -436,6 +436,29 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = lambda_top;
 }
 
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
+    const Real &w3 = state[6];
+
+    // Projection
+    const Real z0 = (e0 * e0 + e3 * e3) + (e1 * e1 + e2 * e2);
+    const Real z1 = z0 - Real(1);
+    const Real z2 = Real(0.5) * z1 / z0 - Real(1);
+
+    // Result
+    out[0] = -e0 * z2;
+    out[1] = -e1 * z2;
+    out[2] = -e2 * z2;
+    out[3] = -e3 * z2;
+    out[4] = w1;
+    out[5] = w2;
+    out[6] = w3;
+    position[0] = z1;
+    pivots[0] = Real(4) * z0;
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -475,7 +498,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 0.5, 1, 1, 0.5, 1, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 3, 6, 10, 5, 0, 1, "heavy_top_joint", "kane, textbook form",
+    4, 4, 3, 6, 10, 5, 0, 1, "heavy_top_joint", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -500,4 +523,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

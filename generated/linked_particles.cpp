@@ -419,7 +419,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda2;
 }
 
-/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
 void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
     const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
@@ -529,7 +529,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1.5, 1, 0.2, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 4, 5, 10, 2, 0, 2, "linked_particles", "recursive, composite bodies",
+    4, 4, 4, 5, 10, 2, 0, 2, "linked_particles", "recursive, composite bodies",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -565,7 +565,7 @@ struct alembert_projection_table {
 };
 
 constexpr alembert_projection_table projection{
-    3,
+    4,
     [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
         project(t, state, par, moved, position, pivots);
     },

@@ -181,7 +181,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 2, 0.6, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 3, 4, 4, 1, 0, 0, "magnetic_field", "lagrange, textbook form",
+    4, 3, 3, 4, 4, 1, 0, 0, "magnetic_field", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

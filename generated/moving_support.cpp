@@ -376,7 +376,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 0.7, 0.15, 5, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 1, 1, 5, 7, 1, 0, 0, "moving_support", "lagrange, textbook form",
+    4, 1, 1, 5, 7, 1, 0, 0, "moving_support", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -1595,6 +1595,35 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[2] = lambda_rolling_y;
 }
 
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+    const Real &x = state[0], &y = state[1], &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5];
+    const Real &w1 = state[6], &w2 = state[7], &w3 = state[8];
+
+    // Projection
+    const Real z0 = (e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3);
+    const Real z1 = z0 - Real(1);
+    const Real z2 = Real(0.5) * z1 / z0 - Real(1);
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = -e0 * z2;
+    out[3] = -e1 * z2;
+    out[4] = -e2 * z2;
+    out[5] = -e3 * z2;
+    out[6] = w1;
+    out[7] = w2;
+    out[8] = w3;
+    position[0] = z1;
+    position[1] = Real(0);
+    position[2] = Real(0);
+    pivots[0] = Real(4) * z0;
+    pivots[1] = Real(0);
+    pivots[2] = Real(0);
+}
+
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -1634,7 +1663,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 9.81, 0.2, 0.03, 0.02, 0.01, 0.0002, 0.0016, 0.0017, -2e-05, 0};
 
 constexpr alembert_solver_table table{
-    3, 6, 3, 10, 23, 4, 0, 3, "rattleback", "kane, intermediate symbols",
+    4, 6, 3, 10, 23, 4, 0, 3, "rattleback", "kane, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -1659,4 +1688,25 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -411,7 +411,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    3, 4, 2, 4, 14, 2, 0, 2, "rolling_coin", "kane, textbook form",
+    4, 4, 2, 4, 14, 2, 0, 2, "rolling_coin", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -436,4 +436,23 @@ constexpr alembert_solver_table table{
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    nullptr,
+    nullptr,
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
 

@@ -303,7 +303,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = -k4;
 }
 
-/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
 void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
     const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
@@ -369,7 +369,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.4, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 12, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
+    4, 2, 2, 4, 12, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -405,7 +405,7 @@ struct alembert_projection_table {
 };
 
 constexpr alembert_projection_table projection{
-    3,
+    4,
     [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
         project(t, state, par, moved, position, pivots);
     },

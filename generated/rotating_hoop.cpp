@@ -355,7 +355,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 0.2, 0.5, 6, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 1, 1, 4, 7, 3, 0, 0, "rotating_hoop", "lagrange, textbook form",
+    4, 1, 1, 4, 7, 3, 0, 0, "rotating_hoop", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -308,7 +308,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[0] = lambda1;
 }
 
-/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
 void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
     const Real &xC = state[0], &yC = state[1], &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
@@ -384,7 +384,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 4, 0.8, 0};
 
 constexpr alembert_solver_table table{
-    3, 3, 3, 2, 3, 1, 0, 1, "sled", "routh, textbook form",
+    4, 3, 3, 2, 3, 1, 0, 1, "sled", "routh, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -420,7 +420,7 @@ struct alembert_projection_table {
 };
 
 constexpr alembert_projection_table projection{
-    3,
+    4,
     [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
         project(t, state, par, moved, position, pivots);
     },

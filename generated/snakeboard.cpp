@@ -443,7 +443,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     lambda[1] = lambda_rear;
 }
 
-/// One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
 void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
     const Real &x = state[0], &y = state[1], &theta = state[2], &psi = state[3], &phi = state[4];
@@ -562,7 +562,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 6, 0.2, 0.016, 0.072, 0.0013, 0.7, 0.3, 1, 0};
 
 constexpr alembert_solver_table table{
-    3, 5, 5, 8, 12, 2, 0, 2, "snakeboard", "routh, textbook form",
+    4, 5, 5, 8, 12, 2, 0, 2, "snakeboard", "routh, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -598,7 +598,7 @@ struct alembert_projection_table {
 };
 
 constexpr alembert_projection_table projection{
-    3,
+    4,
     [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
         project(t, state, par, moved, position, pivots);
     },

@@ -361,7 +361,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 2, 0.6, 1.4, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 2, 2, 4, 8, 0, 0, 0, "struck_rods", "lagrange, textbook form",
+    4, 2, 2, 4, 8, 0, 0, 0, "struck_rods", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

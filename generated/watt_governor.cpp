@@ -365,7 +365,7 @@ constexpr const char* event_names[] = { "sleeve_turns_back", nullptr};
 constexpr double parameter_values[] = { 1, 2, 0.4, 12, 9.81, 0};
 
 constexpr alembert_solver_table table{
-    3, 1, 1, 5, 9, 2, 1, 0, "watt_governor", "lagrange, textbook form",
+    4, 1, 1, 5, 9, 2, 1, 0, "watt_governor", "lagrange, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

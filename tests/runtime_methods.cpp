@@ -282,3 +282,37 @@ TEST_CASE("state: what short steps add to a large state is not lost") {
     const Trajectory motion = integrate(drift, {1e6}, {.method = Method::rk4, .duration = 1, .step = 1e-6});
     CHECK(std::abs(motion.final_state()[0] - 1000001) <= 1.2e-10);  // one unit in the last place
 }
+
+TEST_CASE("state: nine copies of an orbit in one long state move as one does alone") {
+    constexpr std::size_t copies = 9, one = 4;  // 36 components: past the distance that is a constant in step.hpp
+    const Rhs orbit = kepler();
+    const Rhs many = make_rhs(copies * one, [&orbit](double t, const double* y, double* rate) {
+        for (std::size_t k = 0; k < copies; ++k) orbit(t, y + one * k, rate + one * k);
+    });
+    std::vector<double> start;
+    for (std::size_t k = 0; k < copies; ++k) start.insert(start.end(), kepler_start.begin(), kepler_start.end());
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
+        CAPTURE(name(method));
+        const Options options{.method = method, .duration = 10, .tolerance = 1e-10, .step = method == Method::rk4 ? 0.01 : 0, .sample = 0.1};
+        const Trajectory alone = integrate(orbit, kepler_start, options), together = integrate(many, start, options);
+        REQUIRE(alone.rows() == together.rows());
+        CHECK(alone.statistics.evaluations == together.statistics.evaluations);
+        for (std::size_t row = 0; row < alone.times.size(); ++row)
+            for (std::size_t i = 0; i < copies * one; ++i)
+                REQUIRE(std::abs(together.states[row * copies * one + i] - alone.states[row * one + i % one]) < 1e-13);
+    }
+}
+
+TEST_CASE("state: a projection that moves nothing costs no evaluation and changes no bit") {
+    int asked = 0;
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner98, Method::abm, Method::radau5}) {
+        CAPTURE(name(method));
+        Options options{.method = method, .duration = 10, .tolerance = 1e-10, .step = has_fixed_step(method) ? 0.01 : 0, .sample = 0.5};
+        const Trajectory without = integrate(kepler(), kepler_start, options);
+        options.project = [&](double, double*) { ++asked; };
+        const Trajectory with = integrate(kepler(), kepler_start, options);
+        CHECK(with.states == without.states);
+        CHECK(with.statistics.evaluations == without.statistics.evaluations);
+    }
+    CHECK(asked > 100);
+}

@@ -62,7 +62,7 @@ std::vector<double> Workbench::momenta(double t, const double* state, const Rhs&
 Measured Workbench::measure(Options options) {
     options.sample = options.duration > 0 ? options.duration : 1;
     const bool constrained = !parts_.derived.mechanism.constraints.empty();
-    if (constrained) options.project = std::ref(projection_);
+    if (constrained) options.project = projection_.after_steps();
     Measured result{.method = std::string(name(options.method))};
     (has_fixed_step(options.method) ? result.step : result.tolerance) = has_fixed_step(options.method) ? options.step : options.tolerance;
     std::vector<double> seconds;
@@ -114,7 +114,7 @@ void Workbench::kept(const Options& given, Measured& result) {
 std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
     Options options = given;
     options.sample = options.duration > 0 ? options.duration : 1;
-    if (!parts_.derived.mechanism.constraints.empty()) options.project = std::ref(projection_);
+    if (!parts_.derived.mechanism.constraints.empty()) options.project = projection_.after_steps();
     projection_.forget();
     const Trajectory motion = integrate(rhs_, parts_.initial, options);
     if (motion.failure) return std::nullopt;

@@ -139,7 +139,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);
     LoadedMode* const self = mode.get();
     if (constrained) {
-        mode->contact.project = std::ref(self->projection);
+        mode->contact.project = self->projection.after_steps();
         mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {

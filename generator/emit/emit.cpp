@@ -381,22 +381,26 @@ private:
     }
 
     void add_projection(mustache::data& functions, mustache::data& file) {
-        const std::vector<Goal> moved = goals("projected", "The state at the constraints"), gamma = goals("gamma", "Constraints");
-        file.set("has_projection", !moved.empty());
+        const std::vector<int> position = p_.nodes_of("position"), pivots = p_.nodes_of("pivot"), moved = p_.nodes_of("projected");
+        const std::vector<Goal> gamma = goals("gamma", "Constraints");
+        const bool is_needed = !gamma.empty() || std::any_of(position.begin(), position.end(), [&](int node) { return !p_.is_zero(node); });
+        file.set("has_projection", !position.empty() && is_needed == !moved.empty());
+        file.set("moves", !moved.empty());
+        file.set("has_gamma", !gamma.empty());
         if (moved.empty()) return;
         std::vector<Goal> all;
         std::vector<Result> results, right;
-        for (std::size_t i = 0; i < moved.size(); ++i) results.push_back({fmt::format("out[{}]", i), moved[i].node});
-        const std::vector<int> position = p_.nodes_of("position");
+        for (std::size_t i = 0; i < moved.size(); ++i) results.push_back({fmt::format("out[{}]", i), moved[i]});
         for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
-        for (std::size_t k = 0; const int node : p_.nodes_of("pivot")) results.push_back({fmt::format("pivots[{}]", k++), node});
+        for (std::size_t k = 0; k < pivots.size(); ++k) results.push_back({fmt::format("pivots[{}]", k), pivots[k]});
         for (const Result& result : results) all.push_back({"Projection", "", result.node});
-        for (std::size_t k = 0; k < gamma.size(); ++k) right.push_back({fmt::format("out[{}]", k), gamma[k].node});
-        functions << function("project", "One step of Newton's method to the constraints, in the metric of M; f(q, t) before it, and the pivots of A M^-1 A^T.",
+        functions << function("project", "One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.",
                               "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, "
                               "Real* position, [[maybe_unused]] Real* pivots",
                               all, results);
-        functions << function("gamma_at", "gamma of A q'' = gamma.",
+        if (gamma.empty()) return;
+        for (const Goal& goal : gamma) right.push_back({fmt::format("out[{}]", goal.name.substr(5)), goal.node});  // "gamma2": of the third constraint
+        functions << function("gamma_at", p_.speeds.empty() ? "gamma of A q'' = gamma." : "gamma of A u' = gamma.",
                               "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
                               "Real* out",
                               gamma, right);

@@ -9,6 +9,7 @@
 
 #include "formalism/kinematics.hpp"
 #include "lower/interpret.hpp"
+#include "lower/project.hpp"
 #include "lower/recursion.hpp"
 #include "lower/solve.hpp"
 #include "symbolic/functions.hpp"
@@ -243,40 +244,6 @@ void share_out(Lowering& lowering, Program& program, const Mechanism& m, const e
     }
 }
 
-/// q − δq and q' − δq', both from the factors of K = [M Aᵀ; A 0] that the accelerations have:
-///   K (δq, ·) = (0, f(q)),   K (δq', ·) = (0, A q' + b at q − δq)
-/// One step of Newton's method in the metric of M (Hairer & Wanner, Solving ODEs II, §VII.2).
-void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K, bool fold) {
-    const int n = equations.size();
-    std::vector<int> misfit(n, program.number(0));
-    const std::vector<int> position = program.nodes_of("position");
-    misfit.insert(misfit.end(), position.begin(), position.end());
-    const auto step = solve_symmetric(program, K, misfit, n);
-    if (!step) return;
-    Lowering moved(program, m, fold);
-    for (int i = 0; i < n; ++i) {
-        const int q = program.variable({Variable::Kind::coordinate, i});
-        program.roots.push_back({"projected", m.q[i].get_name(), moved.define(m.q[i], program.sum(0, {{1, q}, {-1, (*step)[i]}}))});
-    }
-    std::vector<ex> wanted;
-    for (std::size_t c = 0; c < m.constraints.size(); ++c) {
-        wanted.insert(wanted.end(), equations.A[c].begin(), equations.A[c].end());
-        wanted.push_back(m.constraints[c].drift);
-    }
-    moved.lower_definitions(wanted);
-    for (std::size_t c = 0; c < m.constraints.size(); ++c) {
-        std::vector<Program::Term> velocity{{1, moved(m.constraints[c].drift)}};
-        for (int i = 0; i < n; ++i)
-            velocity.emplace_back(1, program.product(1, {{moved(equations.A[c][i]), 1}, {program.variable({Variable::Kind::rate, i}), 1}}));
-        misfit[n + c] = program.sum(0, velocity);
-    }
-    const auto change = solve_symmetric(program, K, misfit, n);
-    for (int i = 0; i < n; ++i)
-        program.roots.push_back({"projected", m.q[i].get_name() + "'",
-                                 program.sum(0, {{1, program.variable({Variable::Kind::rate, i})}, {-1, (*change)[i]}})});
-    for (const int pivot : later_pivots(program, K, static_cast<int>(misfit.size()), n)) program.roots.push_back({"pivot", "", pivot});
-}
-
 }  // namespace
 
 Program begun(const Mechanism& m, bool fold) {
@@ -397,7 +364,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         for (int i = 0; i < n; ++i) program.roots.push_back({"acceleration", fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
-        if (!has_speeds && !m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
+        if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
         Lowering motion(program, m, options.fold);  // with u' as solved
         if (!equations.eliminated.empty()) {
             define_rates(motion, program, m, equations, {solution->begin(), solution->begin() + n});
@@ -482,8 +449,9 @@ std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism,
     return nodes;
 }
 
-std::function<int(const ex&)> lowering_into(Program& program, const Mechanism& mechanism, const std::vector<std::pair<GiNaC::symbol, int>>& given) {
-    const auto lowering = std::make_shared<Lowering>(program, mechanism, false);
+std::function<int(const ex&)> lowering_into(Program& program, const Mechanism& mechanism, const std::vector<std::pair<GiNaC::symbol, int>>& given,
+                                            bool fold) {
+    const auto lowering = std::make_shared<Lowering>(program, mechanism, fold);
     for (const auto& [symbol, node] : given) lowering->define(symbol, node);
     return [lowering](const ex& e) {
         lowering->lower_definitions({e});

@@ -8,7 +8,7 @@
 ///
 /// Groups of roots: "mass" (lower triangle, row by row) and "forcing", unless the equations have no M; "acceleration", "kinetic", "potential",
 /// "energy", "power", "jacobi", "output", "event"; of constraints "row" (A, n each), "position", "velocity", "gamma" (of those
-/// with a multiplier), "multiplier"; where the speeds are the rates "projected" (q, q' at the constraints), "pivot" (solve.hpp); of a scene with speeds "speed", "speed_rate".
+/// with a multiplier), "multiplier", "projected" (q, u at the constraints) and "pivot" (project.hpp); of a scene with speeds "speed", "speed_rate".
 /// Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u',
 /// and there are "rate" (q'), "second_rate" (q'') and "speed_row" (A in speeds; zeros for eliminated constraints).
 
@@ -42,7 +42,7 @@ std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism,
 
 /// The same one by one, each with all that it is defined by. What it is given must outlive it.
 std::function<int(const GiNaC::ex&)> lowering_into(Program& program, const Mechanism& mechanism,
-                                                   const std::vector<std::pair<GiNaC::symbol, int>>& given = {});
+                                                   const std::vector<std::pair<GiNaC::symbol, int>>& given = {}, bool fold = false);
 
 /// Names and parameters of a program, no nodes yet.
 Program begun(const Mechanism& mechanism, bool fold = false);

@@ -69,14 +69,15 @@ struct alembert_derivative_table {
     void (*parameter_jacobian)(double t, const double* state, const double* par, double* values);  ///< null if not asked for
 };
 
-/// What `alembert_projection()` returns, of an emitted file of a system with constraints in coordinates and their rates.
+/// What `alembert_projection()` returns, of an emitted file of a system with constraints.
 struct alembert_projection_table {
     int abi;
-    /// moved: n + s, the state after one step of Newton's method to the constraints, in the metric of M; position: m, f at the
-    /// state given; pivots: m, of A M⁻¹Aᵀ, in some order of elimination, where none vanishes at every state.
+    /// moved: n + s, the state after one step of Newton's method to the constraints (project.hpp says in which metric); position: m,
+    /// f at the state given; pivots: m, what the elimination of A M⁻¹Aᵀ has divided by, and for holonomic constraints that u has
+    /// eliminated that of A Aᵀ; 0 for others of these. Null where u has eliminated all constraints and none is holonomic.
     void (*project)(double t, const double* state, const double* par, double* moved, double* position,
                     double* pivots);
-    /// gamma: m, of A u' = γ.
+    /// gamma: m, of A u' = γ; those of constraints that u has eliminated are left as they are. Null where it has eliminated all.
     void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
 };
 
@@ -98,5 +99,5 @@ struct alembert_pack_table {
 }  // extern "C"
 
 namespace alembert {
-inline constexpr int abi_version = 3;
+inline constexpr int abi_version = 4;
 }

@@ -152,7 +152,7 @@ private:
         options.sample = member.duration;  // the end alone
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) { drift(table, par, t, y, rate); };
         std::optional<Projection> projection;
-        if (table.constraints > 0) options.project = std::ref(projection.emplace(e_.module, member.parameters));
+        if (table.constraints > 0) options.project = projection.emplace(e_.module, member.parameters).after_steps();
         const Trajectory motion = integrate(rhs, state, options, e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops));
         const std::span<const double> end = motion.final_state();
         keep(member,

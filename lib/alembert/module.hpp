@@ -34,7 +34,7 @@ public:
     const alembert_solver_table& table() const { return *table_; }
     /// Null where the file was emitted without.
     const alembert_derivative_table* derivatives() const { return derivatives_; }
-    /// Null where the system has no constraints, or the speeds are not the rates.
+    /// Null where the system has no constraints.
     const alembert_projection_table* projection() const { return projection_; }
     /// Null where the file was emitted without `--batch`.
     const alembert_pack_table* pack() const { return pack_; }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int most_rounds = 8;  // Newton's method from the end of an accepted step needs one or two
 constexpr double small_change = 1e-8;  // its square is rounding
+constexpr double rounding = 0x1p-53;  // of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
@@ -31,12 +32,12 @@ Projection::Projection(const Module& module, const std::vector<double>& values)
       position_(m_),
       velocity_(m_),
       forcing_(s_),
-      gamma_(m_),
+      gamma_(Eigen::VectorXd::Zero(m_)),
       mass_(s_, s_),
       rows_(static_cast<std::size_t>(m_) * static_cast<std::size_t>(n_ + s_)),
       moved_(static_cast<std::size_t>(n_ + s_)),
       misfit_(static_cast<std::size_t>(m_)),
-      pivots_(misfit_.size(), 1),
+      pivots_(misfit_.size()),
       largest_pivots_(misfit_.size()) {}
 
 void Projection::evaluate(double t, const double* state) {
@@ -49,12 +50,18 @@ void Projection::forget() {
     is_near_singular_ = false;
 }
 
-/// Of those that the emitted step has met.
+std::function<void(double t, double* state)> Projection::after_steps() {
+    const bool is_idle = m_ == 0 || (module_.projection() != nullptr && module_.projection()->project == nullptr);
+    if (is_idle) return {};
+    return std::ref(*this);
+}
+
+/// Of those that the emitted step has met; 0 where there is nothing to divide by.
 bool Projection::pivots_are_small() {
     bool small = false;
     for (std::size_t k = 0; k < pivots_.size(); ++k) {
         largest_pivots_[k] = std::max(largest_pivots_[k], pivots_[k]);
-        small = small || !(pivots_[k] > singular_pivot * largest_pivots_[k]);
+        small = small || (pivots_[k] != 0 && !(pivots_[k] > singular_pivot * largest_pivots_[k]));
     }
     return small;
 }
@@ -77,57 +84,84 @@ Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
 /// By the emitted step; false where that is not to be trusted.
 bool Projection::unrolled(double t, double* state) {
     if (module_.projection() == nullptr) return false;
+    const auto project = module_.projection()->project;
     is_near_singular_ = false;
     double former = HUGE_VAL;
-    for (int round = 0; round < most_rounds; ++round) {
-        module_.projection()->project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
-        double size = 0, change = 0, zero = 0;
-        for (int k = 0; k < m_; ++k) size = std::max(size, std::abs(misfit_[static_cast<std::size_t>(k)]));
+    for (int round = 0; round < most_rounds && project != nullptr; ++round) {
+        project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
+        double size = 0, zero = 0;
+        bool moves = false, is_large = false;
+        for (const double misfit : misfit_) size = std::max(size, std::abs(misfit));
         for (std::size_t i = 0; i < moved_.size(); ++i) {
-            change = i < static_cast<std::size_t>(n_) ? std::max(change, std::abs(moved_[i] - state[i]) / std::max(1.0, std::abs(state[i]))) : change;
+            const double change = std::abs(moved_[i] - state[i]), scale = std::max(1.0, std::abs(state[i]));
+            moves |= change > rounding * scale;
+            is_large |= i < static_cast<std::size_t>(n_) && change >= small_change * scale;
             zero += moved_[i] * 0;
         }
         if (zero != 0 || pivots_are_small()) {
             is_near_singular_ = true;
             return false;
         }
-        if (!(size < former / 2) && size > 0) return true;
+        if (!moves || (!(size < former / 2) && size > 0)) return true;
         former = size;
         std::copy(moved_.begin(), moved_.end(), state);
-        if (change < small_change) return true;
+        if (!is_large) return true;
     }
     return true;
 }
 
-/// M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ misfit = L⁻ᵀ (A L⁻ᵀ)⁺ misfit
-Eigen::VectorXd Projection::correction(const Rows& A, bool weighed, const Eigen::VectorXd& misfit) const {
-    if (!weighed) return least(A, misfit);
+/// M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ misfit = L⁻ᵀ (B L⁻ᵀ)⁺ misfit, B being A in speeds
+Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& misfit) const {
+    const Rows B = in_speeds();
     const Cholesky factors(mass_);
     if (!factors.exists()) {
-        const Eigen::MatrixXd across = solve_symmetric(mass_, A.transpose());
-        return across * least_norm(A * across, misfit).x;
+        const Eigen::MatrixXd across = solve_symmetric(mass_, B.transpose());
+        return across * least_norm(B * across, misfit).x;
     }
-    return factors.solve_upper(least(factors.solve_lower(A.transpose()).transpose(), misfit));
+    return factors.solve_upper(least(factors.solve_lower(B.transpose()).transpose(), misfit));
+}
+
+/// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, S from differences of the file's q', which is linear in u; Aₑ⁺ f where the speeds leave B no row.
+Eigen::VectorXd Projection::in_positions(double t, const double* state) const {
+    if (!own_speeds()) return along_speeds(position_);
+    if (in_speeds().isZero(0)) {
+        std::vector<Eigen::Index> holonomic;
+        for (Eigen::Index k = 0; k < m_; ++k)
+            if (position_[k] != 0 || pivots_[static_cast<std::size_t>(k)] != 0) holonomic.push_back(k);
+        return least_norm(in_rates()(holonomic, Eigen::all), position_(holonomic)).x;
+    }
+    const Eigen::VectorXd along = along_speeds(position_);
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(n_);
+    std::vector<double> here(state, state + n_ + s_), rate(here.size()), rate_at_rest(here.size());
+    const auto evaluate = [&](std::vector<double>& out) { module_.table().rhs(t, here.data(), par_.data(), out.data()); };
+    std::fill(here.begin() + n_, here.end(), 0);
+    evaluate(rate_at_rest);
+    for (int k = 0; k < s_; ++k) {
+        double& u = here[static_cast<std::size_t>(n_ + k)];
+        u = 1;
+        evaluate(rate);
+        u = 0;
+        for (int i = 0; i < n_; ++i) change[i] += (rate[static_cast<std::size_t>(i)] - rate_at_rest[static_cast<std::size_t>(i)]) * along[k];
+    }
+    return change;
 }
 
 void Projection::operator()(double t, double* state) {
     if (unrolled(t, state)) return;
     Eigen::Map<Eigen::VectorXd> q(state, n_), u(state + n_, s_);
-    const bool own_speeds = module_.table().speed_names != nullptr;
-    const Eigen::Map<const Rows> in_rates(rows_.data(), m_, n_), in_speeds(rows_.data() + (own_speeds ? m_ * n_ : 0), m_, s_);
     double former = HUGE_VAL;
     for (int round = 0; round < most_rounds; ++round) {
         evaluate(t, state);
         const double size = position_.lpNorm<Eigen::Infinity>();
         if (!(size > 0) || !(size < former / 2)) break;
         former = size;
-        const Eigen::VectorXd change = correction(in_rates, !own_speeds, position_);
+        const Eigen::VectorXd change = in_positions(t, state);
         if (!change.allFinite()) return;
         q -= change;
     }
     evaluate(t, state);
     for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
-        const Eigen::VectorXd change = correction(in_speeds, true, velocity_);
+        const Eigen::VectorXd change = along_speeds(velocity_);
         if (!change.allFinite()) return;
         u -= change;
         evaluate(t, state);
@@ -145,8 +179,7 @@ bool Projection::accelerations(double t, const double* state, double* accelerati
     module_.projection()->gamma_at(t, state, par_.data(), gamma_.data());
     const Cholesky factors(mass_);
     if (!factors.exists()) return false;
-    const Eigen::Map<const Rows> A(rows_.data(), m_, n_);
-    const Eigen::MatrixXd across = factors.solve_lower(A.transpose());
+    const Eigen::MatrixXd across = factors.solve_lower(Rows(in_speeds()).transpose());
     const Eigen::VectorXd free = factors.solve_lower(forcing_);
     const Eigen::VectorXd found = factors.solve_upper(free + least(across.transpose(), gamma_ - across.transpose() * free));
     std::copy_n(found.data(), s_, acceleration);
@@ -165,7 +198,7 @@ void Projection::careful(const void* context, double t, const double* state, dou
 }
 
 Rhs Projection::guarded(Rhs rhs) {
-    if (module_.projection() == nullptr) return rhs;
+    if (module_.projection() == nullptr || module_.projection()->gamma_at == nullptr) return rhs;
     Rhs result = rhs;
     result.context = std::make_shared<const Guard>(Guard{std::move(rhs), this});
     result.call = careful;

@@ -9,8 +9,10 @@
 ///     const Rhs rhs = project.guarded(make_rhs(module, values));
 ///
 /// Positions: δq = −M⁻¹Aᵀ (A M⁻¹Aᵀ)⁺ f, repeated until f stops shrinking; then rates: δq' the same of A q' + b
-/// (Hairer & Wanner, Solving ODEs II, §VII.2). Where the speeds are not the rates M belongs to the speeds: then these are
-/// moved in its metric, positions in the plain one. The mass-weighted norm leaves the motion along the constraints alone.
+/// (Hairer & Wanner, Solving ODEs II, §VII.2). The mass-weighted norm leaves the motion along the constraints alone. Where the speeds
+/// are not the rates, q' = S u + …, M and A S belong to the speeds: these are moved as above, and positions along S. Where the speeds
+/// have eliminated the holonomic constraints, Aₑ S = 0, these hold in speeds by themselves; positions are moved by Aₑ⁺ f, the least
+/// change in the plain metric. A step that would not change the last bit of a number of size 1 is not taken.
 ///
 /// Where the file has it, its own unrolled step does that, for the price of a right-hand side. That divides by the pivots of A M⁻¹Aᵀ,
 /// which vanish as the square of the distance to a pose where rows of A vanish or depend on each other (linkages that lie flat). Where
@@ -21,6 +23,7 @@
 /// the positions, 1e-16, moves the rates that obey them by 1e-16/σ². One object serves one thread, and one run after the other.
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "alembert/module.hpp"
@@ -32,6 +35,9 @@ class Projection {
 public:
     explicit Projection(const Module& module, const std::vector<double>& values = {});
     void operator()(double t, double* state);
+
+    /// This object as Options::project wants it; nothing where the speeds have eliminated all constraints and none is holonomic.
+    std::function<void(double t, double* state)> after_steps();
 
     /// Before another run: what was large in the last one, which may have gone astray, is no measure for this one.
     void forget();
@@ -48,10 +54,14 @@ private:
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     bool unrolled(double t, double* state);
+    bool own_speeds() const { return module_.table().speed_names != nullptr; }
+    Eigen::Map<const Rows> in_rates() const { return {rows_.data(), m_, n_}; }
+    Eigen::Map<const Rows> in_speeds() const { return {rows_.data() + (own_speeds() ? m_ * n_ : 0), m_, s_}; }
     void evaluate(double t, const double* state);
     bool pivots_are_small();
     Eigen::VectorXd least(Eigen::MatrixXd B, Eigen::VectorXd r) const;
-    Eigen::VectorXd correction(const Rows& A, bool weighed, const Eigen::VectorXd& misfit) const;
+    Eigen::VectorXd along_speeds(const Eigen::VectorXd& misfit) const;
+    Eigen::VectorXd in_positions(double t, const double* state) const;
     bool accelerations(double t, const double* state, double* acceleration);
     static void careful(const void* context, double t, const double* state, double* rate);
 
@@ -61,7 +71,7 @@ private:
     Eigen::VectorXd position_, velocity_, forcing_, gamma_;
     Rows mass_;
     std::vector<double> rows_;  ///< A; where the speeds are not the rates, then A in speeds
-    std::vector<double> moved_, misfit_, pivots_, largest_pivots_;
+    std::vector<double> moved_, misfit_, pivots_, largest_pivots_;  // of each constraint one, as the file has it
     bool is_near_singular_ = false;
 };
 

@@ -143,9 +143,13 @@ public:
 
     void correct(const std::function<void(double t, double* state)>& project) {
         if constexpr (requires { Formula::keeps_constraints; }) return;
+        change_ = ends_.next;
         project(ends_.end, ends_.next.data());
-        std::fill(ends_.next_rest.begin(), ends_.next_rest.end(), 0);
-        ends_.knows_end_rate = false;
+        for (std::size_t i = 0; i < change_.size(); ++i) {
+            if (ends_.next[i] == change_[i]) continue;
+            ends_.next_rest[i] = 0;
+            ends_.knows_end_rate = false;
+        }
     }
 
     bool finish() {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//   K (δπ, ·) = (0, f),   δq = S δπ,   K (δu, ·) = (0, A_q h + b at q − δq),   A = A_q S
+// (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); where all constraints are eliminated, A_q Aₑᵀ ν = f, δq = Aₑᵀ ν.
+#include "lower/project.hpp"
+
+#include "lower/lower.hpp"
+#include "lower/solve.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// a·b + rest
+int dot(Program& program, const std::vector<int>& a, const std::vector<int>& b, int rest) {
+    std::vector<Program::Term> terms{{1, rest}};
+    for (std::size_t i = 0; i < a.size(); ++i) terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
+    return program.sum(0, terms);
+}
+
+/// Σ columns_k x_k
+std::vector<int> combined(Program& program, const std::vector<std::vector<int>>& columns, const std::vector<int>& x) {
+    std::vector<int> result;
+    for (std::size_t i = 0; i < columns.front().size(); ++i) {
+        std::vector<Program::Term> terms;
+        for (std::size_t k = 0; k < columns.size(); ++k) terms.emplace_back(1, program.product(1, {{columns[k][i], 1}, {x[k], 1}}));
+        result.push_back(program.sum(0, terms));
+    }
+    return result;
+}
+
+std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const std::vector<ex>& list) {
+    std::vector<int> nodes;
+    for (const ex& e : list) nodes.push_back(lowering(e));
+    return nodes;
+}
+
+}  // namespace
+
+void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K, bool fold) {
+    const bool own_speeds = !equations.h.empty();
+    const std::size_t n = m.q.size(), s = equations.u.size();
+    const std::vector<int> position = program.nodes_of("position"), kept = equations.kept(m);
+    std::vector<int> across;  // constraints that the speeds have eliminated and coordinates may leave
+    for (const Equations::Eliminated& e : equations.eliminated)
+        if (!program.is_zero(position[e.constraint])) across.push_back(e.constraint);
+    if (kept.empty() && across.empty()) return;
+
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    std::vector<int> u, change(s, program.number(0));
+    for (std::size_t k = 0; k < s; ++k) u.push_back(program.variable({Variable::Kind::rate, static_cast<int>(k)}));
+    for (std::size_t k = 0; k < s && own_speeds; ++k) given.emplace_back(equations.u[k], u[k]);
+    const auto here = lowering_into(program, m, given, fold);
+    std::vector<int> pivots(position.size(), program.number(0)), misfit, off;
+    const auto solve = [&](const std::vector<int>& right) {
+        std::vector<int> sides(s, program.number(0));
+        sides.insert(sides.end(), right.begin(), right.end());
+        return *solve_symmetric(program, K, sides, static_cast<int>(s));
+    };
+    const auto row_of = [&](std::size_t k) { return own_speeds ? m.constraints[kept[k]].row : equations.A[k]; };
+    if (kept.empty()) {
+        std::vector<std::vector<int>> rows;
+        std::vector<int> square;
+        for (const int c : across) {
+            rows.push_back(lowered(here, m.constraints[c].row));
+            for (const std::vector<int>& row : rows) square.push_back(dot(program, rows.back(), row, program.number(0)));
+            misfit.push_back(position[c]);
+        }
+        const auto nu = solve_symmetric(program, square, misfit);
+        if (!nu) return;
+        off = combined(program, rows, *nu);
+        const std::vector<int> divided = later_pivots(program, square, static_cast<int>(across.size()), 0);
+        for (std::size_t k = 0; k < divided.size(); ++k) pivots[across[k]] = program.sum(0, {{-1, divided[k]}});  // their sign was changed
+    } else {
+        for (const int c : kept) misfit.push_back(position[c]);
+        off = solve(misfit);
+        off.resize(s);
+        std::vector<std::vector<int>> columns;
+        for (std::size_t k = 0; k < s && own_speeds; ++k) columns.push_back(lowered(here, m.z->push_forward(equations.h, {{equations.u[k], 1}})));
+        if (own_speeds) off = combined(program, columns, off);
+        const std::vector<int> divided = later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s));
+        for (std::size_t k = 0; k < kept.size(); ++k) pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
+    }
+
+    for (std::size_t i = 0; i < n; ++i) {
+        const int q = program.variable({Variable::Kind::coordinate, static_cast<int>(i)});
+        given.emplace_back(m.q[i], program.sum(0, {{1, q}, {-1, off[i]}}));
+        program.roots.push_back({"projected", m.q[i].get_name(), given.back().second});
+    }
+    if (!kept.empty()) {
+        const auto there = lowering_into(program, m, given, fold);
+        const std::vector<int> rates = own_speeds ? lowered(there, equations.h) : u;
+        misfit.clear();
+        for (std::size_t k = 0; k < kept.size(); ++k)
+            misfit.push_back(dot(program, lowered(there, row_of(k)), rates, there(m.constraints[kept[k]].drift)));
+        change = solve(misfit);
+    }
+    for (std::size_t k = 0; k < s; ++k) {
+        const std::string name = own_speeds ? equations.u[k].get_name() : m.q[k].get_name() + "'";
+        program.roots.push_back({"projected", name, program.sum(0, {{1, u[k]}, {-1, change[k]}})});
+    }
+    for (const int pivot : pivots) program.roots.push_back({"pivot", "", pivot});
+}
+
+}  // namespace alembert
