@@ -237,13 +237,12 @@ int bench(const Request& request) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
                                            failure_at(d, first).value_or("the mass matrix is singular")), start.t, start.q);
     const double duration = request.duration >= 0 ? request.duration : start.duration;
-    if (!d.mechanism.unilateral.empty()) {
-        need_rates(d);
+    if (has_jumps(d.mechanism)) {
         Bounces bounces = measured_bounces(request, d, start, first);
-        if (request.peers) std::cerr << "no peers: none of them follows contacts\n";
+        if (request.peers) std::cerr << "no peers: none of them follows contacts or impulses\n";
         deliver(request, d, {.exact = {}, .judge = {std::move(bounces.final), bounces.digits, std::move(bounces.by)}, .program = program,
                              .formulation = program.formulation, .operations = program.count(program.right_hand_side()).total(),
-                             .end = start.t + duration, .runs = std::move(bounces.runs)});
+                             .end = bounces.end, .runs = std::move(bounces.runs)});
         return 0;
     }
     const Source source = emit(with_jacobian(program, method_named(request.method).value_or(Method::radau), !energy.conserved));

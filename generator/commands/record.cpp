@@ -88,6 +88,16 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, cons
     return text;
 }
 
+Json event_as_json(const EventRecord& event, const Mechanism& m) {
+    const auto k = static_cast<std::size_t>(event.index);
+    Json result{{"name", m.events[k].label}, {"time", event.time}};
+    if (event.impulse.empty()) return result;
+    for (std::size_t i = 0; i < event.impulse.size(); ++i)
+        if (!m.occasions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
+    result["energy_gain"] = event.energy_gain;
+    return result;
+}
+
 Json contacts_as_json(const std::vector<ContactEvent>& events, const std::vector<std::string>& names) {
     Json list = Json::array();
     for (const ContactEvent& e : events)

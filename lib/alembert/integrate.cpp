@@ -94,7 +94,9 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     rest.grid = options.grid.value_or(options.start);
     rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
     const std::vector<double> state(first.final_state().begin(), first.final_state().end());
-    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
+    Events later = events;
+    for (Event& event : later.list) event.start.reset();
+    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, later);
     const double rows = (rest.start - *rest.grid) / interval;
     if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && second.rows() > 1) {
         first.times.pop_back();
@@ -106,6 +108,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     first.statistics.steps += second.statistics.steps;
     first.statistics.rejected += second.statistics.rejected;
     first.statistics.evaluations += second.statistics.evaluations;
+    first.last_zeros = std::move(second.last_zeros);
     first.ending = second.ending;
     first.failure = std::move(second.failure);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)

@@ -9,7 +9,7 @@
 ///
 /// In this order:
 ///  - positions move to where the gaps of contacts that touch are zero (the least change in the metric of M);
-///  - what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take part);
+///  - impulses act, and what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take part);
 ///  - what bounces too low is laid down: where the bounces still to come displace no coordinate by more than
 ///    tolerance · max(1, |q|). With speed v after the impact and gap'' = −a they take (2v/a)/(1 − e) in all, a
 ///    geometric sum: this is the time told for `rest`. The speed is taken away along M⁻¹Gᵀ at once, which leaves
@@ -18,6 +18,7 @@
 ///  - the contacts that last are those of contact.hpp; one whose reaction has come down to zero is let go if that
 ///    is consistent.
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,12 +28,27 @@
 
 namespace alembert {
 
+/// Events of the scene whose zeros bring impulses. States are (q, q', …), whatever the run integrates.
+struct Kicks {
+    std::vector<bool> events = {};  ///< which of the scene's; empty: none
+    std::function<Eigen::VectorXd(int event, double t, const double* state)> impulse = {};  ///< generalized, of the rates before
+    /// For each event of the scene the value from which its sign is to be followed where its zero has just been passed, and `before`
+    /// has become `after` (Event::start): of the side to which it goes. `acceleration` is q'' after; may be empty.
+    std::function<std::vector<double>(double t, const double* before, const double* after, const Eigen::VectorXd& acceleration)> passed = {};
+    int coordinates = 0;  ///< n
+    /// The speeds that the run integrates in the place of rates; empty: it integrates the rates.
+    std::function<std::vector<double>(double t, const double* state)> speeds = {};
+
+    bool any() const { return std::find(events.begin(), events.end(), true) != events.end(); }
+};
+
 struct Contacts {
     std::vector<std::string> names = {};
     std::vector<double> restitution = {};
     std::function<Situation(double t, const double* state)> situation = {};
     /// Called where rates jump; `work` is that of the impulses, Σ Π·(mean rate of their points). May be empty.
     std::function<void(double t, const double* before, const double* after, double work)> on_jump = {};
+    Kicks kicks = {};
 };
 
 struct ContactEvent {
@@ -56,12 +72,15 @@ struct Instant {
     std::vector<int> closed = {}, resting = {};  ///< until now (contact.hpp: Lasting)
     std::vector<int> touched = {};               ///< gaps that have just closed
     std::optional<int> released = {};            ///< a closed contact whose reaction has come down to zero
+    Eigen::VectorXd impulse = {};                ///< generalized; empty: none
 };
 
 struct Settled {
     std::string failure;  ///< empty, or why no contact mode is consistent, with the names of the contacts
     std::vector<int> closed, resting;
     std::vector<ContactEvent> events;
+    Eigen::VectorXd struck;        ///< q' after the impulses and impacts, before anything is laid down
+    Eigen::VectorXd acceleration;  ///< of what follows
 };
 
 /// Moves `state` (q, q', and what there is beyond, which stays).
