@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "analysis/kicks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -22,7 +23,9 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     for (const Part& event : m.events) values.push_back(event.value);
     std::vector<ex> wanted = values;
     const std::vector<ex> slopes = m.time_derivative(values);
+    const std::vector<ex> bends = m.time_derivative(slopes);  // but for q''', where `when` holds rates
     wanted.insert(wanted.end(), slopes.begin(), slopes.end());
+    wanted.insert(wanted.end(), bends.begin(), bends.end());
     for (const Mechanism::Speed& speed : m.speeds) wanted.push_back(speed.form);
     for (const Mechanism::Occasion& event : m.occasions) wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
     const std::vector<int> nodes = lower_expressions(program_, m, wanted);
@@ -34,6 +37,7 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     };
     values_ = taken(m.events.size());
     slopes_ = taken(m.events.size());
+    bends_ = taken(m.events.size());
     speeds_ = taken(m.speeds.size());
     for (const Mechanism::Occasion& event : m.occasions) impulses_.push_back(taken(event.impulse.size()));
 }
@@ -46,17 +50,23 @@ Eigen::VectorXd KickView::impulse(int event, const State<double>& state) const {
     return result;
 }
 
-std::vector<double> KickView::passed(const State<double>& before, const State<double>& after) const {
+std::vector<PassedZero> KickView::passed(const State<double>& before, const State<double>& after) const {
     const std::vector<double> a = interpret(program_, before), b = interpret(program_, after);
-    std::vector<double> result;
+    std::vector<PassedZero> result;
     for (std::size_t k = 0; k < values_.size(); ++k) {
-        const int g = values_[k], slope = slopes_[k];
-        if (std::abs(b[g] - a[g]) > negligible * size_of_terms(program_, g, b))
-            result.push_back(b[g]);
-        else if (std::abs(b[slope]) <= negligible * std::abs(a[slope]))
-            result.push_back(0);
-        else
-            result.push_back(std::copysign(std::numeric_limits<double>::min(), b[slope]));
+        const double size = size_of_terms(program_, values_[k], b), value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
+        PassedZero one{.slope = a[slopes_[k]], .size = size};
+        const double rounding = 2 * std::abs(value) + 16 * std::numeric_limits<double>::epsilon() * size;
+        if (std::abs(value - a[values_[k]]) > negligible * size) {
+        } else if (std::abs(slope) > negligible * std::abs(one.slope)) {
+            one.side = slope > 0 ? 1 : -1;
+            one.hold = rounding / std::abs(slope);
+            if (slope * bend < 0) one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
+        } else if (std::abs(bend) > negligible * size_of_terms(program_, bends_[k], b)) {
+            one.side = bend > 0 ? 1 : -1;
+            one.hold = std::sqrt(2 * rounding / std::abs(bend));
+        }
+        result.push_back(one);
     }
     return result;
 }

@@ -5,13 +5,14 @@
 ///
 ///     const KickView view(mechanism);
 ///     view.impulse(0, state);                 // Q̂ of event 0, of the rates in `state`
-///     view.passed(before, after);             // Event::start of all events
+///     view.passed(before, after)[0].side;     // to which side the value of event 0 goes
 ///
 /// States hold rates, q' and not speeds, and q'' where `passed` is asked.
 
 #include <Eigen/Dense>
 #include <vector>
 
+#include "alembert/settle.hpp"
 #include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
 
@@ -24,16 +25,16 @@ public:
     /// n; of an event that has impulses.
     Eigen::VectorXd impulse(int event, const State<double>& state) const;
 
-    /// For each event the value to start from where its zero has just been passed: as it is where the jump of the rates has changed
-    /// it, else something tiny on the side to which it goes, zero where its rate is gone.
-    std::vector<double> passed(const State<double>& before, const State<double>& after) const;
+    /// For each event, if its zero has just been passed. Its value as it is tells where the jump of the rates has changed it; else the
+    /// sign of its rate, or of its second derivative where the rate is gone.
+    std::vector<PassedZero> passed(const State<double>& before, const State<double>& after) const;
 
     /// Of the scene, from the rates.
     std::vector<double> speeds(const State<double>& state) const;
 
 private:
     Program program_;
-    std::vector<int> values_, slopes_, speeds_;
+    std::vector<int> values_, slopes_, bends_, speeds_;
     std::vector<std::vector<int>> impulses_;  ///< by event
 };
 

@@ -82,7 +82,6 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
     run_start_ = t;
     if (last_.empty()) return;
     events_(t, state, rate, last_.data());
-    for (std::size_t k = 0; k < last_.size(); ++k) last_[k] = events_.list[k].start.value_or(last_[k]);
     std::transform(last_.begin(), last_.end(), sign_.begin(), sign);
 }
 

@@ -22,7 +22,6 @@
 #include <concepts>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +35,6 @@ struct Event {
     bool stop = false;     ///< the run ends there
     bool at_once = false;  ///< counts however soon after the start: its value there is no rounding
     int direction = 0;     ///< +1: only zeros where the value grows count, −1: falls, 0: both
-    std::optional<double> start = {};  ///< the value to begin with, where the computed one would be rounding: its zero has just been passed
 };
 
 struct Events {

@@ -94,9 +94,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     rest.grid = options.grid.value_or(options.start);
     rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
     const std::vector<double> state(first.final_state().begin(), first.final_state().end());
-    Events later = events;
-    for (Event& event : later.list) event.start.reset();
-    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, later);
+    Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
     const double rows = (rest.start - *rest.grid) / interval;
     if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && second.rows() > 1) {
         first.times.pop_back();

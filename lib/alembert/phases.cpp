@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "alembert/run.hpp"
 
@@ -19,8 +20,10 @@ using Eigen::VectorXd;
 constexpr double finest = 1e-13;  // tolerance that rounding allows
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_events_at_once = 100;
-constexpr std::size_t most_kicks_at_once = 100;  // in a moment
+constexpr std::size_t most_kicks_at_once = 100;  // of an event, in a moment
 constexpr double moment = 1e-5;                  // of the duration: at that rate no budget would do
+constexpr double short_flight = 1e-3;            // between two kicks of an event, beside the longest
+constexpr double lost_in_rounding = 1e-12;       // of the value's terms; of the time ten times that
 
 bool contains(const std::vector<int>& list, int k) {
     return std::find(list.begin(), list.end(), k) != list.end();
@@ -62,7 +65,6 @@ public:
             const Halt halt = run_phase();
             if (halt.contact < 0 && halt.kicks.empty()) break;
             if (halt.contact >= 0 && is_stuck(halt.contact)) break;
-            if (!halt.kicks.empty() && is_endless(halt.kicks)) break;
             std::vector<int> touched;
             std::optional<int> released;
             if (halt.contact >= 0 && contains(closed_, halt.contact))
@@ -90,7 +92,7 @@ private:
     struct Halt {
         int contact = -1;                ///< one that has closed or let go
         std::vector<int> kicks = {};     ///< events whose impulses act
-        std::vector<int> passed = {};    ///< all events that are zero
+        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero
         bool stops = false;              ///< and that is the end
     };
 
@@ -143,12 +145,16 @@ private:
     }
 
     /// Zeros that have just been passed are followed from the side to which they go.
-    void go_from(const std::vector<int>& passed, const std::vector<double>& before, const std::vector<double>& after, const VectorXd& acceleration) {
-        starts_.clear();
-        if (passed.empty() || !contacts_.kicks.passed) return;
-        const std::vector<double> values = contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
-        starts_.resize(values.size());
-        for (const int k : passed) starts_[k] = values[k];
+    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after, const VectorXd& acceleration) {
+        passed_.clear();
+        if (halt.passed.empty() || !contacts_.kicks.passed) return;
+        const std::vector<PassedZero> zeros = contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
+        passed_.resize(zeros.size());
+        for (const LastZero& zero : halt.passed) {
+            const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
+            passed_[static_cast<std::size_t>(zero.event)] = passed;
+            if (contains(halt.kicks, zero.event) && is_endless(zero, passed)) return;
+        }
     }
 
     void settle_into(const std::vector<int>& touched, const std::optional<int>& released, const Halt& halt) {
@@ -177,7 +183,7 @@ private:
         resting_ = std::move(settled.resting);
         if (!settled.failure.empty()) return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks, settled.failure);
         tell_gains(halt.kicks, before, settled.struck);
-        go_from(halt.passed, before, rates, settled.acceleration);
+        go_from(halt, before, rates, settled.acceleration);
     }
 
     /// Integrates until a contact changes or an event kicks.
@@ -215,7 +221,7 @@ private:
                 "impacts and changes of contact{}; raise the budget (--budget), loosen the "
                 "tolerance or shorten the duration",
                 options_.budget, motion.failure->time, result_.contacts.size(),
-                kicks_.empty() ? "" : fmt::format(" and {} kicks of events", kicks_.size()));
+                kicks_ == 0 ? "" : fmt::format(" and {} kicks of events", kicks_));
         result_.events.insert(result_.events.end(), motion.events.begin(), motion.events.end());
         t_ = motion.times.back();
         const auto last = motion.final_state();
@@ -238,7 +244,7 @@ private:
                 if (halt.contact < 0) halt.contact = zero.event - of_scene;
                 continue;
             }
-            halt.passed.push_back(zero.event);
+            halt.passed.push_back(zero);
             if (!zero.counts) continue;
             const auto k = static_cast<std::size_t>(zero.event);
             halt.stops = halt.stops || mode.events.list[k].stop;
@@ -265,12 +271,16 @@ private:
         const std::size_t scene = mode.events.list.size() - contacts_.names.size();
         std::vector<Event> list = mode.events.list;
         for (std::size_t k = 0; k < scene; ++k) {
-            if (k < starts_.size()) list[k].start = starts_[k];
             if (!kicks_at(k)) continue;
             list[k].stop = true;
             list[k].at_once = !is_first();
         }
-        if (count_ == 0) return {.list = std::move(list), .context = mode.events.context, .call = mode.events.call};
+        const auto base = [given = mode.events, passed = passed_, start = t_](double t, const double* y, const double* rates, double* out) {
+            given(t, y, rates, out);
+            for (std::size_t k = 0; k < passed.size(); ++k)
+                if (passed[k].side != 0 && t <= start + passed[k].hold) out[k] = passed[k].side * std::max(passed[k].side * out[k], std::numeric_limits<double>::min());
+        };
+        if (count_ == 0) return make_events(std::move(list), base);
         std::vector<double> rate(state_.size()), value(mode.events.list.size());
         mode.rhs(t_, state_.data(), rate.data());
         mode.events(t_, state_.data(), rate.data(), value.data());
@@ -301,7 +311,7 @@ private:
                                                         : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
-        return make_events(std::move(list), [base = mode.events, watches, scene](
+        return make_events(std::move(list), [base, watches, scene](
                                                 double t, const double* y, const double* rates, double* out) {
             base(t, y, rates, out);
             for (std::size_t k = 0; k < watches.size(); ++k) {
@@ -326,16 +336,27 @@ private:
         return true;
     }
 
-    /// Kicks that come ever faster.
-    bool is_endless(const std::vector<int>& kicks) {
-        kicks_.push_back(t_);
-        if (kicks_.size() <= most_kicks_at_once) return false;
-        const double since = kicks_[kicks_.size() - 1 - most_kicks_at_once];
-        if (t_ - since > moment * options_.duration) return false;
+    /// Kicks of one event that come so fast that there is no telling them apart: the way of its value from zero to zero, or the time,
+    /// is lost in rounding after it was longer.
+    bool is_endless(const LastZero& zero, const PassedZero& passed) {
+        ++kicks_;
+        Series& here = series_[zero.event];
+        here.times.push_back(t_);
+        if (here.times.size() < 2) return false;
+        const double flight = t_ - here.times[here.times.size() - 2];
+        here.longest = std::max(here.longest, flight);
+        const bool is_lost = flight < short_flight * here.longest &&
+                             (std::abs(passed.slope) * flight < lost_in_rounding * passed.size || flight < 10 * lost_in_rounding * std::abs(t_));
+        here.lost = is_lost ? here.lost + 1 : 0;
+        const bool is_wrong = is_lost && passed.slope * zero.direction < 0;
+        const std::size_t before = here.times.size() - std::min(here.times.size(), most_kicks_at_once + 1);
+        const bool is_crowd = here.times.size() > most_kicks_at_once && t_ - here.times[before] <= moment * options_.duration;
+        if (!is_wrong && !is_crowd && here.lost < 2) return false;
+        const std::size_t shown = std::min<std::size_t>(here.times.size(), 10);
         fail(FailureKind::endless_kicks,
-             fmt::format("the impulses of event '{}' have no end: {} kicks from t = {:.17g} to {:.17g}, and the time does not move on; what bounces to rest "
-                         "is a [[unilateral]] with a restitution, and an impulse that shall not follow itself needs a 'direction' or another 'when'",
-                         mode_->events.list[static_cast<std::size_t>(kicks.front())].name, most_kicks_at_once, since, t_));
+             fmt::format("the impulses of event '{}' follow each other without end before t = {:.10g}: the last {} came within {:.3g} s; what bounces and comes "
+                         "to rest is a [[unilateral]] with its restitution; an impulse that is not to follow itself needs a 'direction' or another 'when'",
+                         mode_->events.list[static_cast<std::size_t>(zero.event)].name, t_, shown, t_ - here.times[here.times.size() - shown]));
         return true;
     }
 
@@ -361,8 +382,14 @@ private:
     std::vector<double> state_;
     std::vector<int> closed_, resting_;
     const ContactMode* mode_ = nullptr;         ///< of the last phase
-    std::vector<std::optional<double>> starts_;  ///< of the scene's events in the next phase (Event::start)
-    std::vector<double> kicks_;                 ///< their times
+    std::vector<PassedZero> passed_;  ///< of the scene's events, at the start of the next phase
+    struct Series {
+        std::vector<double> times = {};
+        double longest = 0;  ///< time between two of them
+        int lost = 0;        ///< how many of the last are too near to each other
+    };
+    std::map<int, Series> series_;  ///< kicks by event
+    long kicks_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;
     PhasedMotion result_;

@@ -15,7 +15,7 @@
 ///
 /// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are zero at the instant are
 /// added and make one impact, in which closed contacts take part; then the motion goes on, or ends where one of them stops it. The zero
-/// has been passed: what follows is the sign of the side to which the event's value goes from there, by its rate after the kick. So no
+/// has been passed: until it rises above rounding, the event's value is on the side to which it goes by its rate after the kick. So no
 /// rounding brings the event back, and a return through zero is seen however soon it comes. Kicks that come without end are a failure.
 
 #include "alembert/integrate.hpp"

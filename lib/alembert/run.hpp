@@ -177,7 +177,7 @@ private:
             for (std::size_t j = 0; j < crossings.size(); ++j) {
                 if (std::abs(crossings[j].time - crossings[k].time) > grain) continue;
                 if (j > k && crossings[j].counts) tell_event(crossings[j]);
-                result_.last_zeros.push_back({.event = crossings[j].index, .counts = crossings[j].counts});
+                result_.last_zeros.push_back({.event = crossings[j].index, .direction = crossings[j].direction, .counts = crossings[j].counts});
             }
             return stop_at(crossings[k].time);
         }

@@ -28,13 +28,20 @@
 
 namespace alembert {
 
+/// An event whose zero has just been passed, where rates have jumped.
+struct PassedZero {
+    int side = 0;      ///< to which its value goes: +1, −1, or 0 where the value as it is tells
+    double hold = 0;   ///< s, for how long it is there whatever rounding says
+    double slope = 0;  ///< its rate before the jump
+    double size = 0;   ///< of the terms of its value: what rounding is measured by
+};
+
 /// Events of the scene whose zeros bring impulses. States are (q, q', …), whatever the run integrates.
 struct Kicks {
     std::vector<bool> events = {};  ///< which of the scene's; empty: none
     std::function<Eigen::VectorXd(int event, double t, const double* state)> impulse = {};  ///< generalized, of the rates before
-    /// For each event of the scene the value from which its sign is to be followed where its zero has just been passed, and `before`
-    /// has become `after` (Event::start): of the side to which it goes. `acceleration` is q'' after; may be empty.
-    std::function<std::vector<double>(double t, const double* before, const double* after, const Eigen::VectorXd& acceleration)> passed = {};
+    /// For each event of the scene, if its zero has just been passed. `acceleration` is q'' after; may be empty.
+    std::function<std::vector<PassedZero>(double t, const double* before, const double* after, const Eigen::VectorXd& acceleration)> passed = {};
     int coordinates = 0;  ///< n
     /// The speeds that the run integrates in the place of rates; empty: it integrates the rates.
     std::function<std::vector<double>(double t, const double* state)> speeds = {};

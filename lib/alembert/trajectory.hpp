@@ -50,7 +50,8 @@ struct EventRecord {
 /// A zero where an event has stopped the run.
 struct LastZero {
     int event = 0;
-    bool counts = false;  ///< it goes in the event's direction
+    int direction = 0;    ///< +1: the value grows, −1: falls
+    bool counts = false;  ///< that is the event's direction
 };
 
 /// An explicit method that gave way to one for stiff systems.
