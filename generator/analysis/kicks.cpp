@@ -26,6 +26,10 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     const std::vector<ex> bends = m.time_derivative(slopes);  // but for q''', where `when` holds rates
     wanted.insert(wanted.end(), slopes.begin(), slopes.end());
     wanted.insert(wanted.end(), bends.begin(), bends.end());
+    for (const ex& value : values) {
+        const std::vector<ex> gradient = m.z->pull_back({{value, 1}}, m.q);
+        wanted.insert(wanted.end(), gradient.begin(), gradient.end());
+    }
     for (const Mechanism::Speed& speed : m.speeds) wanted.push_back(speed.form);
     for (const Mechanism::Occasion& event : m.occasions) wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
     const std::vector<int> nodes = lower_expressions(program_, m, wanted);
@@ -38,6 +42,7 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     values_ = taken(m.events.size());
     slopes_ = taken(m.events.size());
     bends_ = taken(m.events.size());
+    for (std::size_t k = 0; k < m.events.size(); ++k) gradients_.push_back(taken(m.q.size()));
     speeds_ = taken(m.speeds.size());
     for (const Mechanism::Occasion& event : m.occasions) impulses_.push_back(taken(event.impulse.size()));
 }
@@ -56,6 +61,7 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
     for (std::size_t k = 0; k < values_.size(); ++k) {
         const double size = size_of_terms(program_, values_[k], b), value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
         PassedZero one{.slope = a[slopes_[k]], .size = size};
+        for (std::size_t i = 0; i < after.q.size(); ++i) one.size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
         const double rounding = 2 * std::abs(value) + 16 * std::numeric_limits<double>::epsilon() * size;
         if (std::abs(value - a[values_[k]]) > negligible * size) {
         } else if (std::abs(slope) > negligible * std::abs(one.slope)) {

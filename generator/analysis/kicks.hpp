@@ -35,7 +35,7 @@ public:
 private:
     Program program_;
     std::vector<int> values_, slopes_, bends_, speeds_;
-    std::vector<std::vector<int>> impulses_;  ///< by event
+    std::vector<std::vector<int>> impulses_, gradients_;  ///< by event
 };
 
 }  // namespace alembert

@@ -23,7 +23,8 @@ constexpr int most_events_at_once = 100;
 constexpr std::size_t most_kicks_at_once = 100;  // of an event, in a moment
 constexpr double moment = 1e-5;                  // of the duration: at that rate no budget would do
 constexpr double short_flight = 1e-3;            // between two kicks of an event, beside the longest
-constexpr double lost_in_rounding = 1e-12;       // of the value's terms; of the time ten times that
+constexpr double lost_in_time = 1e-11;
+constexpr double finest_way = 1e-12, coarsest_way = 1e-6;  // of an event's value, beside its size
 
 bool contains(const std::vector<int>& list, int k) {
     return std::find(list.begin(), list.end(), k) != list.end();
@@ -198,7 +199,7 @@ private:
             here.duration = end - t_ > 16 * epsilon * std::abs(end) ? end - t_ : 0;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
-            if (here.longest_step == 0)
+            if (here.longest_step == 0 && count_ > 0)
                 here.longest_step = options_.duration / 200;  // so that no short contact is passed over
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
@@ -336,8 +337,8 @@ private:
         return true;
     }
 
-    /// Kicks of one event that come so fast that there is no telling them apart: the way of its value from zero to zero, or the time,
-    /// is lost in rounding after it was longer.
+    /// Kicks of one event that come so fast that there is no telling them apart: the way of its value from zero to zero is below the
+    /// tolerance, or the time below rounding, after it was longer.
     bool is_endless(const LastZero& zero, const PassedZero& passed) {
         ++kicks_;
         Series& here = series_[zero.event];
@@ -345,8 +346,9 @@ private:
         if (here.times.size() < 2) return false;
         const double flight = t_ - here.times[here.times.size() - 2];
         here.longest = std::max(here.longest, flight);
+        const double way = std::clamp(tolerance_, finest_way, coarsest_way);
         const bool is_lost = flight < short_flight * here.longest &&
-                             (std::abs(passed.slope) * flight < lost_in_rounding * passed.size || flight < 10 * lost_in_rounding * std::abs(t_));
+                             (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t_));
         here.lost = is_lost ? here.lost + 1 : 0;
         const bool is_wrong = is_lost && passed.slope * zero.direction < 0;
         const std::size_t before = here.times.size() - std::min(here.times.size(), most_kicks_at_once + 1);

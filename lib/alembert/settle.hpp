@@ -33,7 +33,7 @@ struct PassedZero {
     int side = 0;      ///< to which its value goes: +1, −1, or 0 where the value as it is tells
     double hold = 0;   ///< s, for how long it is there whatever rounding says
     double slope = 0;  ///< its rate before the jump
-    double size = 0;   ///< of the terms of its value: what rounding is measured by
+    double size = 0;   ///< of the terms of its value, and of what coordinates of size max(1, |q|) make of it: what errors are measured by
 };
 
 /// Events of the scene whose zeros bring impulses. States are (q, q', …), whatever the run integrates.
