@@ -137,7 +137,7 @@ private:
         const Eigen::Map<const VectorXd> u(before.data() + struck.size(), struck.size());
         for (const int k : kicks)
             if (EventRecord* const record = last_record(k))
-                record->energy_gain = Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2;
+                record->energy_gain = Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 + 0.0;  // no −0
     }
 
     EventRecord* last_record(int event) {
