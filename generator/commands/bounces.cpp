@@ -4,9 +4,11 @@
 #include <ctime>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "commands/modes.hpp"
+#include "commands/progress.hpp"
 
 namespace alembert {
 
@@ -86,9 +88,13 @@ Bounces measured_bounces(const Request& request, const Derived& d, const Start& 
     const double agreement = other.failure ? HUGE_VAL : apart(other, reference);
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
     result.by = "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses";
-    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau}) {
+    Progress progress("measuring");
+    constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau};
+    for (std::size_t k = 0; k < methods.size(); ++k) {
+        const Method method = methods[k];
         if (!request.method.empty() && name(method) != request.method) continue;
         for (int decade = 3; decade <= 13; ++decade) {
+            progress.at_stage((static_cast<double>(k) + (decade - 3) / 11.0) / static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
             PhasedMotion motion;

@@ -16,6 +16,9 @@ std::string csv(const PhasedMotion& motion, const Derived& derived, Modes& modes
 /// {name, time}; with impulses also {impulses: {coordinate: number}, energy_gain}
 Json event_as_json(const EventRecord& event, const Mechanism& mechanism);
 
+/// A line each; of more than twenty those in the middle are counted.
+std::string events_as_text(const std::vector<EventRecord>& events, const Mechanism& mechanism);
+
 /// [{time, name, event: impact|release|rest, speed_before, speed_after, energy_loss, reaction_impulse}]
 Json contacts_as_json(const std::vector<ContactEvent>& events, const std::vector<std::string>& names);
 

@@ -154,9 +154,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
     if (!account.why_method.empty()) fmt::print("{}: {}\n", motion.statistics.method, account.why_method);
     if (motion.statistics.switched) fmt::print("{}\n", described(*motion.statistics.switched));
     if (mode.jacobian_operations) fmt::print("the Jacobian is emitted: {} operations\n", *mode.jacobian_operations);
-    for (const EventRecord& event : motion.events)
-        fmt::print("event {} at t = {:.15g}{}\n", d.mechanism.events[event.index].label, event.time,
-                   event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
+    fmt::print("{}", events_as_text(motion.events, d.mechanism));
     fmt::print("{}", contacts_as_text(motion.contacts, contacts.names));
     fmt::print("\nat t = {:.15g}\n", motion.final_time());
     for (int i = 0; i < n; ++i)
