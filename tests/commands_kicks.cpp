@@ -357,6 +357,47 @@ tolerance = 1e-12
     CHECK(motion["work_balance"].get<double>() < 1e-11);
 }
 
+TEST_CASE("kicks: an event whose value the closed contact keeps at zero is silent, and a stiff companion changes nothing") {
+    const Json motion = simulated(temporary("wavy.toml", R"toml(
+gravity = [0, -9.81]
+[coordinates]
+x = { initial = 0, rate = 0.3 }
+y = 1
+[[particle]]
+name = "B"
+mass = 2
+position = ["x", "y"]
+[[unilateral]]
+name = "floor"
+gap = "y - 0.1*sin(x)"
+restitution = 0.5
+[[event]]
+name = "land"
+when = "y - sin(x)/10"
+impulses = { y = 0 }
+[simulation]
+duration = 5
+)toml"),
+                                  {"--no-estimate"});
+    const double rest = value(of_kind(motion, "rest").back(), "time");
+    CHECK(motion["events"].size() == of_kind(motion, "impact").size());
+    CHECK(value(motion["events"].back(), "time") < rest);
+    CHECK(motion["final"]["time"] == 5);
+
+    const auto oscillator = [](const std::string& coordinate, const std::string& kinetic, const std::string& force) {
+        return simulated(temporary("companion.toml", "[coordinates]\nx = 0.2\n" + coordinate + "[energy]\nkinetic = \"x'^2/2" + kinetic +
+                                                         "\"\npotential = \"2*x^2\"\n[forces]\nx = \"-0.2*x'\"\n" + force +
+                                                         "[[event]]\nname = \"tick\"\nwhen = \"x\"\nimpulses = { x = \"0.3*sign(x')\" }\n"
+                                                         "[simulation]\nduration = 20\ntolerance = 1e-10\n"),
+                         {"--no-estimate"});
+    };
+    const Json alone = oscillator("", "", ""), stiff = oscillator("z = 0.2\n", " + z'^2/2", "z = \"-1e5*z' - 1e7*(z - x)\"\n");
+    CHECK(stiff["switched"]["method"] == "radau");
+    REQUIRE(stiff["events"].size() == alone["events"].size());
+    for (std::size_t k = 0; k < alone["events"].size(); ++k)
+        CHECK(std::abs(value(alone["events"][k], "time") - value(stiff["events"][k], "time")) < 1e-8);
+}
+
 TEST_CASE("kicks: what is stopped in flight falls on, though rounding leaves it on either side of the height") {
     for (const double h : {0.0, 1.0, 0.3})
         for (const std::string method : {"dopri5", "dop853", "verner98", "taylor", "abm", "radau"}) {

@@ -14,7 +14,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double negligible = 1e-9;
+constexpr double negligible = 1e-9, lost = 1e-12, epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -59,11 +59,13 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
     const std::vector<double> a = interpret(program_, before), b = interpret(program_, after);
     std::vector<PassedZero> result;
     for (std::size_t k = 0; k < values_.size(); ++k) {
-        const double size = size_of_terms(program_, values_[k], b), value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
-        PassedZero one{.slope = a[slopes_[k]], .size = size};
-        for (std::size_t i = 0; i < after.q.size(); ++i) one.size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
-        const double rounding = 2 * std::abs(value) + 16 * std::numeric_limits<double>::epsilon() * size;
-        if (std::abs(value - a[values_[k]]) > negligible * size) {
+        const double value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
+        double size = size_of_terms(program_, values_[k], b);
+        const bool has_jumped = std::abs(value - a[values_[k]]) > negligible * size;
+        const double rounding = 2 * std::abs(value) + 16 * epsilon * size;
+        for (std::size_t i = 0; i < after.q.size(); ++i) size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
+        PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
+        if (has_jumped) {  // the value as it is tells
         } else if (std::abs(slope) > negligible * std::abs(one.slope)) {
             one.side = slope > 0 ? 1 : -1;
             one.hold = rounding / std::abs(slope);
@@ -71,6 +73,8 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
         } else if (std::abs(bend) > negligible * size_of_terms(program_, bends_[k], b)) {
             one.side = bend > 0 ? 1 : -1;
             one.hold = std::sqrt(2 * rounding / std::abs(bend));
+        } else {
+            one.band = lost * size;
         }
         result.push_back(one);
     }

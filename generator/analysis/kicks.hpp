@@ -25,7 +25,7 @@ public:
     /// n; of an event that has impulses.
     Eigen::VectorXd impulse(int event, const State<double>& state) const;
 
-    /// For each event, if its zero has just been passed. Its value as it is tells where the jump of the rates has changed it; else the
+    /// For each event, in case its zero has just been passed. Its value as it is tells where the jump of the rates has changed it; else the
     /// sign of its rate, or of its second derivative where the rate is gone.
     std::vector<PassedZero> passed(const State<double>& before, const State<double>& after) const;
 

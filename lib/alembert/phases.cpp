@@ -148,9 +148,9 @@ private:
     /// Zeros that have just been passed are followed from the side to which they go.
     void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after, const VectorXd& acceleration) {
         passed_.clear();
-        if (halt.passed.empty() || !contacts_.kicks.passed) return;
+        if (!contacts_.kicks.passed) return;
         const std::vector<PassedZero> zeros = contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
-        passed_.resize(zeros.size());
+        for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
             const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
             passed_[static_cast<std::size_t>(zero.event)] = passed;
@@ -278,8 +278,11 @@ private:
         }
         const auto base = [given = mode.events, passed = passed_, start = t_](double t, const double* y, const double* rates, double* out) {
             given(t, y, rates, out);
-            for (std::size_t k = 0; k < passed.size(); ++k)
-                if (passed[k].side != 0 && t <= start + passed[k].hold) out[k] = passed[k].side * std::max(passed[k].side * out[k], std::numeric_limits<double>::min());
+            for (std::size_t k = 0; k < passed.size(); ++k) {
+                const PassedZero& zero = passed[k];
+                if (zero.side != 0 && t <= start + zero.hold) out[k] = zero.side * std::max(zero.side * out[k], std::numeric_limits<double>::min());
+                if (std::abs(out[k]) <= zero.band) out[k] = 0;
+            }
         };
         if (count_ == 0) return make_events(std::move(list), base);
         std::vector<double> rate(state_.size()), value(mode.events.list.size());

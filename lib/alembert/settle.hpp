@@ -28,10 +28,12 @@
 
 namespace alembert {
 
-/// An event whose zero has just been passed, where rates have jumped.
+/// An event where rates have jumped: what of its value is not to be left to rounding if its zero has just been passed.
 struct PassedZero {
-    int side = 0;      ///< to which its value goes: +1, −1, or 0 where the value as it is tells
+    bool is_zero = false;  ///< its value is, to rounding
+    int side = 0;      ///< to which its value goes: +1, −1, or 0 where that is not known
     double hold = 0;   ///< s, for how long it is there whatever rounding says
+    double band = 0;   ///< values of this size are zero, where it does not leave it: its own contact is closed, say
     double slope = 0;  ///< its rate before the jump
     double size = 0;   ///< of the terms of its value, and of what coordinates of size max(1, |q|) make of it: what errors are measured by
 };
@@ -40,7 +42,7 @@ struct PassedZero {
 struct Kicks {
     std::vector<bool> events = {};  ///< which of the scene's; empty: none
     std::function<Eigen::VectorXd(int event, double t, const double* state)> impulse = {};  ///< generalized, of the rates before
-    /// For each event of the scene, if its zero has just been passed. `acceleration` is q'' after; may be empty.
+    /// For each event of the scene. `acceleration` is q'' after; may be empty.
     std::function<std::vector<PassedZero>(double t, const double* before, const double* after, const Eigen::VectorXd& acceleration)> passed = {};
     int coordinates = 0;  ///< n
     /// The speeds that the run integrates in the place of rates; empty: it integrates the rates.
