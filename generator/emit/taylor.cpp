@@ -17,6 +17,7 @@
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "emit/templates.hpp"
+#include "emit/timely.hpp"
 #include "emit/writer.hpp"
 #include "lower/recurrence.hpp"
 #include "lower/solve.hpp"
@@ -49,6 +50,8 @@ std::string exact_text(const Rational& value) {
 constexpr std::size_t least_lanes = 4;   // of a pack
 // Measured on chains, planets and a governor; 1 is what a step takes beside its series.
 constexpr double operation_cost = 0.0008, product_cost = 0.0055;
+constexpr double operation_time = 4, packing_time = 16, gathering_time = 15, solving_time = 12;  // cycles
+constexpr int orders_to_settle = 12;     // of dependences that go from order to order
 constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
@@ -79,6 +82,7 @@ public:
         };
         const auto number = [&](const char* key, std::size_t value) { file.set(key, std::to_string(value)); };
         set("first", order_zero());
+        find_times();
         set("given", given());
         set("gathering", gathering());
         set("chain", chain());
@@ -270,12 +274,10 @@ private:
                     if (rate && named_[arg].rate.empty()) named_[arg].rate = names_.fresh(named_[arg].now + "_times");
             }
         }
+        if (!has_edges()) return;
         for (const Lane& lane : lanes_in_order_)
-            for (const auto& factor : {std::pair(lane.a, lane.a_rate), std::pair(lane.b, lane.b_rate)})
-                if (has_edges() && !edges_.contains(factor)) {
-                    const std::string name = named_[factor.first].now + (factor.second ? "_rate" : "");
-                    edges_[factor] = {names_.fresh(name + "_one"), names_.fresh(name + "_before")};
-                }
+            for (const int id : {lane.a, lane.b})
+                if (!edges_.contains(id)) edges_[id] = {names_.fresh(named_[id].now + "_one"), names_.fresh(named_[id].now + "_before")};
     }
 
     static Lane lane_of(const Product& x) {
@@ -285,16 +287,8 @@ private:
     /// The first and the last term of each sum are added one by one: the coefficients of the order before need not come back from memory.
     bool has_edges() const { return lanes_in_order_.size() <= most_edges; }
 
-    /// The sum of a product over orders below k.
-    std::string inner_sum(const Product& product) const {
-        const Lane lane = lane_of(product);
-        const std::string middle = fmt::format("gathered[{}]", lanes_.at(lane));
-        if (!has_edges()) return middle;
-        const auto& [a_one, a_before] = edges_.at({lane.a, lane.a_rate});
-        const auto& [b_one, b_before] = edges_.at({lane.b, lane.b_rate});
-        if (a_one == b_one) return fmt::format("({} + Real(2) * {} * {})", middle, a_one, a_before);
-        return fmt::format("({} + {} * {} + {} * {})", middle, a_one, b_before, a_before, b_one);
-    }
+    /// The sum of a product over orders below k; where ends are added one by one, without these.
+    std::string inner_sum(const Product& product) const { return fmt::format("gathered[{}]", lanes_.at(lane_of(product))); }
 
     std::size_t lanes_padded() const { return (lanes_in_order_.size() + 7) / 8 * 8; }
 
@@ -869,6 +863,93 @@ private:
         }
     }
 
+    /// The coefficient of order k of a node that stands alone, where the ends of its sums of products are added one by one.
+    TimelySum timely(int id) {
+        const SeriesNode& x = node(id);
+        TimelySum sum;
+        const auto add_now = [&](const Weight& weight, const std::string& factor, int arg) {
+            const Piece outside = piece(weight, "");
+            sum.terms.push_back({.weight = outside.text == "Real(1)" ? "" : outside.text, .factor = factor, .late = now(arg), .ready = {.node = arg}, .negative = outside.negative});
+        };
+        const bool by_order = x.kind != Kind::sum && x.kind != Kind::residual && x.kind != Kind::quotient && x.kind != Kind::root;
+        if (by_order) sum.inner = "per_k";
+        if (const int of = divisor(id); of >= 0) sum.outer = (x.kind == Kind::root ? "Real(0.5) * " : "") + named_[of].inverse;
+
+        for (const Product& product : products_[id]) {
+            const Lane lane = lane_of(product);
+            const auto add_part = [&](const std::string& times, const std::string& factor, const std::string& late, Moment ready) {
+                const Piece weight = piece(product.weight, times);
+                sum.terms.push_back({.weight = weight.text == "Real(1)" ? "" : weight.text, .factor = factor, .late = late, .ready = ready, .is_inner = true, .negative = weight.negative});
+            };
+            const auto add_edge = [&](int one, int before, bool before_rate, const char* twice) {
+                add_part(before_rate ? "(number - Real(1))" : twice, edges_.at(one).first, edges_.at(before).second, {.node = before, .before = 1});
+            };
+            add_part("", "", inner_sum(product), {.node = size(), .before = 2, .delay = gathering_time});
+            if (lane.a == lane.b && lane.a_rate == lane.b_rate) {
+                add_edge(lane.a, lane.a, lane.a_rate, "Real(2)");
+            } else {
+                add_edge(lane.a, lane.b, lane.b_rate, "");
+                add_edge(lane.b, lane.a, lane.a_rate, "");
+            }
+        }
+        for (const auto& [weight, a] : x.linear) add_now(weight, "", a);
+        for (const auto& [weight, a, b] : x.bilinear) {
+            add_now(weight, (a == b ? "Real(2) * " : "") + first(a), b);
+            if (a != b) add_now(weight, first(b), a);
+        }
+        for (const auto& [weight, m, a] : x.implied) add_now(weight, first(a), m);
+        const Weight plus{1, -1}, minus{-1, -1};
+        switch (x.kind) {
+            case Kind::quotient: add_now(minus, first(id), x.w); break;
+            case Kind::root: case Kind::ratio: add_now(plus, "", x.a); break;
+            case Kind::power: add_now(x.exponent, first(id), x.a); break;
+            case Kind::cosine: add_now(minus, first(x.w), x.a); break;
+            case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area: add_now(plus, first(x.w), x.a); break;
+            case Kind::exponential: add_now(plus, first(id), x.a); break;
+            case Kind::turn:
+                add_now(plus, first(x.b), x.a);
+                add_now(minus, first(x.a), x.b);
+                break;
+            default: break;
+        }
+        return sum;
+    }
+
+    std::string value_alone(int id) {
+        const auto sum = sums_.find(id);
+        return sum != sums_.end() ? sum->second.text(times_) : value(id, view(id));
+    }
+
+    /// When each coefficient is ready: a few orders, one after the other.
+    void find_times() {
+        for (int id = 0; id < size(); ++id)
+            if (has_edges() && !is_packed(id) && !products_[id].empty()) sums_.emplace(id, timely(id));
+        for (std::vector<double>& times : times_) times.assign(r_.nodes.size() + 1, 0);
+        for (int order = 0; order < orders_to_settle; ++order) {
+            std::rotate(times_.begin(), times_.end() - 1, times_.end());
+            std::vector<double>& here = times_[0];
+            double solved = 0, stored = 0;
+            for (int id = 0; id < size(); ++id) {
+                const SeriesNode& x = node(id);
+                const int state = x.kind == Kind::coordinate ? x.index : x.kind == Kind::speed ? n_ + x.index : -1;
+                if (state >= 0) {
+                    here[id] = times_[1][rate_of(state)] + operation_time;
+                } else if (x.kind == Kind::unknown) {
+                    here[id] = solved + solving_time * static_cast<double>(r_.unknowns.size());
+                } else if (const auto sum = sums_.find(id); sum != sums_.end()) {
+                    here[id] = sum->second.ready(times_);
+                } else {
+                    double latest = 0;
+                    for (const int arg : arguments(id)) latest = std::max(latest, here[arg]);
+                    here[id] = latest + (is_packed(id) ? packing_time : operation_time);
+                }
+                if (x.kind == Kind::residual) solved = std::max(solved, here[id]);
+            }
+            for (const Lane& lane : lanes_in_order_) stored = std::max({stored, here[lane.a], here[lane.b]});
+            here.back() = stored;  // a row is read as a whole, when the last of its lanes has been stored
+        }
+    }
+
     /// Sums of products in packs: all of orders below k, needed by nothing but this order.
     Lines gathering() {
         Lines lines;
@@ -921,7 +1002,7 @@ private:
                 }
                 moved = true;
                 if (!is_packed(id)) {
-                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value(id, view(id))));
+                    if (!is_given(id) && node(id).kind != Kind::unknown) lines.push_back(fmt::format("const Real {} = {};", now(id), value_alone(id)));
                     finish(id);
                     continue;
                 }
@@ -976,21 +1057,21 @@ private:
             lines.push_back(fmt::format("left[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.a, lane.a_rate)));
             lines.push_back(fmt::format("right[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.b, lane.b_rate)));
         }
-        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, scalar(factor.first, factor.second)));
+        for (const auto& [id, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, now(id)));
         return lines;
     }
 
     /// The first coefficients for the edges, half at order 1: the only term of order 2 is then counted once.
     Lines ones() const {
         Lines lines;
-        for (const auto& [factor, names] : edges_)
-            lines.push_back(fmt::format("{} = k == 1 ? Real(0.5) * {} : Real(2) * {};", names.first, scalar(factor.first, factor.second), names.first));
+        for (const auto& [id, names] : edges_)
+            lines.push_back(fmt::format("{} = k == 1 ? Real(0.5) * {} : Real(2) * {};", names.first, now(id), names.first));
         return lines;
     }
 
     Lines edges() const {
         Lines lines;
-        for (const auto& [factor, names] : edges_) lines.push_back(fmt::format("Real {} = 0, {} = 0;", names.first, names.second));
+        for (const auto& [id, names] : edges_) lines.push_back(fmt::format("Real {} = 0, {} = 0;", names.first, names.second));
         return lines;
     }
 
@@ -1070,10 +1151,12 @@ private:
     int columns_count_ = 0, single_count_ = 0;
     std::map<Lane, int> lanes_;
     std::vector<Lane> lanes_in_order_;
-    std::map<std::pair<int, bool>, std::pair<std::string, std::string>> edges_;  ///< coefficient of order 1, of the order before
+    std::map<int, std::pair<std::string, std::string>> edges_;  ///< of a factor: coefficient of order 1 (its rate's too), of the order before
     std::vector<Pack> packs_;
     std::vector<Place> place_;                    // of each node
     std::vector<int> levels_;
+    Times times_;                                 ///< of each node; then of a row of lanes
+    std::map<int, Timely> sums_;                  ///< of nodes that stand alone, where sums have edges
     Lines weight_lines_;
 };
 
