@@ -12,7 +12,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "alembert/settle.hpp"
+#include "alembert/kick.hpp"
 #include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
 

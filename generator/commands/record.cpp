@@ -92,6 +92,7 @@ Json event_as_json(const EventRecord& event, const Mechanism& m) {
     const auto k = static_cast<std::size_t>(event.index);
     Json result{{"name", m.events[k].label}, {"time", event.time}};
     if (event.impulse.empty()) return result;
+    result["impulses"] = Json::object();
     for (std::size_t i = 0; i < event.impulse.size(); ++i)
         if (!m.occasions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
     result["energy_gain"] = event.energy_gain;

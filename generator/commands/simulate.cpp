@@ -54,15 +54,6 @@ bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
     });
 }
 
-/// (q, u) of (q, q'); empty where that is what is integrated.
-std::vector<double> as_integrated(const Kicks& kicks, double t, const double* rates) {
-    if (!kicks.speeds) return {};
-    std::vector<double> state(rates, rates + kicks.coordinates);
-    const std::vector<double> speeds = kicks.speeds(t, rates);
-    state.insert(state.end(), speeds.begin(), speeds.end());
-    return state;
-}
-
 /// What the run measured of itself.
 struct Account {
     bool conserved = true, jacobi_conserved = true;
@@ -227,8 +218,8 @@ int simulate(const Request& request) {
     const LoadedMode& free = modes({});
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
         if (account.closed) return;
-        const std::vector<double> a = as_integrated(contacts.kicks, t, before), b = as_integrated(contacts.kicks, t, after);
-        account.drift.jump(free.module.table(), free.par, t, a.empty() ? before : a.data(), b.empty() ? after : b.data(), jump);
+        const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}), b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
+        account.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     };
 
     std::vector<double> initial = start.q;

@@ -20,11 +20,6 @@ using Eigen::VectorXd;
 constexpr double finest = 1e-13;  // tolerance that rounding allows
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_events_at_once = 100;
-constexpr std::size_t most_kicks_at_once = 100;  // of an event, in a moment
-constexpr double moment = 1e-5;                  // of the duration: at that rate no budget would do
-constexpr double short_flight = 1e-3;            // between two kicks of an event, beside the longest
-constexpr double lost_in_time = 1e-11;
-constexpr double finest_way = 1e-12, coarsest_way = 1e-6;  // of an event's value, beside its size
 
 bool contains(const std::vector<int>& list, int k) {
     return std::find(list.begin(), list.end(), k) != list.end();
@@ -91,36 +86,13 @@ public:
 private:
     /// What has ended a phase.
     struct Halt {
-        int contact = -1;                ///< one that has closed or let go
-        std::vector<int> kicks = {};     ///< events whose impulses act
-        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero
-        bool stops = false;              ///< and that is the end
+        int contact = -1;                   ///< one that has closed or let go
+        std::vector<int> kicks = {};        ///< events whose impulses act
+        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero, once each
+        bool stops = false;                 ///< and that is the end
     };
 
     bool is_first() const { return result_.phases.empty(); }
-
-    /// q, q' and what there is beyond.
-    std::vector<double> in_rates() const {
-        if (!contacts_.kicks.speeds || !mode_) return state_;
-        const auto n = static_cast<std::ptrdiff_t>(contacts_.kicks.coordinates);
-        std::vector<double> rate(state_.size()), result(state_.begin(), state_.begin() + n);
-        mode_->rhs(t_, state_.data(), rate.data());
-        result.insert(result.end(), rate.begin(), rate.begin() + n);
-        const auto s = static_cast<std::ptrdiff_t>(contacts_.kicks.speeds(t_, result.data()).size());
-        result.insert(result.end(), state_.begin() + n + s, state_.end());
-        return result;
-    }
-
-    void take(const std::vector<double>& rates) {
-        if (!contacts_.kicks.speeds || !mode_) {
-            state_ = rates;
-            return;
-        }
-        const auto n = static_cast<std::ptrdiff_t>(contacts_.kicks.coordinates);
-        const std::vector<double> speeds = contacts_.kicks.speeds(t_, rates.data());
-        std::copy_n(rates.begin(), n, state_.begin());
-        std::copy(speeds.begin(), speeds.end(), state_.begin() + n);
-    }
 
     /// All that act, added; each is kept in its record.
     VectorXd impulse_of(const std::vector<int>& kicks, const std::vector<double>& state) {
@@ -154,12 +126,15 @@ private:
         for (const LastZero& zero : halt.passed) {
             const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
             passed_[static_cast<std::size_t>(zero.event)] = passed;
-            if (contains(halt.kicks, zero.event) && is_endless(zero, passed)) return;
+            if (!contains(halt.kicks, zero.event)) continue;
+            ++kicks_;
+            const std::string& name = mode_->events.list[static_cast<std::size_t>(zero.event)].name;
+            if (const auto endless = series_[zero.event].add(name, t_, zero, passed, tolerance_, options_.duration)) return fail(FailureKind::endless_kicks, *endless);
         }
     }
 
     void settle_into(const std::vector<int>& touched, const std::optional<int>& released, const Halt& halt) {
-        const std::vector<double> before = in_rates();
+        const std::vector<double> before = mode_ ? in_rates(contacts_.kicks, mode_->rhs, t_, state_) : state_;
         std::vector<double> rates = before;
         Settled settled = settle(contacts_,
                                  {.t = t_,
@@ -170,7 +145,7 @@ private:
                                   .released = released,
                                   .impulse = impulse_of(halt.kicks, before)},
                                  rates);
-        take(rates);
+        state_ = mode_ ? as_integrated(contacts_.kicks, t_, rates) : rates;
         for (const ContactEvent& event : settled.events) {
             const auto struck = [&](const ContactEvent& e) {
                 return e.kind == ContactEvent::Kind::impact && e.contact == event.contact;
@@ -245,17 +220,19 @@ private:
                 if (halt.contact < 0) halt.contact = zero.event - of_scene;
                 continue;
             }
-            halt.passed.push_back(zero);
+            const auto known = std::find_if(halt.passed.begin(), halt.passed.end(), [&](const LastZero& z) { return z.event == zero.event; });
+            if (known == halt.passed.end())
+                halt.passed.push_back(zero);
+            else if (zero.counts)
+                *known = zero;
             if (!zero.counts) continue;
             const auto k = static_cast<std::size_t>(zero.event);
             halt.stops = halt.stops || mode.events.list[k].stop;
-            if (kicks_at(k) && !contains(halt.kicks, zero.event)) halt.kicks.push_back(zero.event);
+            if (contacts_.kicks.has(k) && !contains(halt.kicks, zero.event)) halt.kicks.push_back(zero.event);
         }
         if (halt.stops && halt.kicks.empty()) halt.contact = -1;
         return halt;
     }
-
-    bool kicks_at(std::size_t event) const { return event < contacts_.kicks.events.size() && contacts_.kicks.events[event]; }
 
     void add_up(const Statistics& s) {
         Statistics& sum = result_.statistics;
@@ -272,19 +249,12 @@ private:
         const std::size_t scene = mode.events.list.size() - contacts_.names.size();
         std::vector<Event> list = mode.events.list;
         for (std::size_t k = 0; k < scene; ++k) {
-            if (!kicks_at(k)) continue;
+            if (!contacts_.kicks.has(k)) continue;
             list[k].stop = true;
             list[k].at_once = !is_first();
         }
-        const auto base = [given = mode.events, passed = passed_, start = t_](double t, const double* y, const double* rates, double* out) {
-            given(t, y, rates, out);
-            for (std::size_t k = 0; k < passed.size(); ++k) {
-                const PassedZero& zero = passed[k];
-                if (zero.side != 0 && t <= start + zero.hold) out[k] = zero.side * std::max(zero.side * out[k], std::numeric_limits<double>::min());
-                if (std::abs(out[k]) <= zero.band) out[k] = 0;
-            }
-        };
-        if (count_ == 0) return make_events(std::move(list), base);
+        Events held = with_zeros_passed(mode.events, list, passed_, t_);
+        if (count_ == 0) return held;
         std::vector<double> rate(state_.size()), value(mode.events.list.size());
         mode.rhs(t_, state_.data(), rate.data());
         mode.events(t_, state_.data(), rate.data(), value.data());
@@ -315,7 +285,7 @@ private:
                                                         : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
-        return make_events(std::move(list), [base, watches, scene](
+        return make_events(std::move(list), [base = std::move(held), watches, scene](
                                                 double t, const double* y, const double* rates, double* out) {
             base(t, y, rates, out);
             for (std::size_t k = 0; k < watches.size(); ++k) {
@@ -337,31 +307,6 @@ private:
                         "without the time "
                         "moving on; loosen the tolerance, or look at the gaps there",
                         t_, contacts_.names[k]));
-        return true;
-    }
-
-    /// Kicks of one event that come so fast that there is no telling them apart: the way of its value from zero to zero is below the
-    /// tolerance, or the time below rounding, after it was longer.
-    bool is_endless(const LastZero& zero, const PassedZero& passed) {
-        ++kicks_;
-        Series& here = series_[zero.event];
-        here.times.push_back(t_);
-        if (here.times.size() < 2) return false;
-        const double flight = t_ - here.times[here.times.size() - 2];
-        here.longest = std::max(here.longest, flight);
-        const double way = std::clamp(tolerance_, finest_way, coarsest_way);
-        const bool is_lost = flight < short_flight * here.longest &&
-                             (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t_));
-        here.lost = is_lost ? here.lost + 1 : 0;
-        const bool is_wrong = is_lost && passed.slope * zero.direction < 0;
-        const std::size_t before = here.times.size() - std::min(here.times.size(), most_kicks_at_once + 1);
-        const bool is_crowd = here.times.size() > most_kicks_at_once && t_ - here.times[before] <= moment * options_.duration;
-        if (!is_wrong && !is_crowd && here.lost < 2) return false;
-        const std::size_t shown = std::min<std::size_t>(here.times.size(), 10);
-        fail(FailureKind::endless_kicks,
-             fmt::format("the impulses of event '{}' follow each other without end before t = {:.10g}: the last {} came within {:.3g} s; what bounces and comes "
-                         "to rest is a [[unilateral]] with its restitution; an impulse that is not to follow itself needs a 'direction' or another 'when'",
-                         mode_->events.list[static_cast<std::size_t>(zero.event)].name, t_, shown, t_ - here.times[here.times.size() - shown]));
         return true;
     }
 
@@ -388,12 +333,7 @@ private:
     std::vector<int> closed_, resting_;
     const ContactMode* mode_ = nullptr;         ///< of the last phase
     std::vector<PassedZero> passed_;  ///< of the scene's events, at the start of the next phase
-    struct Series {
-        std::vector<double> times = {};
-        double longest = 0;  ///< time between two of them
-        int lost = 0;        ///< how many of the last are too near to each other
-    };
-    std::map<int, Series> series_;  ///< kicks by event
+    std::map<int, KickSeries> series_;  ///< by event
     long kicks_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;

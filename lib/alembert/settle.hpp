@@ -18,38 +18,15 @@
 ///  - the contacts that last are those of contact.hpp; one whose reaction has come down to zero is let go if that
 ///    is consistent.
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "alembert/contact.hpp"
+#include "alembert/kick.hpp"
 
 namespace alembert {
-
-/// An event where rates have jumped: what of its value is not to be left to rounding if its zero has just been passed.
-struct PassedZero {
-    bool is_zero = false;  ///< its value is, to rounding
-    int side = 0;      ///< to which its value goes: +1, −1, or 0 where that is not known
-    double hold = 0;   ///< s, for how long it is there whatever rounding says
-    double band = 0;   ///< values of this size are zero, where it does not leave it: its own contact is closed, say
-    double slope = 0;  ///< its rate before the jump
-    double size = 0;   ///< of the terms of its value, and of what coordinates of size max(1, |q|) make of it: what errors are measured by
-};
-
-/// Events of the scene whose zeros bring impulses. States are (q, q', …), whatever the run integrates.
-struct Kicks {
-    std::vector<bool> events = {};  ///< which of the scene's; empty: none
-    std::function<Eigen::VectorXd(int event, double t, const double* state)> impulse = {};  ///< generalized, of the rates before
-    /// For each event of the scene. `acceleration` is q'' after; may be empty.
-    std::function<std::vector<PassedZero>(double t, const double* before, const double* after, const Eigen::VectorXd& acceleration)> passed = {};
-    int coordinates = 0;  ///< n
-    /// The speeds that the run integrates in the place of rates; empty: it integrates the rates.
-    std::function<std::vector<double>(double t, const double* state)> speeds = {};
-
-    bool any() const { return std::find(events.begin(), events.end(), true) != events.end(); }
-};
 
 struct Contacts {
     std::vector<std::string> names = {};
@@ -57,7 +34,7 @@ struct Contacts {
     std::function<Situation(double t, const double* state)> situation = {};
     /// Called where rates jump; `work` is that of the impulses, Σ Π·(mean rate of their points). May be empty.
     std::function<void(double t, const double* before, const double* after, double work)> on_jump = {};
-    Kicks kicks = {};
+    Kicks kicks = {};  ///< of events beside the contacts
 };
 
 struct ContactEvent {
