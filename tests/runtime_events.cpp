@@ -188,3 +188,47 @@ TEST_CASE("events: in a step that goes far beyond an event that stops, an earlie
     CHECK(motion.events[0].name == "disc");
     CHECK(std::abs(motion.times.back() - 0.38) < 1e-11);
 }
+
+TEST_CASE("events: two that would stop the run at one instant are both told, and what is zero there is listed") {
+    const Events events = make_events({{.name = "one", .stop = true}, {.name = "wrong way", .stop = true, .direction = -1}, {.name = "mark"}, {.name = "two", .stop = true}},
+                                      [](double, const double* y, const double*, double* out) {
+                                          out[0] = y[0] - 5;
+                                          out[1] = y[0] * y[0] * y[0] - 125;
+                                          out[2] = y[0] * y[0] - 25;
+                                          out[3] = std::exp(y[0]) - std::exp(5);
+                                      });
+    const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
+    REQUIRE(motion.events.size() == 3);
+    CHECK(motion.events[0].name == "one");
+    CHECK(motion.events[1].name == "mark");
+    CHECK(motion.events[2].name == "two");
+    REQUIRE(motion.last_zeros.size() == 4);
+    for (int k = 0; k < 4; ++k) {
+        const LastZero& zero = motion.last_zeros[static_cast<std::size_t>(k)];
+        CHECK(zero.event == k);
+        CHECK(zero.direction == 1);
+        CHECK(zero.counts == (k != 1));
+    }
+}
+
+// x = cos t falls through zero at π/2 and rises at 3π/2.
+TEST_CASE("events: direction tells zeros where the value grows from those where it falls") {
+    const auto times = [](int direction, double offset) {
+        const Trajectory motion = integrate(oscillator(), {1, 0}, {.duration = 12, .tolerance = 1e-13},
+                                            make_events({{.name = "x", .direction = direction}},
+                                                        [offset](double, const double* y, const double*, double* out) { out[0] = y[0] + offset; }));
+        std::vector<double> list;
+        for (const EventRecord& event : motion.events) list.push_back(event.time / std::numbers::pi);
+        return list;
+    };
+    const auto near = [](const std::vector<double>& list, const std::vector<double>& expected) {
+        REQUIRE(list.size() == expected.size());
+        for (std::size_t k = 0; k < list.size(); ++k) CHECK(std::abs(list[k] - expected[k]) < 1e-12);
+    };
+    near(times(0, 0), {0.5, 1.5, 2.5, 3.5});
+    near(times(1, 0), {1.5, 3.5});
+    near(times(-1, 0), {0.5, 2.5});
+    const double late = std::acos(-0.5) / std::numbers::pi;  // x = −1/2
+    near(times(-1, 0.5), {late, 2 + late});
+    near(times(1, 0.5), {2 - late, 4 - late});
+}

@@ -27,7 +27,7 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
         const Mechanism::Constraint& gap = mechanism.unilateral[k].gap;
         const bool is_closed = std::find(closed.begin(), closed.end(), static_cast<int>(k)) != closed.end();
         mechanism.events.push_back({gap.name, is_closed ? GiNaC::ex(gap.multiplier) : *gap.position});
-        mechanism.event_stops.push_back(true);
+        mechanism.occasions.push_back({.stop = true});
     }
     return mechanism;
 }
@@ -39,7 +39,7 @@ Program view_of(const Mechanism& mechanism) {
     Mechanism closed = with_all_closed(mechanism);
     closed.outputs.clear();
     closed.events.clear();
-    closed.event_stops.clear();
+    closed.occasions.clear();
     Energy energy = energy_of(mechanism);
     energy.power = 0;  // it holds multipliers
     Program program = lower(closed, routh(closed), energy);

@@ -23,7 +23,7 @@ constexpr double closed = 1e-9;  // of the sum of the sizes of a gap's terms
 Program program_of(Mechanism m) {
     m.outputs.clear();
     m.events.clear();
-    m.event_stops.clear();
+    m.occasions.clear();
     Energy energy = energy_of(m);
     energy.power = 0;
     return lower(m, routh(m), energy);

@@ -152,7 +152,9 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     const std::vector<int> accelerations = program.nodes_of("acceleration");
     wanted.insert(wanted.end(), accelerations.begin(), accelerations.end());
     Tape<Quad> tape(program, wanted, start.parameters);
+    double share = 0;  // of the work, before this method
     const QuadRhs rhs = [&](Quad t, const Quad* state, Quad* rate) {
+        if (options.progress && start.duration > 0) options.progress(share + 0.5 * static_cast<double>((t - start.t) / start.duration));
         if (!own_speeds) std::copy_n(state + n, n, rate);
         tape(t, state, state + n, own_speeds ? rate : rate + n);
     };
@@ -177,8 +179,10 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
 
     const Quad end = start.t + start.duration;
     for (const double tolerance : {1e-28, 1e-20}) {
+        share = 0;
         const QuadMotion first = extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
         if (!first.finished) continue;
+        share = 0.5;
         const QuadMotion second = collocate(rhs, rough, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
         if (!second.finished) continue;
         const double apart = agreement(first.state, second.state);

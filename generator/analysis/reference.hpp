@@ -37,6 +37,7 @@ struct Reference {
 
 struct ReferenceOptions {
     double seconds = 30;  ///< process time, for each of the two methods
+    std::function<void(double fraction)> progress = {};  ///< told often; may be empty
 };
 
 /// Nothing where the time is too short or the motion ends in a singularity.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <tuple>
@@ -55,13 +56,14 @@ std::optional<Judge> by_doubles(Workbench& bench, const Options& options) {
 }
 
 /// Runs of one method, from loose to strict, as long as it pays.
-std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess) {
+std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess, const std::function<void(double)>& progress) {
     std::vector<Measured> runs;
     const long budget = options.budget;
     options.budget = std::min(budget, static_cast<long>(most_seconds / each) + 1000);
     double best = HUGE_VAL;
     int worse = 0;
     for (int k = 0; k < 24; ++k) {
+        progress(k / 24.0);
         if (has_fixed_step(options.method)) {
             options.step = options.duration / (static_cast<double>(guess) * std::ldexp(1.0, k));
         } else {
@@ -237,13 +239,12 @@ int bench(const Request& request) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start.t,
                                            failure_at(d, first).value_or("the mass matrix is singular")), start.t, start.q);
     const double duration = request.duration >= 0 ? request.duration : start.duration;
-    if (!d.mechanism.unilateral.empty()) {
-        need_rates(d);
+    if (has_jumps(d.mechanism)) {
         Bounces bounces = measured_bounces(request, d, start, first);
-        if (request.peers) std::cerr << "no peers: none of them follows contacts\n";
+        if (request.peers) std::cerr << "no peers: none of them follows contacts or impulses\n";
         deliver(request, d, {.exact = {}, .judge = {std::move(bounces.final), bounces.digits, std::move(bounces.by)}, .program = program,
                              .formulation = program.formulation, .operations = program.count(program.right_hand_side()).total(),
-                             .end = start.t + duration, .runs = std::move(bounces.runs)});
+                             .end = bounces.end, .runs = std::move(bounces.runs)});
         return 0;
     }
     const Source source = emit(with_jacobian(program, method_named(request.method).value_or(Method::radau), !energy.conserved));
@@ -256,11 +257,14 @@ int bench(const Request& request) {
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     Workbench workbench({.derived = d, .module = module, .series = series, .series_with_work = series_with_work, .canonical = canonical, .parameters = start.parameters, .initial = initial, .conserved = energy.conserved});
 
-    Progress progress("measuring");
     const Options options{.start = start.t, .duration = duration, .budget = request.budget};
-    const std::optional<Reference> exact =
-        reference(program, quad_start(d.mechanism, d.equations, start, request.duration >= 0 ? std::optional(duration) : std::nullopt),
-                  {.seconds = request.reference_seconds});
+    std::optional<Reference> exact;
+    {
+        Progress progress("computing the reference");
+        exact = reference(program, quad_start(d.mechanism, d.equations, start, request.duration >= 0 ? std::optional(duration) : std::nullopt),
+                          {.seconds = request.reference_seconds, .progress = [&](double fraction) { progress.at(fraction); }});
+    }
+    Progress progress("measuring");
     std::optional<Judge> judge;
     if (exact) {
         judge = Judge{{}, exact->digits, exact->by};
@@ -283,14 +287,14 @@ int bench(const Request& request) {
     std::vector<Measured> runs;
     const std::vector<Method> methods = all_methods();
     for (std::size_t k = 0; k < methods.size(); ++k) {
-        progress.at(static_cast<double>(k) / static_cast<double>(methods.size()));
         if (needs_separable(methods[k]) && !separable) continue;
         if (needs_series(methods[k]) && !series) continue;
         if (needs_canonical(methods[k]) && !canonical) continue;
         if (!request.method.empty() && name(methods[k]) != request.method) continue;
         Options these = options;
         these.method = methods[k];
-        for (Measured& run : ladder(workbench, these, each, guess)) runs.push_back(std::move(run));
+        const auto at = [&](double part) { progress.at_stage((static_cast<double>(k) + part) / static_cast<double>(methods.size())); };
+        for (Measured& run : ladder(workbench, these, each, guess, at)) runs.push_back(std::move(run));
     }
     Peers peers;
     if (request.peers) {

@@ -4,9 +4,11 @@
 #include <ctime>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "commands/modes.hpp"
+#include "commands/progress.hpp"
 
 namespace alembert {
 
@@ -27,10 +29,21 @@ std::vector<double> times_of(const PhasedMotion& motion, ContactEvent::Kind kind
     return list;
 }
 
-/// Infinite where one lacks a release or a coming to rest.
+std::vector<double> kicks_of(const PhasedMotion& motion) {
+    std::vector<double> list;
+    for (const EventRecord& event : motion.events)
+        if (!event.impulse.empty()) list.push_back(event.time);
+    return list;
+}
+
+/// Infinite where one lacks a release, a coming to rest or a kick.
 double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
     double largest = 0;
     const auto states = [&](const std::vector<double>& a, const std::vector<double>& b) { largest = std::max(largest, error_against(b, a)); };
+    const std::vector<double> kicks = kicks_of(motion), expected = kicks_of(reference);
+    if (kicks.size() != expected.size()) return HUGE_VAL;
+    states(kicks, expected);
+    states({motion.final_time()}, {reference.final_time()});
     using Kind = ContactEvent::Kind;
     for (const Kind kind : {Kind::impact, Kind::release, Kind::rest}) {
         std::vector<double> a = times_of(motion, kind), b = times_of(reference, kind);
@@ -49,7 +62,8 @@ double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
 
 Bounces measured_bounces(const Request& request, const Derived& d, const Start& start, const State<double>& first) {
     const ContactView view(d.mechanism);
-    const Contacts contacts = contacts_of(d, start, view);
+    const KickView kicks(d.mechanism);
+    const Contacts contacts = contacts_of(d, start, view, kicks);
     const MethodChoice choice;  // for its compilation: methods that need nothing else are measured
     Modes modes(request, d, start, first, Work::left_out, choice, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
@@ -69,13 +83,18 @@ Bounces measured_bounces(const Request& request, const Derived& d, const Start& 
     const PhasedMotion reference = run(Method::verner98, strictest), other = run(Method::dop853, strictest);
     if (reference.failure) throw_failure(*reference.failure);
     Bounces result;
-    result.final.assign(reference.final_state().begin(), reference.final_state().end());
+    result.end = reference.final_time();
+    result.final = coordinates_and_rates(modes({}).contact.rhs, result.end, reference.final_state().data(), start.q.size());
     const double agreement = other.failure ? HUGE_VAL : apart(other, reference);
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
-    result.by = "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts";
-    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau}) {
+    result.by = "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses";
+    Progress progress("measuring");
+    constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau};
+    for (std::size_t k = 0; k < methods.size(); ++k) {
+        const Method method = methods[k];
         if (!request.method.empty() && name(method) != request.method) continue;
         for (int decade = 3; decade <= 13; ++decade) {
+            progress.at_stage((static_cast<double>(k) + (decade - 3) / 11.0) / static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
             PhasedMotion motion;
@@ -93,7 +112,7 @@ Bounces measured_bounces(const Request& request, const Derived& d, const Start& 
             else if (const double error = apart(motion, reference); std::isfinite(error))
                 one.error = error;
             else
-                one.failure = "other contacts than the reference's";
+                one.failure = "other contacts or impulses than the reference's";
             result.runs.push_back(std::move(one));
             if (result.runs.back().seconds > 1) break;
         }

@@ -27,17 +27,35 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
 
 }  // namespace
 
-Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view) {
-    return {.names = view.names(),
-            .restitution = restitutions(d.mechanism, start.parameters),
-            .situation =
-                [&view, state = start.state()](double t, const double* y) mutable {
-                    state.t = t;
-                    std::copy_n(y, state.q.size(), state.q.begin());
-                    std::copy_n(y + state.q.size(), state.qdot.size(), state.qdot.begin());
-                    return view.at(state);
-                },
-            .on_jump = {}};
+bool has_jumps(const Mechanism& m) {
+    return !m.unilateral.empty() || m.has_kicks();
+}
+
+Contacts contacts_of(const Derived& d, const Start& start, const ContactView& view, const KickView& kicks) {
+    const Mechanism& m = d.mechanism;
+    if (!m.unilateral.empty() || m.speeds.empty()) need_rates(d);
+    const auto at = [state = start.state()](double t, const double* y) {
+        State<double> result = state;
+        result.t = t;
+        std::copy_n(y, state.q.size(), result.q.begin());
+        std::copy_n(y + state.q.size(), state.qdot.size(), result.qdot.begin());
+        return result;
+    };
+    Contacts contacts{.names = view.names(),
+                      .restitution = restitutions(m, start.parameters),
+                      .situation = [&view, at](double t, const double* y) { return view.at(at(t, y)); },
+                      .on_jump = {}};
+    for (const Mechanism::Occasion& event : m.occasions) contacts.kicks.events.push_back(!event.impulse.empty());
+    contacts.kicks.coordinates = m.size();
+    contacts.kicks.impulse = [&kicks, at](int event, double t, const double* y) { return kicks.impulse(event, at(t, y)); };
+    contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after, const Eigen::VectorXd& acceleration) {
+        State<double> a = at(t, before), b = at(t, after);
+        a.qddot.assign(acceleration.begin(), acceleration.end());
+        b.qddot = a.qddot;
+        return kicks.passed(a, b);
+    };
+    if (!d.equations.h.empty()) contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
+    return contacts;
 }
 
 Program with_jacobian(Program program, Method method, bool with_power) {
@@ -120,7 +138,12 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
-    const std::vector<bool> stops = derived.mechanism.event_stops;
+    std::vector<bool> stops;
+    std::vector<int> directions;
+    for (const Mechanism::Occasion& event : derived.mechanism.occasions) {
+        stops.push_back(event.stop);
+        directions.push_back(event.direction);
+    }
     const bool constrained = !derived.mechanism.constraints.empty();
     auto mode = std::make_unique<LoadedMode>(LoadedMode{.derived = std::move(derived),
                                                         .program = std::move(program),
@@ -129,7 +152,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                                         .par = prepared(module, values),
                                                         .projection = Projection(module, values),
                                                         .contact = {.rhs = make_rhs(module, values, work_),
-                                                                    .events = make_events(module, values, stops)},
+                                                                    .events = make_events(module, values, stops, directions)},
                                                         .from_cache = compiled.from_cache});
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);

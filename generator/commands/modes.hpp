@@ -16,6 +16,7 @@
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
 #include "analysis/contacts.hpp"
+#include "analysis/kicks.hpp"
 #include "commands/method.hpp"
 #include "commands/pipeline.hpp"
 #include "emit/emit.hpp"
@@ -39,8 +40,12 @@ struct LoadedMode {
 /// long to be written out; else as it is. `with_power`: of the power too.
 Program with_jacobian(Program program, Method method, bool with_power);
 
-/// Contacts as the runtime asks for them: gaps and rows by interpretation. `view` must outlive them.
-Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view);
+/// What makes rates jump: contacts, and events with impulses.
+bool has_jumps(const Mechanism& mechanism);
+
+/// These as the runtime asks for them: gaps, rows and impulses by interpretation. The views must outlive them. Throws ModelError where
+/// the state has speeds that the motion with jumps is not followed in.
+Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view, const KickView& kicks);
 
 class Modes {
 public:

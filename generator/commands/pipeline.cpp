@@ -141,7 +141,7 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
 
 void need_rates(const Derived& d) {
     if (!d.equations.h.empty())
-        throw ModelError("contacts are followed in coordinates and their rates, not in generalized speeds; leave out --by kane, or "
+        throw ModelError("contacts are followed in coordinates and their rates, and impulses of events in these or the scene's own speeds; leave out --by kane, or "
                          "take --by routh");
 }
 

@@ -28,6 +28,11 @@ void Progress::at(double fraction) {
     // Looking at the clock costs more than a step of a small system.
     if (!on_terminal_ || ++skipped_ < 1000) return;
     skipped_ = 0;
+    at_stage(fraction);
+}
+
+void Progress::at_stage(double fraction) {
+    if (!on_terminal_) return;
     if (Clock::now() < next_) return;
     next_ = Clock::now() + redraw_after;
     drawn_ = true;

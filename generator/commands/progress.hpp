@@ -21,6 +21,7 @@ public:
     Progress& operator=(const Progress&) = delete;
 
     void at(double fraction);
+    void at_stage(double fraction);  ///< where it is not called in every step: looks at the clock each time
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -88,6 +88,31 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, cons
     return text;
 }
 
+Json event_as_json(const EventRecord& event, const Mechanism& m) {
+    const auto k = static_cast<std::size_t>(event.index);
+    Json result{{"name", m.events[k].label}, {"time", event.time}};
+    if (event.impulse.empty()) return result;
+    result["impulses"] = Json::object();
+    for (std::size_t i = 0; i < event.impulse.size(); ++i)
+        if (!m.occasions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
+    result["energy_gain"] = event.energy_gain;
+    return result;
+}
+
+std::string events_as_text(const std::vector<EventRecord>& events, const Mechanism& m) {
+    std::string text;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (i + 1 == most_lines && events.size() > most_lines) {
+            text += fmt::format("… and {} more, then\n", events.size() - most_lines);
+            i = events.size() - 1;
+        }
+        const EventRecord& event = events[i];
+        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].label, event.time,
+                            event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
+    }
+    return text;
+}
+
 Json contacts_as_json(const std::vector<ContactEvent>& events, const std::vector<std::string>& names) {
     Json list = Json::array();
     for (const ContactEvent& e : events)

@@ -13,6 +13,12 @@ namespace alembert {
 /// `reactions` may be null; then JOINT.fx … JOINT.mz are the last columns, at the parameters of `first`.
 std::string csv(const PhasedMotion& motion, const Derived& derived, Modes& modes, const JointReactions* reactions, const State<double>& first);
 
+/// {name, time}; with impulses also {impulses: {coordinate: number}, energy_gain}
+Json event_as_json(const EventRecord& event, const Mechanism& mechanism);
+
+/// A line each; of more than twenty those in the middle are counted.
+std::string events_as_text(const std::vector<EventRecord>& events, const Mechanism& mechanism);
+
 /// [{time, name, event: impact|release|rest, speed_before, speed_after, energy_loss, reaction_impulse}]
 Json contacts_as_json(const std::vector<ContactEvent>& events, const std::vector<std::string>& names);
 

@@ -46,9 +46,10 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Does E stay with the system? Not where an impact has taken some of it.
+/// Does E stay with the system? Not where an impact has taken some of it, or an impulse changed it.
 bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
-    return std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
+    return std::any_of(motion.events.begin(), motion.events.end(), [](const EventRecord& e) { return !e.impulse.empty(); }) ||
+           std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
         return e.kind == ContactEvent::Kind::impact && contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
     });
 }
@@ -57,7 +58,7 @@ bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
 struct Account {
     bool conserved = true, jacobi_conserved = true;
     Drift drift;
-    double constraint_drift = 0, impact_loss = 0;
+    double constraint_drift = 0, impact_loss = 0, impulse_work = 0;
     Modes::Seconds seconds;
     double integrate_seconds = 0, estimate_seconds = 0;
     std::string why_method;  ///< empty where it was given
@@ -117,8 +118,8 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     if (account.estimate) result["error_estimate"] = as_json(*account.estimate);
     if (!moved.empty()) result["adjusted"] = moved;
     result["events"] = Json::array();
-    for (const EventRecord& event : motion.events)
-        result["events"].push_back({{"name", d.mechanism.events[event.index].label}, {"time", event.time}});
+    for (const EventRecord& event : motion.events) result["events"].push_back(event_as_json(event, d.mechanism));
+    if (d.mechanism.has_kicks()) result["impulse_work"] = account.impulse_work;
     if (!contacts.names.empty()) {
         result["contacts"] = contacts_as_json(motion.contacts, contacts.names);
         result["impact_loss"] = account.impact_loss;
@@ -144,8 +145,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
     if (!account.why_method.empty()) fmt::print("{}: {}\n", motion.statistics.method, account.why_method);
     if (motion.statistics.switched) fmt::print("{}\n", described(*motion.statistics.switched));
     if (mode.jacobian_operations) fmt::print("the Jacobian is emitted: {} operations\n", *mode.jacobian_operations);
-    for (const EventRecord& event : motion.events)
-        fmt::print("event {} at t = {:.15g}\n", d.mechanism.events[event.index].label, event.time);
+    fmt::print("{}", events_as_text(motion.events, d.mechanism));
     fmt::print("{}", contacts_as_text(motion.contacts, contacts.names));
     fmt::print("\nat t = {:.15g}\n", motion.final_time());
     for (int i = 0; i < n; ++i)
@@ -163,6 +163,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
             fmt::print("chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *account.estimate->lyapunov, *account.estimate->horizon);
     }
     if (account.impact_loss != 0) fmt::print("\nlost in impacts {:.10g}", account.impact_loss);
+    if (d.mechanism.has_kicks()) fmt::print("\ngained by impulses {:.10g}", account.impulse_work);
     if (account.conserved)
         fmt::print("\nenergy drift {:.2e}\n", account.drift.energy());
     else
@@ -192,12 +193,13 @@ int simulate(const Request& request) {
     const MethodChoice choice = method_for(request, d, program, start);
     Options options = options_of(request, choice, start);
     std::optional<ContactView> view;
+    std::optional<KickView> kicks;
     Contacts contacts;
-    if (has_contacts) {
-        need_rates(d);
+    if (has_jumps(d.mechanism)) {
         view.emplace(d.mechanism);
-        check_gaps(d.scene, d.mechanism, *view, start.state(), std::max(options.tolerance, 1e-9));
-        contacts = contacts_of(d, start, *view);
+        kicks.emplace(d.mechanism);
+        contacts = contacts_of(d, start, *view, *kicks);
+        if (has_contacts) check_gaps(d.scene, d.mechanism, *view, start.state(), std::max(options.tolerance, 1e-9));
     }
     const bool work = !energy.conserved;
     const int n = d.mechanism.size();
@@ -215,7 +217,9 @@ int simulate(const Request& request) {
     modes.take_free(std::move(program));
     const LoadedMode& free = modes({});
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
-        if (!account.closed) account.drift.jump(free.module.table(), free.par, t, before, after, jump);
+        if (account.closed) return;
+        const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}), b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
+        account.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     };
 
     std::vector<double> initial = start.q;
@@ -237,6 +241,7 @@ int simulate(const Request& request) {
     account.conserved = energy.conserved && !is_lossy(motion, contacts);
     account.jacobi_conserved = !energy.conserved && energy.jacobi_conserved && !has_contacts;
     for (const ContactEvent& event : motion.contacts) account.impact_loss += event.energy_loss;
+    for (const EventRecord& event : motion.events) account.impulse_work += event.energy_gain;
     account.closed = true;
     if (request.estimate && !motion.failure && options.duration > 0) {
         const double again = process_seconds();
@@ -253,7 +258,7 @@ int simulate(const Request& request) {
         print(motion, contacts, d, free, account, moved);
     if (!request.json && !request.output.empty()) fmt::print("wrote {}\n", request.output);
     if (motion.failure) {
-        const auto reason = motion.failure->kind == FailureKind::no_contact_mode
+        const auto reason = motion.failure->kind == FailureKind::no_contact_mode || motion.failure->kind == FailureKind::endless_kicks
                                 ? std::nullopt
                                 : failure_at(modes(motion.phases.back().closed).derived, state_at(first, *motion.failure));
         throw IntegrationError(motion.failure->message + (reason ? "\n  there: " + *reason : ""), motion.failure->time,

@@ -198,6 +198,8 @@ int sweep(const Request& request) {
     const Derived d = derived(request, Use::run);
     if (!d.mechanism.unilateral.empty())
         throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
+    if (d.mechanism.has_kicks())
+        throw ModelError("sweep does not follow events with impulses; simulate does, for one state at a time");
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                  request.scene);
@@ -220,7 +222,10 @@ int sweep(const Request& request) {
         compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = request.fast_math, .cache = {}});
     Beginnings begin = beginnings(request, d, grid, load(compiled.object));
     begin.ensemble.work = energy.conserved ? Work::left_out : Work::integrated;
-    begin.ensemble.stops = d.mechanism.event_stops;
+    for (const Mechanism::Occasion& event : d.mechanism.occasions) {
+        begin.ensemble.stops.push_back(event.stop);
+        begin.ensemble.directions.push_back(event.direction);
+    }
     begin.ensemble.threads = request.threads;
     const double integrate_begin = process_seconds();
     Outcomes ends;

@@ -40,7 +40,12 @@ void add_outputs(Building& here) {
         here.attempt([&] {
             SourceScope source(*here.m.z, "event " + e.name.text);
             here.m.events.push_back({e.name.text, here.m.z->name(here.translator.scalar(e.when))});
-            here.m.event_stops.push_back(e.stop);
+            Mechanism::Occasion occasion{.stop = e.stop, .direction = e.direction};
+            if (!e.impulses.empty()) occasion.impulse.assign(here.m.q.size(), 0);
+            for (const GeneralizedForce& f : e.impulses)
+                for (int i = 0; i < here.m.size(); ++i)
+                    if (here.m.q[i].get_name() == f.coordinate.text) occasion.impulse[i] = here.m.z->name(here.translator.scalar(f.value));
+            here.m.occasions.push_back(std::move(occasion));
         });
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/mechanism.hpp"
 
+#include <algorithm>
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -66,6 +68,10 @@ std::vector<ex> Mechanism::time_derivative_without_acceleration(const std::vecto
 
 std::vector<ex> Mechanism::explicit_time_derivative(const std::vector<ex>& values) const {
     return z->push_forward(values, along_time(*this));
+}
+
+bool Mechanism::has_kicks() const {
+    return std::any_of(occasions.begin(), occasions.end(), [](const Occasion& o) { return !o.impulse.empty(); });
 }
 
 std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {

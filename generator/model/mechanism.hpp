@@ -154,7 +154,17 @@ struct Mechanism {
     std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
     std::vector<Unilateral> unilateral;
     std::vector<Part> outputs, events;
-    std::vector<bool> event_stops;
+
+    /// What a zero of an event does, beside being told.
+    struct Occasion {
+        bool stop = false;
+        int direction = 0;                    ///< +1: only where the value grows, −1: falls, 0: both
+        std::vector<GiNaC::ex> impulse = {};  ///< Q̂ by coordinate, in q, t and the rates before; empty: none
+    };
+    std::vector<Occasion> occasions;  ///< one for each of `events`
+
+    /// Do rates jump at an event?
+    bool has_kicks() const;
 
     /// [simulation], in parameters; nothing where the scene is silent.
     struct Run {

@@ -297,6 +297,10 @@ private:
         std::unordered_map<std::string, Place> events;
         for (const EventRule& event : scene_.events) {
             quantities_.check(event.when, {.subject = "an event", .order = 1, .input_order = 2, .time = true});
+            for (const GeneralizedForce& i : event.impulses) {
+                check_coordinate(i.coordinate);
+                quantities_.check(i.value, {.subject = "an impulse", .order = 1, .input_order = 2, .time = true});
+            }
             if (event.name.place.line == 0 || !check_name(event.name)) continue;
             const auto [first, is_new] = events.emplace(event.name.text, event.name.place);
             if (!is_new)

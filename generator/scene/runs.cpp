@@ -79,13 +79,46 @@ void read_simulation(const Table& table, Scene& scene) {
     simulation.method = read_method(table);
 }
 
+namespace {
+
+/// +1, −1, or 0 for both.
+int read_direction(const Table& table) {
+    const std::optional<Name> word = table.name("direction");
+    if (!word || word->text == "both") return 0;
+    if (word->text == "up") return 1;
+    if (word->text == "down") return -1;
+    table.reading().complain(word->place, fmt::format("the direction of an event is \"up\" (the value of 'when' grows), \"down\" (it falls) or \"both\", not {}",
+                                                      in_quotes(word->text)));
+    return 0;
+}
+
+std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
+    const Entry* const entry = table.find("impulses");
+    if (!entry) return {};
+    const toml::table* const node = entry->node->as_table();
+    if (!node || node->empty()) {
+        table.complain("impulses", fmt::format("{} is {}; expected impulses by coordinate: {{ theta = \"expression\" }}", table.what("impulses"),
+                                               node ? "empty" : kind_of(*entry->node)));
+        return {};
+    }
+    const Table inner(table.reading(), *node, table.what("impulses"), entry->place);
+    std::vector<GeneralizedForce> impulses;
+    for (const Entry& one : inner.entries())
+        impulses.push_back({{one.key, one.place}, read_expression(table.reading(), *one.node, labelled("the impulse along", one.key))});
+    return impulses;
+}
+
+}  // namespace
+
 void read_event(Table table, Scene& scene) {
-    table.allow({"name", "when", "stop"});
+    table.allow({"name", "when", "stop", "direction", "impulses"});
     EventRule event;
     event.name = table.needed_name("name");
     table.entitle(event.name);
     event.when = table.needed_expression("when");
     event.stop = table.flag("stop");
+    event.direction = read_direction(table);
+    event.impulses = read_impulses_of(table);
     scene.events.push_back(std::move(event));
 }
 

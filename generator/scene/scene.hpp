@@ -209,6 +209,8 @@ struct EventRule {
     Name name;
     Expression when;
     bool stop = false;
+    int direction = 0;  ///< +1: only where `when` grows, −1: falls, 0: both
+    std::vector<GeneralizedForce> impulses = {};  ///< at each zero; of the rates before
 };
 
 struct Simulation {

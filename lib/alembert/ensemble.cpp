@@ -53,6 +53,8 @@ void check(const Ensemble& e, const Options& options) {
     need(e.durations.empty() || e.durations.size() == count, fmt::format("{} durations for {} members", e.durations.size(), count));
     need(e.stops.empty() || e.stops.size() == static_cast<std::size_t>(table.events),
          fmt::format("{} flags for {} events", e.stops.size(), table.events));
+    need(e.directions.empty() || e.directions.size() == e.stops.size(),
+         fmt::format("{} directions for {} events", e.directions.size(), e.stops.size()));
     need(e.threads >= 0, fmt::format("threads = {}: zero or more are needed", e.threads));
     if (count == 0) return;
     for (const double start : e.starts) need(std::isfinite(start), fmt::format("start = {}: a finite number is needed", start));
@@ -153,7 +155,7 @@ private:
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) { drift(table, par, t, y, rate); };
         std::optional<Projection> projection;
         if (table.constraints > 0) options.project = projection.emplace(e_.module, member.parameters).after_steps();
-        const Trajectory motion = integrate(rhs, state, options, e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops));
+        const Trajectory motion = integrate(rhs, state, options, e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));
         const std::span<const double> end = motion.final_state();
         keep(member,
              {.time = motion.times.back(),

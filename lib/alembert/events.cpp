@@ -29,7 +29,7 @@ struct EmittedEvents {
 };
 
 double simultaneous(const Stretch& step) {
-    return 1e-12 * std::max(std::abs(step.end), step.end - step.start);
+    return alembert::simultaneous(step.start, step.end);
 }
 
 /// By time; simultaneous ones as declared.
@@ -44,15 +44,22 @@ void order(std::vector<Crossing>& found, const Stretch& step) {
 
 }  // namespace
 
-Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop) {
+double simultaneous(double start, double end) {
+    return 1e-12 * std::max(std::abs(end), end - start);
+}
+
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop, const std::vector<int>& direction) {
     const alembert_solver_table& table = module.table();
     const auto count = static_cast<std::size_t>(table.events);
     if (!stop.empty() && stop.size() != count)
         throw std::invalid_argument(
             fmt::format("{} has {} events, {} stop flags were given", table.scene, count, stop.size()));
+    if (!direction.empty() && direction.size() != count)
+        throw std::invalid_argument(
+            fmt::format("{} has {} events, {} directions were given", table.scene, count, direction.size()));
     Events events;
     for (std::size_t k = 0; k < count; ++k)
-        events.list.push_back({.name = table.event_names[k], .stop = !stop.empty() && stop[k]});
+        events.list.push_back({.name = table.event_names[k], .stop = !stop.empty() && stop[k], .direction = direction.empty() ? 0 : direction[k]});
     events.context = std::make_shared<const EmittedEvents>(EmittedEvents{module, prepared(module, values)});
     events.call = [](const void* context, double t, const double* state, const double* rate, double* out) {
         const auto& emitted = *static_cast<const EmittedEvents*>(context);
@@ -83,10 +90,8 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     const std::vector<double> value_before = last_;
     const std::vector<int> sign_before = sign_;
     std::vector<Crossing> found = scan(step);
-    const bool stops = std::any_of(found.begin(), found.end(), [&](const Crossing& c) {
-        return events_.list[static_cast<std::size_t>(c.index)].stop;
-    });
-    for (int round = 0; stops && round < most_rounds; ++round) {
+    const bool is_stopped = std::any_of(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
+    for (int round = 0; is_stopped && round < most_rounds; ++round) {
         last_ = value_before;
         sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
         if (!look_again(step, found)) break;
@@ -96,9 +101,7 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
 
 /// What there is before the first crossing that stops; true if that has become another.
 bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
-    const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) {
-        return events_.list[static_cast<std::size_t>(c.index)].stop;
-    });
+    const auto stop = std::find_if(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
     const Crossing first = *stop;
     if (first.theta <= 0) return false;
     Stretch part{
@@ -123,8 +126,7 @@ bool EventWatch::look_again(const Stretch& step, std::vector<Crossing>& found) {
     if (earlier.empty()) return false;
     found.insert(found.begin(), earlier.begin(), earlier.end());
     order(found, step);
-    return std::any_of(earlier.begin(), earlier.end(),
-                       [&](const Crossing& c) { return events_.list[static_cast<std::size_t>(c.index)].stop; });
+    return std::any_of(earlier.begin(), earlier.end(), [&](const Crossing& c) { return stops(c); });
 }
 
 std::vector<Crossing> EventWatch::scan(const Stretch& step) {
@@ -172,18 +174,20 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
     for (std::size_t i = 1; i < g_.size(); ++i) {
         if (std::isnan(g_[i])) continue;
         const int now = sign(g_[i]);
-        if (last_sign != 0 && now == 0) record(step, index, theta_[i], found);
+        if (last_sign != 0 && now == 0) record(step, index, theta_[i], -last_sign, found);
         if (last_sign * now < 0)
-            record(step, index, locate(step, index, theta_[left], g_[left], theta_[i], g_[i]), found);
+            record(step, index, locate(step, index, theta_[left], g_[left], theta_[i], g_[i]), now, found);
         last_sign = now;
         left = i;
     }
 }
 
-void EventWatch::record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const {
+void EventWatch::record(const Stretch& step, int index, double theta, int direction, std::vector<Crossing>& found) const {
+    if (std::isnan(theta)) return;
     const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
-    if (events_.list[static_cast<std::size_t>(index)].at_once || time - run_start_ > simultaneous(step))
-        found.push_back({.index = index, .time = time, .theta = theta});
+    const Event& event = events_.list[static_cast<std::size_t>(index)];
+    if (event.at_once || time - run_start_ > simultaneous(step))
+        found.push_back({.index = index, .time = time, .theta = theta, .direction = direction, .counts = event.direction == 0 || event.direction == direction});
 }
 
 /// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at

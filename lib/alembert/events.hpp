@@ -16,8 +16,8 @@
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
-/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. Those that are simultaneous
-/// with one that stops the run are told too, but for a second one that would stop it.
+/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. All that are simultaneous with
+/// one that stops the run are told. `direction` makes zeros count where the value grows, or falls; a touch from below grows.
 
 #include <concepts>
 #include <functional>
@@ -34,6 +34,7 @@ struct Event {
     std::string name;
     bool stop = false;     ///< the run ends there
     bool at_once = false;  ///< counts however soon after the start: its value there is no rounding
+    int direction = 0;     ///< +1: only zeros where the value grows count, −1: falls, 0: both
 };
 
 struct Events {
@@ -47,8 +48,8 @@ struct Events {
     }
 };
 
-/// The emitted events. `stop` has one flag for each, or is empty; throws std::invalid_argument otherwise.
-Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop);
+/// The emitted events. `stop` and `direction` have one flag for each, or are empty; throws std::invalid_argument otherwise.
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop, const std::vector<int>& direction = {});
 
 /// Any function (t, state, rate, out), `out` having a place for each of the list.
 template <std::invocable<double, const double*, const double*, double*> Function>
@@ -73,13 +74,19 @@ struct Crossing {
     int index = 0;
     double time = 0;
     double theta = 0;  ///< (time − start) / (end − start) of the stretch
+    int direction = 0;  ///< +1: the value grows through it, −1: falls
+    bool counts = true;  ///< in its event's direction
 };
+
+/// Events whose zeros are nearer to each other than this are simultaneous, in a step from `start` to `end`.
+double simultaneous(double start, double end);
 
 /// Follows the signs of all events along a run. Call `begin` once, then `look` for each step.
 class EventWatch {
 public:
     EventWatch(const Events& events, const Rhs& rhs);
     void begin(double t, const double* state, const double* rate);
+    /// In order; also those that do not count.
     std::vector<Crossing> look(const Stretch& step);
     long evaluations() const { return evaluations_; }  ///< right-hand sides needed by the search
 
@@ -88,7 +95,8 @@ private:
     bool look_again(const Stretch& step, std::vector<Crossing>& found);
     double value(const Stretch& step, int index, double theta);
     void look_at_one(const Stretch& step, int index, std::vector<Crossing>& found);
-    void record(const Stretch& step, int index, double theta, std::vector<Crossing>& found) const;
+    void record(const Stretch& step, int index, double theta, int direction, std::vector<Crossing>& found) const;
+    bool stops(const Crossing& crossing) const { return crossing.counts && events_.list[static_cast<std::size_t>(crossing.index)].stop; }
     double turning_point(const Stretch& step, int index, const double* theta, const double* g);
     double locate(const Stretch& step, int index, double left, double g_left, double right, double g_right);
 

@@ -106,6 +106,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     first.statistics.steps += second.statistics.steps;
     first.statistics.rejected += second.statistics.rejected;
     first.statistics.evaluations += second.statistics.evaluations;
+    first.last_zeros = std::move(second.last_zeros);
     first.ending = second.ending;
     first.failure = std::move(second.failure);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "alembert/run.hpp"
 
@@ -49,19 +50,27 @@ public:
           options_(options),
           tolerance_(std::max(options.tolerance, finest)),
           count_(static_cast<int>(contacts.names.size())),
+          in_phases_(count_ > 0 || contacts.kicks.any()),
           t_(options.start),
           state_(std::move(initial)) {}
 
     PhasedMotion go() {
         result_.statistics.method = name(options_.method);
-        if (count_ > 0) settle_into({}, {});
+        if (count_ > 0) settle_into({}, {}, {});
         while (!result_.failure) {
-            const int ended_by = run_phase();
-            if (ended_by < 0 || is_stuck(ended_by)) break;
-            if (contains(closed_, ended_by))
-                settle_into({}, ended_by);
-            else
-                settle_into({ended_by}, {});
+            const Halt halt = run_phase();
+            if (halt.contact < 0 && halt.kicks.empty()) break;
+            if (halt.contact >= 0 && is_stuck(halt.contact)) break;
+            std::vector<int> touched;
+            std::optional<int> released;
+            if (halt.contact >= 0 && contains(closed_, halt.contact))
+                released = halt.contact;
+            else if (halt.contact >= 0)
+                touched = {halt.contact};
+            settle_into(touched, released, halt);
+            if (!halt.stops || result_.failure) continue;
+            result_.phases.push_back({.closed = closed_, .motion = one_row()});
+            break;
         }
         if (result_.failure) {
             result_.ending = Ending::failed;
@@ -75,17 +84,68 @@ public:
     }
 
 private:
+    /// What has ended a phase.
+    struct Halt {
+        int contact = -1;                   ///< one that has closed or let go
+        std::vector<int> kicks = {};        ///< events whose impulses act
+        std::vector<LastZero> passed = {};  ///< all events of the scene that are zero, once each
+        bool stops = false;                 ///< and that is the end
+    };
+
     bool is_first() const { return result_.phases.empty(); }
 
-    void settle_into(const std::vector<int>& touched, const std::optional<int>& released) {
+    /// All that act, added; each is kept in its record.
+    VectorXd impulse_of(const std::vector<int>& kicks, const std::vector<double>& state) {
+        VectorXd sum;
+        for (const int k : kicks) {
+            const VectorXd one = contacts_.kicks.impulse(k, t_, state.data());
+            if (EventRecord* const record = last_record(k)) record->impulse.assign(one.begin(), one.end());
+            sum = sum.size() > 0 ? VectorXd(sum + one) : one;
+        }
+        return sum;
+    }
+
+    void tell_gains(const std::vector<int>& kicks, const std::vector<double>& before, const VectorXd& struck) {
+        const Eigen::Map<const VectorXd> u(before.data() + struck.size(), struck.size());
+        for (const int k : kicks)
+            if (EventRecord* const record = last_record(k))
+                record->energy_gain = Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 + 0.0;  // no −0
+    }
+
+    EventRecord* last_record(int event) {
+        const auto found = std::find_if(result_.events.rbegin(), result_.events.rend(), [&](const EventRecord& e) { return e.index == event; });
+        return found == result_.events.rend() ? nullptr : &*found;
+    }
+
+    /// Zeros that have just been passed are followed from the side to which they go.
+    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after, const VectorXd& acceleration) {
+        passed_.clear();
+        if (!contacts_.kicks.passed) return;
+        const std::vector<PassedZero> zeros = contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
+        for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
+        for (const LastZero& zero : halt.passed) {
+            const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
+            passed_[static_cast<std::size_t>(zero.event)] = passed;
+            if (!contains(halt.kicks, zero.event)) continue;
+            ++kicks_;
+            const std::string& name = mode_->events.list[static_cast<std::size_t>(zero.event)].name;
+            if (const auto endless = series_[zero.event].add(name, t_, zero, passed, tolerance_, options_.duration)) return fail(FailureKind::endless_kicks, *endless);
+        }
+    }
+
+    void settle_into(const std::vector<int>& touched, const std::optional<int>& released, const Halt& halt) {
+        const std::vector<double> before = mode_ ? in_rates(contacts_.kicks, mode_->rhs, t_, state_) : state_;
+        std::vector<double> rates = before;
         Settled settled = settle(contacts_,
                                  {.t = t_,
                                   .tolerance = tolerance_,
                                   .closed = closed_,
                                   .resting = resting_,
                                   .touched = touched,
-                                  .released = released},
-                                 state_);
+                                  .released = released,
+                                  .impulse = impulse_of(halt.kicks, before)},
+                                 rates);
+        state_ = mode_ ? as_integrated(contacts_.kicks, t_, rates) : rates;
         for (const ContactEvent& event : settled.events) {
             const auto struck = [&](const ContactEvent& e) {
                 return e.kind == ContactEvent::Kind::impact && e.contact == event.contact;
@@ -97,21 +157,24 @@ private:
         }
         closed_ = std::move(settled.closed);
         resting_ = std::move(settled.resting);
-        if (!settled.failure.empty()) fail(settled.failure);
+        if (!settled.failure.empty()) return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks, settled.failure);
+        tell_gains(halt.kicks, before, settled.struck);
+        go_from(halt, before, rates, settled.acceleration);
     }
 
-    /// Integrates until a contact changes, whose number it gives; −1: the run has ended.
-    int run_phase() {
+    /// Integrates until a contact changes or an event kicks.
+    Halt run_phase() {
         const ContactMode& mode = modes_(closed_);
+        mode_ = &mode;
         if (mode.project) mode.project(t_, state_.data());
         const double end = options_.start + options_.duration;
         Options here = options_;
-        if (count_ > 0) {
+        if (in_phases_) {
             here.start = t_;
-            here.duration = end - t_;
+            here.duration = end - t_ > 16 * epsilon * std::abs(end) ? end - t_ : 0;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
-            if (here.longest_step == 0)
+            if (here.longest_step == 0 && count_ > 0)
                 here.longest_step = options_.duration / 200;  // so that no short contact is passed over
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
@@ -119,34 +182,56 @@ private:
         here.rhs_when_stiff = mode.rhs_when_stiff;
         here.on_step = mode.on_step;
         here.by = mode.by;
-        const Events events = count_ > 0 ? watched(mode) : mode.events;
+        const Events events = in_phases_ ? watched(mode) : mode.events;
         Trajectory motion = integrate(mode.rhs, state_, here, events);
         add_up(motion.statistics);
+        const Halt halt = halt_of(motion, mode);
         const int of_scene = static_cast<int>(mode.events.list.size()) - count_;
-        int ended_by = -1;
-        if (motion.ending == Ending::stopped_by_event && motion.events.back().index >= of_scene) {
-            ended_by = motion.events.back().index - of_scene;
-            motion.events.pop_back();
-        }
-        if (count_ > 0 && motion.ending == Ending::completed) motion.times.back() = end;
+        std::erase_if(motion.events, [&](const EventRecord& e) { return e.index >= of_scene; });
+        if (in_phases_ && motion.ending == Ending::completed) motion.times.back() = end;
         result_.ending = motion.ending;
         result_.failure = motion.failure;
-        if (count_ > 0 && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
+        if (in_phases_ && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
             result_.failure->message = fmt::format(
                 "{} right-hand sides were not enough to come further than t = {:.17g}, with {} "
-                "impacts and changes of contact; raise the budget (--budget), loosen the "
+                "impacts and changes of contact{}; raise the budget (--budget), loosen the "
                 "tolerance or shorten the duration",
-                options_.budget, motion.failure->time, result_.contacts.size());
+                options_.budget, motion.failure->time, result_.contacts.size(),
+                kicks_ == 0 ? "" : fmt::format(" and {} kicks of events", kicks_));
         result_.events.insert(result_.events.end(), motion.events.begin(), motion.events.end());
         t_ = motion.times.back();
         const auto last = motion.final_state();
         state_.assign(last.begin(), last.end());
-        if (ended_by >= 0 && mode.project)
+        if ((halt.contact >= 0 || !halt.kicks.empty()) && mode.project)
             mode.project(t_, state_.data());  // dense output has left the constraints a little
         motion.times.shrink_to_fit();
         motion.states.shrink_to_fit();
         result_.phases.push_back({.closed = closed_, .motion = std::move(motion)});
-        return ended_by;
+        return halt;
+    }
+
+    /// A contact gives way to an event that stops in the same instant.
+    Halt halt_of(const Trajectory& motion, const ContactMode& mode) const {
+        Halt halt;
+        if (motion.ending != Ending::stopped_by_event) return halt;
+        const int of_scene = static_cast<int>(mode.events.list.size()) - count_;
+        for (const LastZero& zero : motion.last_zeros) {
+            if (zero.event >= of_scene) {
+                if (halt.contact < 0) halt.contact = zero.event - of_scene;
+                continue;
+            }
+            const auto known = std::find_if(halt.passed.begin(), halt.passed.end(), [&](const LastZero& z) { return z.event == zero.event; });
+            if (known == halt.passed.end())
+                halt.passed.push_back(zero);
+            else if (zero.counts)
+                *known = zero;
+            if (!zero.counts) continue;
+            const auto k = static_cast<std::size_t>(zero.event);
+            halt.stops = halt.stops || mode.events.list[k].stop;
+            if (contacts_.kicks.has(k) && !contains(halt.kicks, zero.event)) halt.kicks.push_back(zero.event);
+        }
+        if (halt.stops && halt.kicks.empty()) halt.contact = -1;
+        return halt;
     }
 
     void add_up(const Statistics& s) {
@@ -159,9 +244,17 @@ private:
         if (!sum.switched) sum.switched = s.switched;
     }
 
-    /// The mode's events, those of the contacts held against their bounds and stopping the phase.
+    /// The mode's events, those of the contacts held against their bounds and stopping the phase, as do those that kick.
     Events watched(const ContactMode& mode) const {
         const std::size_t scene = mode.events.list.size() - contacts_.names.size();
+        std::vector<Event> list = mode.events.list;
+        for (std::size_t k = 0; k < scene; ++k) {
+            if (!contacts_.kicks.has(k)) continue;
+            list[k].stop = true;
+            list[k].at_once = !is_first();
+        }
+        Events held = with_zeros_passed(mode.events, list, passed_, t_);
+        if (count_ == 0) return held;
         std::vector<double> rate(state_.size()), value(mode.events.list.size());
         mode.rhs(t_, state_.data(), rate.data());
         mode.events(t_, state_.data(), rate.data(), value.data());
@@ -173,7 +266,6 @@ private:
         const VectorXd sizes = negligible_gaps(here, q, 1), slack = tolerance_ * sizes;
 
         std::vector<Watch> watches(contacts_.names.size());
-        std::vector<Event> list = mode.events.list;
         for (int k = 0; k < count_; ++k) {
             list[scene + k].stop = list[scene + k].at_once = true;
             Watch& watch = watches[k];
@@ -193,7 +285,7 @@ private:
                                                         : std::max(1e-12 * sizes[k], 2 * off);
             }
         }
-        return make_events(std::move(list), [base = mode.events, watches, scene](
+        return make_events(std::move(list), [base = std::move(held), watches, scene](
                                                 double t, const double* y, const double* rates, double* out) {
             base(t, y, rates, out);
             for (std::size_t k = 0; k < watches.size(); ++k) {
@@ -210,6 +302,7 @@ private:
         last_event_ = t_;
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
         fail(
+            FailureKind::no_contact_mode,
             fmt::format("no contact mode is consistent at t = {:.17g}: contact '{}' and others open and close "
                         "without the time "
                         "moving on; loosen the tolerance, or look at the gaps there",
@@ -217,9 +310,8 @@ private:
         return true;
     }
 
-    void fail(const std::string& message) {
-        result_.failure =
-            Failure{.kind = FailureKind::no_contact_mode, .message = message, .time = t_, .state = state_};
+    void fail(FailureKind kind, const std::string& message) {
+        result_.failure = Failure{.kind = kind, .message = message, .time = t_, .state = state_};
     }
 
     Trajectory one_row() const {
@@ -235,9 +327,14 @@ private:
     const Options& options_;
     double tolerance_;
     int count_;
+    bool in_phases_;  ///< there is something that makes rates jump
     double t_;
     std::vector<double> state_;
     std::vector<int> closed_, resting_;
+    const ContactMode* mode_ = nullptr;         ///< of the last phase
+    std::vector<PassedZero> passed_;  ///< of the scene's events, at the start of the next phase
+    std::map<int, KickSeries> series_;  ///< by event
+    long kicks_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;
     PhasedMotion result_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A motion with unilateral contacts: smooth phases, strung together by impacts, releases and the coming to rest.
+/// A motion with unilateral contacts and kicks: smooth phases, strung together by impacts, releases, the coming to rest, and impulses.
 ///
 ///     const PhasedMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
 ///     motion.contacts[0].time;                 // the first impact
@@ -12,6 +12,11 @@
 /// the next begins. A gap or a reaction that is zero when a phase begins is watched so that rounding does not end
 /// it at once: a gap that has just been struck open after the time in which it rises above rounding, one without
 /// speed, or a reaction without size, against a bound as far below zero as it may be uncertain.
+///
+/// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are zero at the instant are
+/// added and make one impact, in which closed contacts take part; then the motion goes on, or ends where one of them stops it. The zero
+/// has been passed: until it rises above rounding, the event's value is on the side to which it goes by its rate after the kick. So no
+/// rounding brings the event back, and a return through zero is seen however soon it comes. Kicks that come without end are a failure.
 
 #include "alembert/integrate.hpp"
 #include "alembert/settle.hpp"
@@ -50,7 +55,8 @@ struct PhasedMotion {
 
 /// `initial`: q, q' and what the right-hand sides have beyond. Without contacts this is `integrate` in the mode
 /// {}. Rows of all phases fall on one grid; each phase has its first and last instant besides. What fails while it
-/// runs is in `failure`, with the phases until then; FailureKind::no_contact_mode names the contacts.
+/// runs is in `failure`, with the phases until then; FailureKind::no_contact_mode names the contacts,
+/// endless_kicks the event.
 PhasedMotion follow(const Contacts& contacts, const ContactModes& modes, std::vector<double> initial,
                     const Options& options);
 

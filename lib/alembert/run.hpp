@@ -168,13 +168,17 @@ private:
         ++result_.statistics.steps;
         const std::vector<Crossing> crossings = events_.list.empty() ? std::vector<Crossing>() : look_for_events();
         for (std::size_t k = 0; k < crossings.size(); ++k) {
+            if (!crossings[k].counts) continue;
             add_rows_before(crossings[k].time);
             step_.interpolate(crossings[k].theta, row_.data());
             tell_event(crossings[k]);
             if (!event_of(crossings[k]).stop) continue;
-            const double latest = crossings[k].time + 1e-12 * std::max(std::abs(step_.end_time()), step_.length());
-            for (std::size_t j = k + 1; j < crossings.size() && crossings[j].time <= latest; ++j)
-                if (!event_of(crossings[j]).stop) tell_event(crossings[j]);
+            const double grain = simultaneous(step_.time(), step_.end_time());
+            for (std::size_t j = 0; j < crossings.size(); ++j) {
+                if (std::abs(crossings[j].time - crossings[k].time) > grain) continue;
+                if (j > k && crossings[j].counts) tell_event(crossings[j]);
+                result_.last_zeros.push_back({.event = crossings[j].index, .direction = crossings[j].direction, .counts = crossings[j].counts});
+            }
             return stop_at(crossings[k].time);
         }
         add_rows_before(step_.end_time());

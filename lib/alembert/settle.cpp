@@ -82,24 +82,29 @@ private:
                 near_.push_back(k);
     }
 
-    /// New rates; tells the work of impulses Λ along rows: Σ Λ·(mean of value' − drift).
-    void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse) {
+    /// New rates; tells the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of value' − drift).
+    void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse, const VectorXd& generalized) {
         const std::vector<double> before = state_;
-        const VectorXd mean = rows.rows * (u() + after) / 2;
+        const VectorXd mean = (u() + after) / 2;
+        const double work = impulse.dot(rows.rows * mean) + generalized.dot(mean);
         u() = after;
         look();
-        if (contacts_.on_jump) contacts_.on_jump(at_.t, before.data(), state_.data(), impulse.dot(mean));
+        if (contacts_.on_jump) contacts_.on_jump(at_.t, before.data(), state_.data(), work);
     }
 
     bool strike_all() {
-        if (std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); })) return true;
+        result_.struck = u();
+        const bool is_kicked = at_.impulse.size() > 0;
+        if (!is_kicked && std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); })) return true;
+        const VectorXd kick = is_kicked ? at_.impulse : VectorXd::Zero(n_);
         const Situation::Rows rows = selected(here_.contacts, near_);
         VectorXd restitution(rows.drift.size());
         for (std::size_t i = 0; i < near_.size(); ++i)
             restitution[static_cast<Index>(i)] = contacts_.restitution[near_[i]];
-        const ImpactResult hit = strike(here_.M, u(), VectorXd::Zero(n_), here_.bilateral.rows,
+        const ImpactResult hit = strike(here_.M, u(), kick, here_.bilateral.rows,
                                         here_.bilateral.drift, rows.rows, rows.drift, restitution);
-        if (!hit) return fail(near_, hit.failure);
+        if (!hit) return is_kicked ? fail_kick(hit.failure) : fail(near_, hit.failure);
+        result_.struck = hit.after;
         const VectorXd before = rows.rows * u() + rows.drift, after = rows.rows * hit.after + rows.drift;
         for (std::size_t i = 0; i < near_.size(); ++i) {
             const auto at = static_cast<Index>(i);
@@ -116,7 +121,7 @@ private:
         }
         VectorXd impulse(hit.bilateral.size() + hit.contact.size());
         impulse << hit.bilateral, hit.contact;
-        jump_to(hit.after, stacked(here_.bilateral, rows), impulse);
+        jump_to(hit.after, stacked(here_.bilateral, rows), impulse, kick);
         return true;
     }
 
@@ -158,7 +163,7 @@ private:
                 if (other != k && parts(other))
                     rests_.emplace(other,
                                    ContactEvent{.kind = ContactEvent::Kind::rest, .contact = other, .time = last});
-            jump_to(still.after, rows, still.bilateral);
+            jump_to(still.after, rows, still.bilateral, VectorXd::Zero(n_));
             return true;
         }
         return false;
@@ -190,7 +195,7 @@ private:
         const Lasting lasting = lasting_contacts(here_, all);
         if (lasting)
             take(lasting);
-        else
+        else if (count_ > 0)
             fail(all, lasting.failure);
     }
 
@@ -205,6 +210,7 @@ private:
     void take(const Lasting& lasting) {
         result_.closed = lasting.closed;
         result_.resting = lasting.resting;
+        result_.acceleration = lasting.acceleration;
     }
 
     void tell_changes() {
@@ -229,6 +235,11 @@ private:
         for (const int k : those) names += (names.empty() ? "'" : ", '") + contacts_.names[k] + "'";
         result_.failure = fmt::format(
             "no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", at_.t, names, why);
+        return false;
+    }
+
+    bool fail_kick(const std::string& why) {
+        result_.failure = fmt::format("there are no rates after the impulses of the events at t = {:.17g}: {}", at_.t, why);
         return false;
     }
 

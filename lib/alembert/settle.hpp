@@ -9,7 +9,7 @@
 ///
 /// In this order:
 ///  - positions move to where the gaps of contacts that touch are zero (the least change in the metric of M);
-///  - what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take part);
+///  - impulses act, and what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take part);
 ///  - what bounces too low is laid down: where the bounces still to come displace no coordinate by more than
 ///    tolerance · max(1, |q|). With speed v after the impact and gap'' = −a they take (2v/a)/(1 − e) in all, a
 ///    geometric sum: this is the time told for `rest`. The speed is taken away along M⁻¹Gᵀ at once, which leaves
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "alembert/contact.hpp"
+#include "alembert/kick.hpp"
 
 namespace alembert {
 
@@ -33,6 +34,7 @@ struct Contacts {
     std::function<Situation(double t, const double* state)> situation = {};
     /// Called where rates jump; `work` is that of the impulses, Σ Π·(mean rate of their points). May be empty.
     std::function<void(double t, const double* before, const double* after, double work)> on_jump = {};
+    Kicks kicks = {};  ///< of events beside the contacts
 };
 
 struct ContactEvent {
@@ -56,12 +58,15 @@ struct Instant {
     std::vector<int> closed = {}, resting = {};  ///< until now (contact.hpp: Lasting)
     std::vector<int> touched = {};               ///< gaps that have just closed
     std::optional<int> released = {};            ///< a closed contact whose reaction has come down to zero
+    Eigen::VectorXd impulse = {};                ///< generalized; empty: none
 };
 
 struct Settled {
     std::string failure;  ///< empty, or why no contact mode is consistent, with the names of the contacts
     std::vector<int> closed, resting;
     std::vector<ContactEvent> events;
+    Eigen::VectorXd struck;        ///< q' after the impulses and impacts, before anything is laid down
+    Eigen::VectorXd acceleration;  ///< of what follows
 };
 
 /// Moves `state` (q, q', and what there is beyond, which stays).

@@ -26,7 +26,8 @@ enum class FailureKind {
     not_a_number,    ///< a rate is infinite or not a number where a step must start
     step_underflow,  ///< the step has become so short that time stands still: 16 ε |t|
     budget_used_up,
-    no_contact_mode  ///< contacts that cannot all stay closed or open (phases.hpp)
+    no_contact_mode,  ///< contacts that cannot all stay closed or open (phases.hpp)
+    endless_kicks     ///< impulses of events that have no rates after, or come without end (phases.hpp)
 };
 
 struct Failure {
@@ -42,6 +43,15 @@ struct EventRecord {
     std::string name;
     double time = 0;
     std::vector<double> state;
+    std::vector<double> impulse = {};  ///< generalized, by coordinate, where the event has one (phases.hpp)
+    double energy_gain = 0;            ///< by it: ½ impulse·(q'⁻ + q'⁺)
+};
+
+/// A zero where an event has stopped the run.
+struct LastZero {
+    int event = 0;
+    int direction = 0;    ///< +1: the value grows, −1: falls
+    bool counts = false;  ///< that is the event's direction
 };
 
 /// An explicit method that gave way to one for stiff systems.
@@ -67,6 +77,7 @@ struct Trajectory {
     std::vector<double> times;
     std::vector<double> states;  ///< rows() × dimension
     std::vector<EventRecord> events;
+    std::vector<LastZero> last_zeros = {};  ///< all events that are zero where one has stopped the run, in the order of `events`
     Statistics statistics;
     Ending ending = Ending::completed;
     std::optional<Failure> failure;  ///< there if and only if ending is `failed`
