@@ -220,12 +220,20 @@ std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& t
     return result;
 }
 
+Intermediates::Flow& Intermediates::flow_along(const Direction& direction) {
+    const auto same = [](const auto& a, const auto& b) { return a.first.is_equal(b.first) && a.second.is_equal(b.second); };
+    if (last_flow_.direction.size() == direction.size() && std::equal(direction.begin(), direction.end(), last_flow_.direction.begin(), same)) return last_flow_;
+    last_flow_ = {.direction = direction, .dot = {}, .done = {}};
+    for (const auto& [s, rate] : direction)
+        if (!rate.is_zero()) last_flow_.dot.emplace(s.gethash(), rate);
+    return last_flow_;
+}
+
 std::vector<ex> Intermediates::push_forward(const std::vector<ex>& values, const Direction& direction) {
     std::vector<ex> roots;
     for (const ex& value : values) roots.push_back(flatten(value));
-    std::map<unsigned, ex> dot;
-    for (const auto& [s, rate] : direction)
-        if (!rate.is_zero()) dot.emplace(s.gethash(), rate);
+    Flow& flow = flow_along(direction);
+    std::map<unsigned, ex>& dot = flow.dot;
     const auto along = [&](const auto& uses, const auto& derivative) {
         GiNaC::exvector terms;
         for (const symbol& s : uses)
@@ -234,6 +242,7 @@ std::vector<ex> Intermediates::push_forward(const std::vector<ex>& values, const
         return sum_of(std::move(terms));
     };
     for (const std::size_t k : reachable(roots)) {
+        if (!flow.done.insert(k).second) continue;
         const int former = current_source_;
         current_source_ = entries_[k].sources.size() == 1 ? entries_[k].sources.front() : 0;
         const std::vector<symbol> uses = entries_[k].uses;

@@ -17,6 +17,7 @@
 /// chapter 3. Without it the same derivation has 4·10²⁰ tree nodes for a chain of 32 rods.
 
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,13 @@ public:
     const Symbols& symbols() const { return *symbols_; }
 
 private:
+    /// What a direction has been followed through already: scenes of hundreds of points are differentiated point by point.
+    struct Flow {
+        Direction direction = {};
+        std::map<unsigned, GiNaC::ex> dot = {};  // symbol hash → its derivative, where that is not 0
+        std::set<std::size_t> done = {};         // entries
+    };
+    Flow& flow_along(const Direction& direction);
     GiNaC::ex name_whole(const GiNaC::ex& e);
     GiNaC::ex flatten(const GiNaC::ex& e);
     GiNaC::ex partial(const Entry& entry, const GiNaC::symbol& by);
@@ -82,6 +90,7 @@ private:
     std::map<GiNaC::ex, GiNaC::ex, GiNaC::ex_is_less> known_;  // definition → symbol
     std::map<std::pair<std::size_t, int>, GiNaC::ex> partials_;  // (entry, rank) → ∂definition/∂symbol
     std::vector<std::string> labels_{"the scene"};
+    Flow last_flow_;
     int current_source_ = 0;
 };
 
