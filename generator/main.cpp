@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
         sub->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
             ->check(CLI::PositiveNumber);
         sub->add_option("--method", request.method, "auto, " + alembert::method_names() + "; cvode, ida with SUNDIALS");
-        sub->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
+        sub->add_option("--step", request.step, "fixed step, for methods without step control")->check(CLI::PositiveNumber);
         sub->add_option("-o,--output", request.output, "CSV file");
         sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
         sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
