@@ -83,6 +83,17 @@ TEST_CASE("bench: constraints are kept, and their error is told") {
     for (const Json& one : result["runs"]) CHECK(one["constraint_error"].get<double>() < 1e-12);
 }
 
+// x = 1/(1 − t)² is the motion of x'' = 6 x².
+TEST_CASE("bench: where no method reaches the end it says what stops them, and where") {
+    const std::string pole = temporary("pole.toml", "[coordinates]\nx = { initial = 1, rate = 2 }\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-2*x^3\"\n[simulation]\nduration = 2\n");
+    const auto result = run({"bench", pole, "--reference-seconds", "0.2"});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("no method reaches the end") != std::string::npos);
+    const std::size_t at = result.err.find("step size underflow at t = ");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(result.err.substr(at + 27)) == doctest::Approx(1).epsilon(1e-6));
+}
+
 TEST_CASE("simulate: the estimated error is within a factor of 30 of the true one") {
     for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"}, std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
         const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
