@@ -84,7 +84,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     std::optional<PhasedMotion> second;
     for (const double factor : {0.1, 10.0}) {
         if (fixed)
-            options.step = given.step * (factor < 1 ? 0.5 : 2);
+            options.step = std::min(given.step, given.duration) * (factor < 1 ? 0.5 : 2);
         else
             options.tolerance = std::max(given.tolerance * factor, 1e-15);
         if (!fixed && options.tolerance == given.tolerance) continue;
