@@ -221,7 +221,7 @@ TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy
     const std::string driven = temporary("driven.toml", "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[forces]\nx = \"cos(2*t)\"\n");
     for (const auto& [method, tolerance] : {std::pair{"verlet", 1e-4}, {"kahanli8", 1e-12}}) {
         const auto result = run({"simulate", driven, "--json", "--duration", "5", "--method", method, "--step", "0.01"});
-        INFO(method << " " << result.err);
+        INFO(result.err);
         REQUIRE(result.exit == 0);
         const Json motion = Json::parse(result.out);
         CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() - (std::cos(5) - std::cos(10)) / 3) < tolerance);

@@ -91,7 +91,7 @@ duration = 5
 )toml");
     for (const auto& [method, option, value] : {std::tuple{"rk2", "--step", "0.05"}, {"verlet", "--step", "0.05"}, {"bdf", "--tolerance", "1e-5"}, {"dop853", "--tolerance", "1e-6"}}) {
         const auto result = run({"simulate", scene, "--json", "--method", method, option, value});
-        INFO(method << " " << result.err);
+        INFO(result.err);
         REQUIRE(result.exit == 0);
         const Json motion = Json::parse(result.out);
         const double error = std::max(std::abs(motion["final"]["time"].get<double>() - std::acos(0)) / std::acos(0), std::abs(motion["final"]["rates"]["x"].get<double>() + 1));
