@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <iostream>
 
 #include "alembert/error.hpp"
@@ -93,14 +95,24 @@ int main(int argc, char** argv) {
     emit->add_flag("--jacobian", request.jacobian, "with the derivatives of the right-hand side by state and parameters");
     emit->add_flag("--batch", request.batch, "the same functions for eight systems at once too");
 
+    // CLI11's own take nan, and tell the range in 309 digits.
+    const auto number = [](bool zero) {
+        return CLI::Validator(
+            [zero](const std::string& text) {
+                const double x = std::strtod(text.c_str(), nullptr);
+                return std::isfinite(x) && (x > 0 || (zero && x == 0)) ? std::string() : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
+            },
+            zero ? "NONNEGATIVE" : "POSITIVE");
+    };
+    const CLI::Validator nonnegative = number(true), positive = number(false);
     const auto with_run = [&](CLI::App* sub) {
-        sub->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+        sub->add_option("--duration", request.duration, "seconds from the start")->check(nonnegative);
         sub->add_option("--tolerance", request.tolerance, "local error of each component, relative to max(1, |y|)")
-            ->check(CLI::PositiveNumber);
+            ->check(positive);
         sub->add_option("--method", request.method, "auto, " + alembert::method_names() + "; cvode, ida with SUNDIALS");
-        sub->add_option("--step", request.step, "fixed step, for euler and rk4")->check(CLI::PositiveNumber);
+        sub->add_option("--step", request.step, "fixed step, for methods without step control")->check(positive);
         sub->add_option("-o,--output", request.output, "CSV file");
-        sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(CLI::PositiveNumber);
+        sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(positive);
         sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
     };
     CLI::App* import_robot = app.add_subcommand("import", "write the scene of a robot description (URDF)");
@@ -113,7 +125,7 @@ int main(int argc, char** argv) {
 
     CLI::App* simulate = verb("simulate", "emit, compile and integrate", alembert::simulate);
     with_run(simulate);
-    simulate->add_option("--sample", request.sample, "seconds between rows")->check(CLI::PositiveNumber);
+    simulate->add_option("--sample", request.sample, "seconds between rows")->check(positive);
     simulate->add_flag("!--no-estimate", request.estimate, "no second run to estimate the error: half the time");
     with_reactions(simulate);
 
@@ -127,11 +139,11 @@ int main(int argc, char** argv) {
     bench->add_flag("--peers", request.peers, "CVODE, IDA, odeint and GSL too, on the same right-hand side, where they are installed");
     bench->add_option("--csv", request.csv, "CSV file");
     bench->add_option("--svg", request.svg, "work-precision plot");
-    bench->add_option("--duration", request.duration, "seconds from the start")->check(CLI::NonNegativeNumber);
+    bench->add_option("--duration", request.duration, "seconds from the start")->check(nonnegative);
     bench->add_option("--method", request.method, "this one alone");
-    bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(CLI::PositiveNumber);
+    bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(positive);
     bench->add_option("--reference-seconds", request.reference_seconds, "processor time for each of the reference's methods")
-        ->check(CLI::PositiveNumber);
+        ->check(positive);
 
     try {
         app.parse(argc, argv);

@@ -83,6 +83,40 @@ TEST_CASE("bench: constraints are kept, and their error is told") {
     for (const Json& one : result["runs"]) CHECK(one["constraint_error"].get<double>() < 1e-12);
 }
 
+// One step of 5 s and another of 5 s would agree to the last digit. x = cos t.
+TEST_CASE("simulate: the second run of a step beyond the duration takes half of the step that was taken") {
+    const std::string one = temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
+    const Json result = result_of({"simulate", one, "--json", "--duration", "5", "--method", "rk4", "--step", "100"});
+    const double error = std::abs(result["final"]["coordinates"]["x"].get<double>() - std::cos(5));
+    CHECK(error > 1);
+    CHECK(result["error_estimate"]["value"].get<double>() > error / 30);
+    CHECK(result["error_estimate"]["trustworthy"] == false);
+}
+
+TEST_CASE("simulate: options that are no numbers in their range, or no use to the method, are refused") {
+    const std::string one = temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--duration", "nan"}, {"--duration", "-1"}, {"--tolerance", "0"}, {"--tolerance", "inf"}, {"--method", "dop853", "--step", "0.1"}}) {
+        std::vector<std::string> words{"simulate", one};
+        words.insert(words.end(), more.begin(), more.end());
+        const auto result = run(words);
+        CAPTURE(result.err);
+        CHECK(result.exit == 3);
+        CHECK(result.err.find(more[more.size() - 2]) != std::string::npos);
+        CHECK(result.err.size() < 200);
+    }
+}
+
+// x = 1/(1 − t)² is the motion of x'' = 6 x².
+TEST_CASE("bench: where no method reaches the end it says what stops them, and where") {
+    const std::string pole = temporary("pole.toml", "[coordinates]\nx = { initial = 1, rate = 2 }\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-2*x^3\"\n[simulation]\nduration = 2\n");
+    const auto result = run({"bench", pole, "--reference-seconds", "0.2"});
+    CHECK(result.exit == 4);
+    CHECK(result.err.find("no method reaches the end") != std::string::npos);
+    const std::size_t at = result.err.find("step size underflow at t = ");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(result.err.substr(at + 27)) == doctest::Approx(1).epsilon(1e-6));
+}
+
 TEST_CASE("simulate: the estimated error is within a factor of 30 of the true one") {
     for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"}, std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
         const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});

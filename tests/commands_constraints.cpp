@@ -216,6 +216,19 @@ holonomic = "x^2 + y^2 = 1"
 
 // Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same with
 // what it cannot have, each named.
+// x'' + x = cos 2t from rest: x = (cos t − cos 2t)/3. The load's work is integrated with the motion.
+TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy") {
+    const std::string driven = temporary("driven.toml", "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[forces]\nx = \"cos(2*t)\"\n");
+    for (const auto& [method, tolerance] : {std::pair{"verlet", 1e-4}, {"kahanli8", 1e-12}}) {
+        const auto result = run({"simulate", driven, "--json", "--duration", "5", "--method", method, "--step", "0.01"});
+        INFO(result.err);
+        REQUIRE(result.exit == 0);
+        const Json motion = Json::parse(result.out);
+        CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() - (std::cos(5) - std::cos(10)) / 3) < tolerance);
+        CHECK(motion["work_balance"].get<double>() < tolerance);
+    }
+}
+
 TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {
     const auto scene = [](const std::string& kinetic, const std::string& more) {
         return temporary("separable.toml", "[coordinates]\nx = { initial = 1 }\ny = { initial = 0.2, rate = 0.3 }\n[energy]\nkinetic = \"" +

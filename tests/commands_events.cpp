@@ -74,6 +74,34 @@ TEST_CASE("events: a scene's guards are met to 1e-12 by every method, simultaneo
     }
 }
 
+// cos t = 0 at t = π/2; the second run stops at a time of its own, and what these times differ by is an error too.
+TEST_CASE("events: the estimated error of a run that an event stops is that of the time too") {
+    const std::string scene = temporary("quarter.toml", R"toml(
+[coordinates]
+x = 1
+[energy]
+kinetic = "x'^2/2"
+potential = "x^2/2"
+[[event]]
+name = "middle"
+when = "x"
+stop = true
+[simulation]
+duration = 5
+)toml");
+    for (const auto& [method, option, value] : {std::tuple{"rk2", "--step", "0.05"}, {"verlet", "--step", "0.05"}, {"bdf", "--tolerance", "1e-5"}, {"dop853", "--tolerance", "1e-6"}}) {
+        const auto result = run({"simulate", scene, "--json", "--method", method, option, value});
+        INFO(result.err);
+        REQUIRE(result.exit == 0);
+        const Json motion = Json::parse(result.out);
+        const double error = std::max(std::abs(motion["final"]["time"].get<double>() - std::acos(0)) / std::acos(0), std::abs(motion["final"]["rates"]["x"].get<double>() + 1));
+        REQUIRE(motion["error_estimate"]["value"].is_number());
+        CHECK(motion["error_estimate"]["value"].get<double>() > error / 10);
+        CHECK(motion["error_estimate"]["value"].get<double>() < error * 10);
+        CHECK(motion["error_estimate"]["trustworthy"] == true);
+    }
+}
+
 TEST_CASE("events: on a constrained motion they are where the angle has them") {
     const std::string scene = temporary("swing.toml", R"toml(
 gravity = [0, "-g"]

@@ -136,6 +136,43 @@ holonomic = "x = 0.1 + t^2"
     CHECK(beside.err.find("no inertia resists z'") != std::string::npos);  // the constraint does not either
 }
 
+// Cranks of length 1, pins 2 apart, a coupler of 2: flat at a = b = c = 0, where the first row, (-sin a, sin b, -2 sin c), is zero.
+TEST_CASE("commands: constraints that lose their rank at a pose are named, not taken for a division by zero") {
+    const auto scene = [](const std::string& more) {
+        return temporary("flat.toml", R"toml(
+[coordinates]
+a = { initial = 0, rate = 1 }
+b = { initial = 0, rate = 1 }
+c = 0
+[[particle]]
+name = "A"
+mass = 1
+position = ["cos(a)", "sin(a)"]
+[[particle]]
+name = "C"
+mass = 1
+position = ["cos(a) + cos(c)", "sin(a) + sin(c)"]
+[[constraint]]
+name = "along"
+holonomic = "cos(a) + 2*cos(c) = cos(b) + 2"
+[[constraint]]
+name = "across"
+holonomic = "sin(a) + 2*sin(c) = sin(b)"
+)toml" + more);
+    };
+    const std::string massless = scene("[simulation]\nduration = 1\n");  // b has no inertia
+    for (const char* verb : {"eval", "simulate"}) {
+        const auto result = run({verb, massless});
+        CHECK(result.exit == 4);
+        CHECK(result.err.find("constraint 'along' has no row left in this pose, and the rank of the constraints drops from 2 to 1") != std::string::npos);
+        CHECK(result.err.find("division") == std::string::npos);
+    }
+    // With a mass on that crank the linkage goes on as the parallelogram that it is: a turn at constant speed.
+    const auto heavy = run({"simulate", scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", \"sin(b)\"]\n[simulation]\nduration = 1\n"), "--json"});
+    REQUIRE(heavy.exit == 0);
+    CHECK(std::abs(Json::parse(heavy.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
+}
+
 TEST_CASE("commands: what is not a number is blamed on its term, and a run that fails keeps what it had") {
     const std::string scene = temporary("fall.toml", R"toml(
 [coordinates]

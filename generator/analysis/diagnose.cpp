@@ -76,6 +76,36 @@ std::optional<std::string> massless_combination(const Program& program, const St
     return text;
 }
 
+std::optional<std::string> lost_rank(const Program& program, const State<double>& state, const std::vector<int>& kept) {
+    const std::vector<int> rows = program.nodes_of("row");
+    const auto n = static_cast<Eigen::Index>(program.coordinates.size()), m = static_cast<Eigen::Index>(kept.size());
+    if (kept.empty() || n == 0) return std::nullopt;
+    const std::vector<double> value = interpret(program, state);
+    Eigen::MatrixXd A(m, n);
+    for (Eigen::Index k = 0; k < m; ++k)
+        for (Eigen::Index i = 0; i < n; ++i) A(k, i) = value[rows[kept[k] * n + i]];
+    const double largest = A.rowwise().norm().maxCoeff();
+    if (!A.allFinite()) return std::nullopt;
+    if (largest > 0) A /= largest;
+    const SingularValues decomposed = singular_values(A);
+    const Eigen::Index left = (decomposed.values.array() > 1e-7).count();
+    if (left == m) return std::nullopt;
+    const Eigen::VectorXd among = decomposed.left.rightCols(m - left).cwiseAbs().rowwise().sum();
+    std::vector<std::string> constraints;
+    for (const Root& root : program.roots)
+        if (root.group == "position") constraints.push_back(root.name);
+    std::string names;
+    int count = 0;
+    for (Eigen::Index k = 0; k < m; ++k) {
+        if (among[k] < 1e-6) continue;
+        names += fmt::format("{}'{}'", names.empty() ? "" : ", ", constraints[kept[k]]);
+        ++count;
+    }
+    return fmt::format("{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
+                       "(audit lists such poses; dop853 goes through one where every coordinate has inertia)",
+                       count == 1 ? fmt::format("constraint {} has no row left", names) : fmt::format("the rows of constraints {} become dependent", names), m, left);
+}
+
 std::optional<std::string> not_finite(const Program& program, const State<double>& state, const std::string& group) {
     const std::vector<double> value = interpret(program, state);
     for (const int id : program.needed(program.nodes_of(group))) {

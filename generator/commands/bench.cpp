@@ -273,7 +273,16 @@ int bench(const Request& request) {
     } else {
         judge = by_doubles(workbench, options);
     }
-    if (!judge) throw IntegrationError("no method reaches the end: there is nothing to measure against", start.t, start.q);
+    if (!judge) {
+        Options easy = options;
+        easy.tolerance = 1e-9;
+        const Measured trial = workbench.measure(easy);
+        const std::optional<std::string> at_start = failure_at(d, first);
+        throw IntegrationError(fmt::format("no method reaches the end at a strict tolerance: there is nothing to measure against; {} at tolerance 1e-9: {}{}; a shorter --duration "
+                                           "ends before what stops it, --budget and --reference-seconds let it take longer",
+                                           trial.method, trial.failure.empty() ? "it does" : trial.failure, at_start ? ", there: " + *at_start : ""),
+                               start.t, start.q);
+    }
     workbench.set_reference(judge->final);
 
     // One right-hand side, and how many steps a loose run takes: where fixed steps begin.

@@ -22,6 +22,11 @@ double apart(std::span<const double> a, std::span<const double> b, std::size_t c
     return largest;
 }
 
+/// Of the ends: |t − t₂| / max(1, |t₂|).
+double later(const PhasedMotion& a, const PhasedMotion& b) {
+    return std::abs(a.final_time() - b.final_time()) / std::max(1.0, std::abs(b.final_time()));
+}
+
 /// On the rows that both have.
 std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b, std::size_t compared) {
     struct Row {
@@ -79,12 +84,13 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     std::optional<PhasedMotion> second;
     for (const double factor : {0.1, 10.0}) {
         if (fixed)
-            options.step = given.step * (factor < 1 ? 0.5 : 2);
+            options.step = std::min(given.step, given.duration) * (factor < 1 ? 0.5 : 2);
         else
             options.tolerance = std::max(given.tolerance * factor, 1e-15);
         if (!fixed && options.tolerance == given.tolerance) continue;
         second = run(options, initial);
-        if (second->ending != Ending::failed && std::abs(second->final_time() - motion.final_time()) <= 1e-6 * std::max(1.0, std::abs(motion.final_time()))) break;
+        const bool stopped = motion.ending == Ending::stopped_by_event && second->ending == motion.ending;  // at times of their own
+        if (second->ending != Ending::failed && later(*second, motion) <= (stopped ? no_digit : 1e-6)) break;
         second.reset();
     }
     if (!second) {
@@ -93,7 +99,7 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
         return estimate;
     }
     estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step) : fmt::format("a second run at tolerance {:g}", options.tolerance);
-    estimate.value = apart(motion.final_state(), second->final_state(), compared);
+    estimate.value = std::max(apart(motion.final_state(), second->final_state(), compared), later(*second, motion));
     estimate.trusted = *estimate.value <= untrusted;
     if (*estimate.value < (fixed ? 1e-6 : suspicious * given.tolerance)) return estimate;
 

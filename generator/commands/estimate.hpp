@@ -8,7 +8,8 @@
 ///
 /// The second run has a tenth of the tolerance (half the step); where that takes more than four times the evaluations, because
 /// rounding limits the steps, it has ten times the tolerance, and the estimate is then that run's error. What both runs have in common
-/// (rounding of initial values and of the right-hand side, a wrong scene) it cannot see.
+/// (rounding of initial values and of the right-hand side, a wrong scene) it cannot see. Where an event stops both runs, each has its own end,
+/// and the difference of these times counts as one of the state does.
 ///
 /// Where the estimate is 1000 times the tolerance or more, a third run from a state 1e-8 beside the first tells chaos from plain
 /// accumulation: the separation of the two grows exponentially if it gains e³ or more in the second half of the time in which

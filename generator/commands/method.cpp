@@ -76,7 +76,11 @@ MethodChoice method_for(const Request& request, const Derived& d, const Program&
         need_foreign(d, name);
         return {.method = Method::bdf, .foreign = name};  // which has the Jacobian emitted
     }
-    if (const auto given = given_method(request, d)) return {.method = *given};
+    if (const auto given = given_method(request, d)) {
+        if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
+            throw ModelError(fmt::format("--step {:g}: {} chooses its own steps; give --tolerance, or a method with fixed steps (rk4, gauss, kahanli8 …)", request.step, name));
+        return {.method = *given};
+    }
     return automatic(request, d, program, start);
 }
 

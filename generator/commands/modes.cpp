@@ -158,7 +158,8 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     mode->contact.rhs.canonical = canonical;
     if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
-    if (!has_contacts) mode->contact.rhs.extra = 0;  // the work is to balance the energy: it has a tolerance like the rest
+    // The work is to balance the energy: it has a tolerance like the rest, where there is one.
+    if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
     if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);
     LoadedMode* const self = mode.get();
     if (constrained) {

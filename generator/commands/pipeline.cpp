@@ -165,6 +165,7 @@ std::optional<std::string> failure_at(const Derived& d, const State<double>& sta
     if (const auto combination = massless_combination(program, state))
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
                            *combination);
+    if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
     return not_finite(program, state, program.singular ? "forcing" : "acceleration");
 }
 

@@ -41,8 +41,8 @@ void need_rates(const Derived& derived);
 /// Lowered in the form that takes the fewest operations.
 Choice lowered(const Derived& derived, const Request& request);
 
-/// Why the numbers fail at a state, in the terms of the scene: a combination of rates that no inertia resists, or the
-/// term of the body that is not finite. Nothing if neither is the case. (The form with intermediate symbols knows
+/// Why the numbers fail at a state, in the terms of the scene: a combination of rates that no inertia resists, constraints
+/// that lose their rank, or the term of the body that is not finite. Nothing if none is the case. (The form with intermediate symbols knows
 /// whose term each value is; the textbook's has merged them.)
 std::optional<std::string> failure_at(const Derived& derived, const State<double>& state);
 

@@ -193,7 +193,7 @@ private:
         result_.failure = motion.failure;
         if (in_phases_ && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
             result_.failure->message = fmt::format(
-                "{} right-hand sides were not enough to come further than t = {:.17g}, with {} "
+                "{} right-hand sides were not enough to come further than t = {}, with {} "
                 "impacts and changes of contact{}; raise the budget (--budget), loosen the "
                 "tolerance or shorten the duration",
                 options_.budget, motion.failure->time, result_.contacts.size(),
@@ -303,7 +303,7 @@ private:
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
         fail(
             FailureKind::no_contact_mode,
-            fmt::format("no contact mode is consistent at t = {:.17g}: contact '{}' and others open and close "
+            fmt::format("no contact mode is consistent at t = {}: contact '{}' and others open and close "
                         "without the time "
                         "moving on; loosen the tolerance, or look at the gaps there",
                         t_, contacts_.names[k]));

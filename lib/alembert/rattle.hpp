@@ -57,6 +57,7 @@ private:
     Side here_, there_;
     Vector q_, u_, v_, w_, end_, before_, lambda_, impulse_;
     std::vector<double> state_, form_;
+    double longest_ = 0;
     long evaluations_ = 0;
 };
 

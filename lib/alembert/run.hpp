@@ -67,7 +67,7 @@ public:
             const int bad = step_.worst_component();
             fail(FailureKind::not_a_number, bad,
                  fmt::format(
-                     "the rate of {} is not finite at the start, t = {:.17g}; look at its equation, and at the "
+                     "the rate of {} is not finite at the start, t = {}; look at its equation, and at the "
                      "initial values and parameters",
                      step_.rhs().describe(bad), options_.start));
         } else {
@@ -256,7 +256,7 @@ private:
         const int watched = options_.when_stiff ? 1 : 0;
         if (evaluations() + step_.most_evaluations() + watched <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
-             fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget "
+             fmt::format("{} right-hand sides were not enough to come further than t = {}; raise the budget "
                          "(--budget), loosen the tolerance or shorten the duration",
                          options_.budget, step_.time()));
         return true;
@@ -267,19 +267,19 @@ private:
         if constexpr (requires { step_.solved(); })
             if (!step_.solved() && std::isfinite(step_.rate()[bad]))
                 return fail(FailureKind::not_a_number, -1,
-                            fmt::format("the equations of {} could not be solved for the step after t = {:.17g}; take a "
+                            fmt::format("the equations of {} could not be solved for the step after t = {}; take a "
                                         "shorter step, or radau for a stiff system",
                                         name(options_.method), step_.time()));
         fail(FailureKind::not_a_number, bad,
              fmt::format(
-                 "{} is no longer finite after t = {:.17g}; take a shorter step, or an adaptive method such as "
+                 "{} is no longer finite after t = {}; take a shorter step, or an adaptive method such as "
                  "dop853",
                  step_.rhs().describe(bad), step_.time()));
     }
 
     void fail_underflow(double misfit, double h) {
         const int worst = step_.worst_component();
-        const std::string where = fmt::format("step size underflow at t = {:.17g} (step {:.3g})", step_.time(), h);
+        const std::string where = fmt::format("step size underflow at t = {} (step {:.3g})", step_.time(), h);
         const std::string component = step_.rhs().describe(worst);
         fail(
             FailureKind::step_underflow, worst,

@@ -234,12 +234,12 @@ private:
         std::string names;
         for (const int k : those) names += (names.empty() ? "'" : ", '") + contacts_.names[k] + "'";
         result_.failure = fmt::format(
-            "no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", at_.t, names, why);
+            "no contact mode is consistent at t = {} with the contacts {} closed: {}", at_.t, names, why);
         return false;
     }
 
     bool fail_kick(const std::string& why) {
-        result_.failure = fmt::format("there are no rates after the impulses of the events at t = {:.17g}: {}", at_.t, why);
+        result_.failure = fmt::format("there are no rates after the impulses of the events at t = {}: {}", at_.t, why);
         return false;
     }
 
