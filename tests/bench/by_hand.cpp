@@ -16,3 +16,11 @@ extern "C" void oscillator(double t, const double* state, double* rate) {
     rate[0] = state[1];
     rate[1] = (1 / m) * (F * std::cos(w * t) - k * state[0] - c * state[1]);
 }
+
+/// x″ = −(k x + h x³ + c x′)/m
+extern "C" void spring(double, const double* state, double* rate) {
+    constexpr double m = 2, c = 0.3, k = 50, h = 7;
+    const double x = state[0], v = state[1];
+    rate[0] = v;
+    rate[1] = -(1 / m) * (x * (k + h * x * x) + c * v);
+}

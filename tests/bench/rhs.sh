@@ -64,7 +64,7 @@ for arm in arm7 arm7g; do
     python3 -B "$root/scenes/benchmark/torques.py" "$root/scenes/benchmark/trees/$arm.toml" >"$folder/$arm.toml"
     add "$folder/$arm.toml"
 done
-for one in pendulum oscillator; do add "$root/tests/bench/systems/$one.toml"; done
+for one in pendulum oscillator spring; do add "$root/tests/bench/systems/$one.toml"; done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"
 [ -n "$file" ] || file=$folder/rows.json
