@@ -8,6 +8,7 @@
 
 #include "alembert/abi.hpp"
 #include "alembert/error.hpp"
+#include "emit/parts.hpp"
 #include "emit/templates.hpp"
 #include "emit/writer.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 namespace mustache = kainjow::mustache;
 
 constexpr std::size_t line_width = 110;
+constexpr std::size_t part_length = 400;  // statements
 constexpr int most_for_packs = 1000;  // operations of M and f; beyond, packs go lane by lane: nobody steps by these, and compiling takes a second
 
 /// Long statements go on below, indented; a break only comes before an operator at its blanks.
@@ -66,12 +68,12 @@ public:
         const Operations cost = p_.count(rhs);
         mustache::data functions{mustache::data::type::list};
         mustache::data file;
-        functions << prepare() << right_hand_side();
+        functions << prepare();
+        add(functions, right_hand_side());
         const bool has_matrix = !p_.nodes_of("mass").empty();
-        if (has_matrix) functions << mass_forcing();
+        if (has_matrix) add(functions, mass_forcing());
         file.set("has_matrix", has_matrix);
-        functions << energy() << list("output") << list("event") << constraints()
-                  << multipliers();
+        for (const std::vector<mustache::data>& one : {energy(), list("output"), list("event"), constraints(), multipliers()}) add(functions, one);
         add_projection(functions, file);
         add_derivatives(functions, file);
         file.set("scene", ascii_identifier(p_.name));
@@ -174,9 +176,14 @@ private:
         return leaves;
     }
 
-    /// `const Real` declarations of those variables and constants that the function uses.
-    mustache::data unpacked(const std::map<int, int>& uses, bool rates_needed) const {
-        std::vector<std::string> items;
+    struct Input {
+        std::string name, place;  ///< "q1", "state[0]"
+        int kind;                 ///< kinds are declared apart
+    };
+
+    /// Those variables and constants that the function uses.
+    std::vector<Input> inputs(const std::map<int, int>& uses, bool rates_needed) const {
+        std::vector<Input> items;
         std::vector<char> q(n_, 0), u(s_, rates_needed ? 1 : 0), a(s_, 0), par(par_.size(), 0);
         for (const auto& [id, count] : uses) {
             const Node& node = p_[id];
@@ -191,34 +198,32 @@ private:
                 default: break;
             }
         }
-        mustache::data lines{mustache::data::type::list};
-        const auto flush = [&] {
-            if (items.empty()) return;
-            std::string line;
-            for (const std::string& item : items) {
-                if (!line.empty() && line.size() + item.size() > line_width - 15) {
-                    lines << line;
-                    line.clear();
-                }
-                line += (line.empty() ? "&" : ", &") + item;
-            }
-            lines << line;
-            items.clear();
-        };
         for (int i = 0; i < n_; ++i)
-            if (q[i] != 0) items.push_back(fmt::format("{} = state[{}]", q_[i], i));
+            if (q[i] != 0) items.push_back({q_[i], fmt::format("state[{}]", i), 0});
         for (int i = 0; i < s_; ++i)
-            if (u[i] != 0) items.push_back(fmt::format("{} = state[{}]", u_[i], n_ + i));
-        flush();
+            if (u[i] != 0) items.push_back({u_[i], fmt::format("state[{}]", n_ + i), 0});
         for (int i = 0; i < s_; ++i)
-            if (a[i] != 0) items.push_back(fmt::format("{} = rate[{}]", a_[i], n_ + i));
-        flush();
+            if (a[i] != 0) items.push_back({a_[i], fmt::format("rate[{}]", n_ + i), 1});
         for (std::size_t i = 0; i < par.size(); ++i)
-            if (par[i] != 0) items.push_back(fmt::format("{} = par[{}]", par_[i], i));
+            if (par[i] != 0) items.push_back({par_[i], fmt::format("par[{}]", i), 2});
         for (std::size_t k = 0; k < constants_.size(); ++k)
-            if (uses.contains(constants_[k]))
-                items.push_back(fmt::format("{} = par[{}]", constant_names_.at(constants_[k]), par_.size() + k));
-        flush();
+            if (uses.contains(constants_[k])) items.push_back({constant_names_.at(constants_[k]), fmt::format("par[{}]", par_.size() + k), 2});
+        return items;
+    }
+
+    /// Declared as `const Real`.
+    static mustache::data unpacked(const std::vector<Input>& items) {
+        mustache::data lines{mustache::data::type::list};
+        std::string line;
+        for (std::size_t k = 0; k < items.size(); ++k) {
+            const std::string item = fmt::format("{} = {}", items[k].name, items[k].place);
+            if (!line.empty() && (items[k].kind != items[k - 1].kind || line.size() + item.size() > line_width - 15)) {
+                lines << line;
+                line.clear();
+            }
+            line += (line.empty() ? "&" : ", &") + item;
+        }
+        if (!line.empty()) lines << line;
         return lines;
     }
 
@@ -227,8 +232,13 @@ private:
         int node;
     };
 
-    mustache::data function(const char* name, const char* about, const char* arguments, const std::vector<Goal>& goals,
-                            const std::vector<Result>& results, const std::vector<std::string>& first = {}) {
+    static void add(mustache::data& list, const std::vector<mustache::data>& functions) {
+        for (const mustache::data& function : functions) list << function;
+    }
+
+    /// Where it is long, its parts before it.
+    std::vector<mustache::data> function(const char* name, const char* about, const char* arguments, const std::vector<Goal>& goals,
+                                         const std::vector<Result>& results, const std::vector<std::string>& first = {}) {
         std::map<int, std::string> leaves = variables();
         for (const int id : constants_) leaves[id] = constant_names_.at(id);
         Writer writer(p_, names_, std::move(leaves), options_.batch);
@@ -236,10 +246,41 @@ private:
         Passage last{"Result", first};
         for (const Result& result : results) last.lines.push_back(result.to + " = " + writer.value(result.node) + ";");
         sections.push_back(std::move(last));
-        return assembled(name, about, arguments, unpacked(writer.uses(), !first.empty()), sections);
+        const std::vector<Input> items = inputs(writer.uses(), !first.empty());
+        std::size_t count = 0;
+        for (const Passage& section : sections) count += section.lines.size();
+        if (count <= options_.longest_function) return {assembled(name, about, arguments, unpacked(items), sections)};
+        return in_pieces(name, about, arguments, items, sections, options_.longest_function);
     }
 
-    static mustache::data assembled(const char* name, const char* about, const char* arguments,
+    static std::vector<mustache::data> in_pieces(const std::string& name, const char* about, const std::string& arguments,
+                                                 const std::vector<Input>& items, const std::vector<Passage>& sections, std::size_t longest) {
+        std::vector<std::string> statements;
+        for (const Passage& section : sections) statements.insert(statements.end(), section.lines.begin(), section.lines.end());
+        const FunctionParts parts = in_parts(statements, std::min(part_length, longest));
+        std::string given;  // the arguments' names
+        for (std::size_t end = 0; end != std::string::npos; ) {
+            end = arguments.find(',', end + 1);
+            const std::size_t stop = end == std::string::npos ? arguments.size() : end;
+            const std::size_t space = arguments.rfind(' ', stop - 1);
+            given += arguments.substr(space + 1, stop - space - 1) + ", ";
+        }
+        std::vector<mustache::data> result;
+        Passage calls{"Parts", {fmt::format("Real carried[{}];", std::max(parts.carried, 1))}};
+        for (const FunctionPart& part : parts.list) {
+            std::vector<Input> used;
+            for (const Input& item : items)
+                if (part.names.contains(item.name)) used.push_back(item);
+            const std::string own = fmt::format("{}_{}", name, result.size());
+            result.push_back(assembled(own, "A part.", arguments + ", [[maybe_unused]] Real* carried", unpacked(used), {{"Part", part.lines}}));
+            result.back().set("is_part", true);
+            calls.lines.push_back(fmt::format("{}({}carried);", own, given));
+        }
+        result.push_back(assembled(name, about, arguments, mustache::data{mustache::data::type::list}, {calls}));
+        return result;
+    }
+
+    static mustache::data assembled(const std::string& name, const char* about, const std::string& arguments,
                                     const mustache::data& unpack, const std::vector<Passage>& sections) {
         mustache::data list{mustache::data::type::list};
         for (const Passage& section : sections) {
@@ -253,6 +294,7 @@ private:
         }
         mustache::data result;
         result.set("name", name);
+        result.set("is_part", false);
         result.set("about", about);
         result.set("arguments", arguments);
         result.set("unpack", unpack);
@@ -274,7 +316,7 @@ private:
         for (const auto& [id, count] : writer.uses())
             if (p_[id].op == Op::variable) uses[id] = count;
         return assembled("prepare", "What depends on parameters alone, after the parameters.",
-                         constants_.empty() ? "Real*" : "Real* par", unpacked(uses, false), sections);
+                         constants_.empty() ? "Real*" : "Real* par", unpacked(inputs(uses, false)), sections);
     }
 
     std::vector<Goal> goals(const std::string& group, const std::string& section) const {
@@ -290,7 +332,7 @@ private:
         return a;
     }
 
-    mustache::data right_hand_side() {
+    std::vector<mustache::data> right_hand_side() {
         const bool is_free = p_.nodes_of("gamma").empty(), own_speeds = !p_.speeds.empty();
         const std::string unknown = own_speeds ? "u'" : "q''", rows = fmt::format("Constraints A {} = gamma", unknown);
         std::vector<Goal> all = goals("rate", "Kinematics q' = h(q, u, t)");
@@ -324,7 +366,7 @@ private:
                         all, results, first);
     }
 
-    mustache::data mass_forcing() {
+    std::vector<mustache::data> mass_forcing() {
         const std::vector<Goal> mass = goals("mass", "Mass matrix M(q), lower triangle"), f = goals("forcing", "Forcing f");
         std::vector<Result> results;
         std::size_t k = 0;
@@ -340,7 +382,7 @@ private:
                         joined(mass, f), results);
     }
 
-    mustache::data energy() {
+    std::vector<mustache::data> energy() {
         std::vector<Goal> all;
         std::vector<Result> results;
         for (const char* group : {"kinetic", "potential", "energy", "power", "jacobi"})
@@ -353,7 +395,7 @@ private:
                         all, results);
     }
 
-    mustache::data constraints() {
+    std::vector<mustache::data> constraints() {
         const std::vector<int> position = p_.nodes_of("position"), velocity = p_.nodes_of("velocity");
         std::vector<Result> results;
         for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
@@ -370,7 +412,7 @@ private:
                         all, results);
     }
 
-    mustache::data multipliers() {
+    std::vector<mustache::data> multipliers() {
         const std::vector<Goal> all = goals("multiplier", "Multipliers");
         std::vector<Result> results;
         for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("lambda[{}]", i), all[i].node});
@@ -394,16 +436,16 @@ private:
         for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
         for (std::size_t k = 0; k < pivots.size(); ++k) results.push_back({fmt::format("pivots[{}]", k), pivots[k]});
         for (const Result& result : results) all.push_back({"Projection", "", result.node});
-        functions << function("project", "One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.",
+        add(functions, function("project", "One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.",
                               "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, "
                               "Real* position, [[maybe_unused]] Real* pivots",
-                              all, results);
+                              all, results));
         if (gamma.empty()) return;
         for (const Goal& goal : gamma) right.push_back({fmt::format("out[{}]", goal.name.substr(5)), goal.node});  // "gamma2": of the third constraint
-        functions << function("gamma_at", p_.speeds.empty() ? "gamma of A q'' = gamma." : "gamma of A u' = gamma.",
+        add(functions, function("gamma_at", p_.speeds.empty() ? "gamma of A q'' = gamma." : "gamma of A u' = gamma.",
                               "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
                               "Real* out",
-                              gamma, right);
+                              gamma, right));
     }
 
     /// Of the entries that are not zero: rows and columns as text, and where each goes.
@@ -422,7 +464,7 @@ private:
         }
     }
 
-    mustache::data derivative(const char* name, const char* about, const Pattern& pattern) {
+    std::vector<mustache::data> derivative(const char* name, const char* about, const Pattern& pattern) {
         std::vector<Goal> all;
         for (const Result& result : pattern.results) all.push_back({"Derivatives", "", result.node});
         return function(name, about,
@@ -440,9 +482,9 @@ private:
         add_entries(state, "power_gradient", n_ + s_, static_cast<std::size_t>(n_ + s_));
         if (!par_.empty()) add_entries(parameters, "parameter_jacobian", 0, par_.size());
         const bool by_parameters = !p_.nodes_of("parameter_jacobian").empty();
-        functions << derivative("jacobian", "d rate / d state where it is not zero at every state; row n + s: of the power.", state);
+        add(functions, derivative("jacobian", "d rate / d state where it is not zero at every state; row n + s: of the power.", state));
         if (by_parameters)
-            functions << derivative("parameter_jacobian", "d rate / d parameter where it is not zero at every state.", parameters);
+            add(functions, derivative("parameter_jacobian", "d rate / d parameter where it is not zero at every state.", parameters));
         file.set("has_parameter_derivatives", by_parameters);
         file.set("rows", wrapped_list(state.rows));
         file.set("columns", wrapped_list(state.columns));
@@ -464,7 +506,7 @@ private:
         return result;
     }
 
-    mustache::data list(const std::string& group) {
+    std::vector<mustache::data> list(const std::string& group) {
         std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
         if (group == "output") all = joined(all, goals("speed", "Generalized speeds"));
         std::vector<Result> results;

@@ -23,6 +23,7 @@ struct Source {
 
 struct EmitOptions {
     bool batch = false;  ///< alembert_pack too
+    std::size_t longest_function = 6000;  ///< statements; a longer one is written in parts (parts.hpp), and takes 17 % longer to run
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system).

@@ -30,7 +30,7 @@ constexpr std::array keywords{
     "import",       "module"};
 
 // What templates/solver.cpp.mustache declares.
-constexpr std::array own{"Real",   "t",       "state",  "par",  "rate",  "mass", "forcing", "out",    "energy",
+constexpr std::array own{"Real",   "t",       "state",  "par",  "rate",  "mass", "forcing", "carried", "out",    "energy",
                          "jacobi", "prepare", "rhs",    "pair", "sincos", "sin", "cos",     "tan",    "asin",
                          "acos",   "atan",    "sinh",   "cosh", "tanh",  "exp",  "log",     "sqrt",   "abs",
                          "sign",   "pow",     "atan2",  "min",  "max",   "pi",   "std",     "main",   "mass_forcing",

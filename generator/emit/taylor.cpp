@@ -49,9 +49,10 @@ std::string exact_text(const Rational& value) {
 
 constexpr std::size_t least_lanes = 4;   // of a pack
 // Measured on chains, planets and a governor; 1 is what a step takes beside its series.
-constexpr double operation_cost = 0.0008, product_cost = 0.0055;
+constexpr double operation_cost = 0.0010, product_cost = 0.0055;
 constexpr double operation_time = 4, packing_time = 16, gathering_time = 15, solving_time = 12;  // cycles
 constexpr int orders_to_settle = 12;     // of dependences that go from order to order
+constexpr std::size_t most_straight = 250;  // operations at an order, of which straight-line code is made for all orders
 constexpr std::size_t most_edges = 40;   // lanes whose first and last terms are added one by one
 
 bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
@@ -64,7 +65,7 @@ public:
           n_(static_cast<int>(p_.coordinates.size())),
           s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())),
           with_work_(with_work) {
-        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "loaded", "wide", "lanes", "columns", "columns_count", "l", "put", "convolved", "squared", "gather", "gathered", "left", "right", "room",
+        for (const char* own : {"k", "number", "per_k", "order", "top", "out", "work", "last", "loaded", "wide", "lanes", "columns", "columns_count", "l", "put", "convolved", "squared", "gather", "gathered", "left", "right", "room", "one", "constant", "store",
                                 "series", "quad", "clear", "solve", "terms"})
             names_.fresh(own);
         name_everything();
@@ -110,7 +111,12 @@ public:
         number("most_order", static_cast<std::size_t>(most_order));
         number("most_order_quad", static_cast<std::size_t>(most_order_quad));
         number("k", constants_.size());
-        file.set("order_cost", fmt::format("{:.3g}", operation_cost * static_cast<double>(operations_at_an_order())));
+        const std::size_t operations = operations_at_an_order();
+        std::string straight;
+        for (int k = 1; k <= most_order; ++k) straight += fmt::format("{}one(constant<{}>{{}})", k > 1 ? " && " : "", k);
+        file.set("has_straight", packs_.empty() && has_edges() && operations <= most_straight);
+        file.set("straight", straight);
+        file.set("order_cost", fmt::format("{:.3g}", operation_cost * static_cast<double>(operations)));
         file.set("product_cost", fmt::format("{:.3g}", product_cost * products_eight_wide()));
         number("columns_count", static_cast<std::size_t>(columns_count_));
         number("single_count", static_cast<std::size_t>(single_count_));
@@ -174,7 +180,8 @@ private:
         for (const Lines& part : {given(), chain(), storing()})
             for (const std::string& line : part) {
                 std::size_t here = 0, blocks = 1;
-                for (const char* sign : {" * ", " + ", " - ", " = "})
+                const bool is_stored = line.starts_with("store<");
+                for (const char* sign : {" * ", " + ", " - ", is_stored ? ", " : " = "})
                     for (std::size_t at = line.find(sign); at != std::string::npos; at = line.find(sign, at + 1)) ++here;
                 if (const std::size_t lanes = line.find("l < "); lanes != std::string::npos) blocks = std::stoul(line.substr(lanes + 4)) / 8;
                 count += here * blocks;
@@ -1052,10 +1059,15 @@ private:
 
     Lines storing() const {
         Lines lines;
-        for (std::size_t l = 0; l < lanes_in_order_.size(); ++l) {
-            const Lane& lane = lanes_in_order_[l];
-            lines.push_back(fmt::format("left[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.a, lane.a_rate)));
-            lines.push_back(fmt::format("right[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.b, lane.b_rate)));
+        for (std::size_t first = 0; first < lanes_in_order_.size(); first += 8) {
+            std::string left, right;
+            for (std::size_t l = first; l < std::min(first + 8, lanes_in_order_.size()); ++l) {
+                const Lane& lane = lanes_in_order_[l];
+                left += ", " + scalar(lane.a, lane.a_rate);
+                right += ", " + scalar(lane.b, lane.b_rate);
+            }
+            for (const auto& [name, values] : {std::pair("left", &left), std::pair("right", &right)})
+                lines.push_back(fmt::format("store<{}, {}>({}, k{});", lanes_padded(), first, name, *values));
         }
         for (const auto& [id, names] : edges_) lines.push_back(fmt::format("{} = {};", names.second, now(id)));
         return lines;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Long functions in parts.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
+#include "alembert/compile.hpp"
+#include "alembert/module.hpp"
+#include "alembert/packs.hpp"
+#include "emit/emit.hpp"
+#include "emit/parts.hpp"
+#include "formalism/recursive.hpp"
+#include "lower/choose.hpp"
+#include "scenes.hpp"
+
+using namespace alembert;
+
+TEST_CASE("parts: what one part makes and a later one takes is carried, once") {
+    const FunctionParts parts = in_parts({"const Real a = x + 1.5e3;", "const Real b = 2 * a;", "const Real c = a * b;", "out[0] = c.s + b;", "out[1] = a;"}, 2);
+    REQUIRE(parts.list.size() == 3);
+    CHECK(parts.carried == 2);
+    CHECK(parts.list[0].lines == std::vector<std::string>{"const Real a = x + 1.5e3;", "const Real b = 2 * a;", "carried[0] = a;", "carried[1] = b;"});
+    CHECK(parts.list[1].lines == std::vector<std::string>{"const Real& a = carried[0];", "const Real& b = carried[1];", "const Real c = a * b;", "out[0] = c.s + b;"});
+    CHECK(parts.list[2].lines == std::vector<std::string>{"const Real& a = carried[0];", "out[1] = a;"});
+    CHECK(parts.list[0].names.contains("x"));
+    CHECK_FALSE(parts.list[0].names.contains("e3"));
+    CHECK_FALSE(parts.list[1].names.contains("s"));
+}
+
+TEST_CASE("parts: several names in a line, and names that only the next line knows") {
+    const FunctionParts parts = in_parts({"const auto trig0 = sincos(f(p, q), q);", "const Real s0 = trig0.sine[0], c0 = trig0.cosine[0];", "out[0] = s0;", "out[1] = c0;"}, 1);
+    REQUIRE(parts.list.size() == 3);  // the first two lines stay together
+    CHECK(parts.carried == 2);
+    CHECK(parts.list[2].lines.front() == "const Real& c0 = carried[1];");
+}
+
+TEST_CASE("parts: a file whose functions are in parts computes what the whole one does, packs too") {
+    const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")));
+    const Program program = choose(m, recursive(m)).program;
+    const auto module_of = [&](std::size_t longest) {
+        const std::string text = emit(program, {.batch = true, .longest_function = longest}).text;
+        CHECK((text.find("rhs_1(") != std::string::npos) == (longest < 100));
+        return load(compile(text, "parts", {}).object);
+    };
+    const Module whole = module_of(100000), parts = module_of(40);
+    const int n = whole.table().coordinates;
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> any(-2, 2);
+    const std::vector<double> par = prepared(whole);
+    const std::vector<Lanes> pars = prepared_packs(parts);
+    Lanes time{};
+    std::vector<Lanes> states(2 * n), rates(2 * n);
+    for (int lane = 0; lane < lanes; ++lane)
+        for (int i = 0; i < 2 * n; ++i) states[i][lane] = any(random);
+    parts.pack()->rhs(reals(&time), reals(states.data()), reals(pars.data()), reals(rates.data()));
+    for (int lane = 0; lane < lanes; ++lane) {
+        std::vector<double> y(2 * n), a(2 * n), b(2 * n), M(n * n), M_parts(n * n), f(n), f_parts(n);
+        for (int i = 0; i < 2 * n; ++i) y[i] = states[i][lane];
+        whole.table().rhs(0, y.data(), par.data(), a.data());
+        parts.table().rhs(0, y.data(), par.data(), b.data());
+        whole.table().mass_forcing(0, y.data(), par.data(), M.data(), f.data());
+        parts.table().mass_forcing(0, y.data(), par.data(), M_parts.data(), f_parts.data());
+        double size = 1;
+        for (const double x : a) size = std::max(size, std::abs(x));
+        for (int i = 0; i < 2 * n; ++i) {
+            CHECK(std::abs(a[i] - b[i]) < 1e-11 * size);  // products are fused with other sums; M has a condition of about 1e4
+            CHECK(std::abs(a[i] - rates[i][lane]) < 1e-11 * size);
+        }
+        for (int i = 0; i < n * n; ++i) CHECK(std::abs(M[i] - M_parts[i]) < 1e-13);
+        for (int i = 0; i < n; ++i) CHECK(std::abs(f[i] - f_parts[i]) < 1e-12 * size);
+    }
+}
