@@ -276,12 +276,15 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z2 = z0 * z1;
     const Real z3 = w1 * cos_phi - w2 * sin_phi;
     const Real z4 = w3 - z0 * cos_theta * z1;
-    const Real z5 = (I1 * cos_phi * cos_phi + I2 * sin_phi * sin_phi) * z3 * z3;
-    const Real z6 = k2 * sin_theta * sin_phi * cos_phi * z3;
-    const Real z7 = (I1 * sin_phi * sin_phi + I2 * cos_phi * cos_phi) * sin_theta * sin_theta;
-    const Real z8 = (z7 + I3 * cos_theta * cos_theta) * z2;
-    const Real z9 = (z6 + Real(0.5) * z8 + I3 * cos_theta * z4) * z2;
-    const Real T = (Real(0.5) * z5 + k6 * z4 * z4) + z9;
+    const Real z5 = cos_phi * cos_phi;
+    const Real z6 = sin_phi * sin_phi;
+    const Real z7 = (I1 * z5 + I2 * z6) * z3 * z3;
+    const Real z8 = k2 * sin_theta * z3 * sin_phi * cos_phi;
+    const Real z9 = (I1 * z6 + I2 * z5) * sin_theta * sin_theta;
+    const Real z10 = I3 * cos_theta;
+    const Real z11 = (z9 + z10 * cos_theta) * z2;
+    const Real z12 = (z8 + Real(0.5) * z11 + z10 * z4) * z2;
+    const Real T = (Real(0.5) * z7 + k6 * z4 * z4) + z12;
 
     // Result
     energy[0] = T;

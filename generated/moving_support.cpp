@@ -192,9 +192,9 @@ void prepare(Real* par) {
     const Real k2 = gamma * gamma;
     const Real k3 = m * l * g;
     const Real k4 = Real(1) / M00;
-    const Real k5 = Real(0.5) * M00;
-    const Real k6 = Real(0.5) * m;
-    const Real k7 = a * gamma;
+    const Real k5 = a * gamma;
+    const Real k6 = Real(0.5) * M00;
+    const Real k7 = Real(0.5) * m;
     const Real k8 = m * g;
 
     // Result
@@ -270,24 +270,23 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
         cos_phi = trig0.cosine[1];
 
     // Energy
-    const Real z0 = k5 * phi_dot * phi_dot;
-    const Real z1 = k7 * sin_phi0;
-    const Real z2 = k6 * z1 * z1;
-    const Real z3 = k7 * cos_phi0;
-    const Real z4 = k6 * z3 * z3;
-    const Real z5 = z1 * cos_phi - z3 * sin_phi;
-    const Real T = (z0 + z2 + z4) - k0 * phi_dot * z5;
-    const Real z6 = k3 * cos_phi;
-    const Real z7 = k8 * a * sin_phi0;
-    const Real z8 = z6 - z7;
-    const Real V = -z8;
-    const Real E = T - z8;
-    const Real z9 = z3 * k7 * gamma * sin_phi0;
-    const Real z10 = m * (z9 - z1 * k7 * gamma * cos_phi0);
-    const Real z11 = phi_dot * phi_dot * (z3 * cos_phi + z1 * sin_phi);
-    const Real z12 = k8 * z3 - k0 * (phi_ddot * z5 - z11);
-    const Real P = z12 - z10;
-    const Real h = z0 - z6 + z7 - z2 - z4;
+    const Real z0 = k5 * sin_phi0;
+    const Real z1 = k5 * cos_phi0;
+    const Real z2 = z0 * cos_phi - z1 * sin_phi;
+    const Real z3 = phi_dot * phi_dot;
+    const Real z4 = k6 * z3;
+    const Real z5 = k7 * z0 * z0 + k7 * z1 * z1;
+    const Real z6 = k0 * phi_dot * z2 - (z4 + z5);
+    const Real T = -z6;
+    const Real z7 = k3 * cos_phi - k8 * a * sin_phi0;
+    const Real V = -z7;
+    const Real E = -z7 - z6;
+    const Real z8 = z1 * k5 * gamma * sin_phi0;
+    const Real z9 = m * (z8 - z0 * k5 * gamma * cos_phi0);
+    const Real z10 = (z1 * cos_phi + z0 * sin_phi) * z3;
+    const Real z11 = k8 * z1 - k0 * (phi_ddot * z2 - z10);
+    const Real P = z11 - z9;
+    const Real h = z4 - z7 - z5;
 
     // Result
     energy[0] = T;

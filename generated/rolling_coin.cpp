@@ -200,13 +200,12 @@ void prepare(Real* par) {
     const Real k3 = m * g * z2 * sin_beta;
     const Real k4 = m * r * r * g * z2 * sin_beta;
     const Real k5 = (Real(1) / Real(3)) * z1 * m * r * r * r * z2;
-    const Real k6 = m * r * r * z2;
-    const Real k7 = (Real(2) / Real(3)) * r * z1;
-    const Real k8 = m * z2;
-    const Real k9 = Real(0.125) * z0;
-    const Real k10 = Real(0.5) * m;
-    const Real k11 = m * r * g * cos_beta;
-    const Real k12 = m * g * sin_beta;
+    const Real k6 = m * z2;
+    const Real k7 = m * r * r * z2;
+    const Real k8 = Real(0.125) * z0;
+    const Real k9 = Real(0.5) * m;
+    const Real k10 = m * r * g * cos_beta;
+    const Real k11 = m * g * sin_beta;
 
     // Result
     par[4] = M00;
@@ -223,7 +222,6 @@ void prepare(Real* par) {
     par[15] = k9;
     par[16] = k10;
     par[17] = k11;
-    par[18] = k12;
 }
 
 /// rate = (q', u') at t and state = (q, u).
@@ -236,8 +234,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Kinematics q' = h(q, u, t)
-    const Real x_dot = r * roll * cos_phi;
-    const Real y_dot = r * roll * sin_phi;
+    const Real x_dot = roll * r * cos_phi;
+    const Real y_dot = roll * r * sin_phi;
 
     // Solve M u' = f with M = L D L^T
     const Real roll_dot = k1 * cos_phi;
@@ -275,17 +273,17 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &M00 = par[4], &k9 = par[15], &k10 = par[16], &k11 = par[17], &k12 = par[18];
+    const Real &r = par[1], &M00 = par[4], &k8 = par[14], &k9 = par[15], &k10 = par[16], &k11 = par[17];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Energy
-    const Real z0 = r * roll * cos_phi;
-    const Real z1 = r * roll * sin_phi;
-    const Real z2 = k10 * (z1 * z1 + z0 * z0);
-    const Real T = k9 * spin * spin + M00 * roll * roll + z2;
-    const Real V = k11 - k12 * x;
+    const Real z0 = roll * r * cos_phi;
+    const Real z1 = roll * r * sin_phi;
+    const Real z2 = k9 * (z1 * z1 + z0 * z0);
+    const Real T = k8 * spin * spin + M00 * roll * roll + z2;
+    const Real V = k10 - k11 * x;
     const Real E = V + T;
 
     // Result
@@ -316,29 +314,25 @@ void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* stat
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
 void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2], &roll = state[5];
+    const Real &phi = state[2];
     const Real &r = par[1];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
-    // Constraints
-    const Real z0 = r * cos_phi;
-    const Real z1 = r * sin_phi;
-
     // Result
     position[0] = Real(0);
     position[1] = Real(0);
-    velocity[0] = r * roll * cos_phi - roll * z0;
-    velocity[1] = r * roll * sin_phi - roll * z1;
+    velocity[0] = Real(0);
+    velocity[1] = Real(0);
     rows[0] = Real(1);
     rows[1] = Real(0);
     rows[2] = Real(0);
-    rows[3] = -z0;
+    rows[3] = -r * cos_phi;
     rows[4] = Real(0);
     rows[5] = Real(1);
     rows[6] = Real(0);
-    rows[7] = -z1;
+    rows[7] = -r * sin_phi;
     rows[8] = Real(0);
     rows[9] = Real(0);
     rows[10] = Real(0);
@@ -349,23 +343,26 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
     const Real &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &k0 = par[6], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11], &k6 = par[12];
-    const Real &k7 = par[13], &k8 = par[14];
+    const Real &r = par[1], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
+    const Real &k6 = par[12], &k7 = par[13];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Multipliers
-    const Real z0 = k0 * cos_phi;
-    const Real z1 = k7 * z0 * sin_phi + r * roll * spin * cos_phi;
-    const Real z2 = k6 * z1 * sin_phi * cos_phi;
-    const Real z3 = k7 * z0 * cos_phi - r * roll * spin * sin_phi;
-    const Real z4 = k8 * z3 * (k2 * sin_phi * sin_phi + Real(1));
-    const Real z5 = k3 + k4 * sin_phi * sin_phi + k5 * z0 * cos_phi + z2 - z4;
-    const Real lambda_along_x = -z5;
-    const Real z6 = k6 * z3 * sin_phi * cos_phi;
-    const Real z7 = k8 * z1 * (k2 * cos_phi * cos_phi + Real(1));
-    const Real lambda_along_y = k4 * sin_phi * cos_phi - k5 * z0 * sin_phi - z6 + z7;
+    const Real z0 = k1 * cos_phi;
+    const Real z1 = sin_phi * sin_phi;
+    const Real z2 = k4 * z1;
+    const Real z3 = k5 * k0 * cos_phi;
+    const Real z4 = r * roll;
+    const Real z5 = z0 * r * cos_phi - z4 * spin * sin_phi;
+    const Real z6 = k6 * z5 * (k2 * z1 + Real(1));
+    const Real z7 = sin_phi * cos_phi;
+    const Real z8 = k7 * z7;
+    const Real z9 = z0 * r * sin_phi + z4 * spin * cos_phi;
+    const Real lambda_along_x = z6 - k3 - z2 - z3 * cos_phi - z8 * z9;
+    const Real z10 = k6 * z9 * (k2 * cos_phi * cos_phi + Real(1));
+    const Real lambda_along_y = k4 * z7 - z3 * sin_phi + z10 - z8 * z5;
 
     // Result
     lambda[0] = lambda_along_x;
@@ -411,7 +408,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    4, 4, 2, 4, 15, 2, 0, 2, "rolling_coin", "kane, textbook form",
+    4, 4, 2, 4, 14, 2, 0, 2, "rolling_coin", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

@@ -242,12 +242,14 @@ Program with_gathered_constants(const Program& old) {
     });
 }
 
+Program with_pairs_and_constants(const Program& old) { return with_gathered_constants(with_shared_pairs(old)); }
+
 int cost(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
 }  // namespace
 
 Program shared(Program best) {
-    for (const auto pass : {with_common_factors, with_shared_pairs, with_gathered_constants}) {
+    for (const auto pass : {with_common_factors, with_pairs_and_constants}) {
         Program next = pass(best).canonical();
         if (cost(next) < cost(best)) best = std::move(next);
     }
