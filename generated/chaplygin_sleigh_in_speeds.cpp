@@ -190,8 +190,9 @@ void prepare(Real* par) {
     const Real k0 = m * a;
     const Real k1 = Real(1) / m;
     const Real k2 = Real(1) / M11;
-    const Real k3 = Real(0.5) * M11;
-    const Real k4 = Real(0.5) * m;
+    const Real k3 = m * a * k2;
+    const Real k4 = Real(0.5) * M11;
+    const Real k5 = Real(0.5) * m;
 
     // Result
     par[3] = M11;
@@ -200,6 +201,7 @@ void prepare(Real* par) {
     par[6] = k2;
     par[7] = k3;
     par[8] = k4;
+    par[9] = k5;
 }
 
 /// rate = (q', u') at t and state = (q, u).
@@ -254,7 +256,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 template <typename Real>
 void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
     const Real &phi = state[2], &v = state[3], &w = state[4];
-    const Real &k0 = par[4], &k3 = par[7], &k4 = par[8];
+    const Real &k0 = par[4], &k4 = par[8], &k5 = par[9];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
@@ -264,8 +266,8 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z1 = v * cos_phi;
     const Real z2 = v * sin_phi;
     const Real z3 = z0 * sin_phi * z1;
-    const Real z4 = k4 * (z1 * z1 + z2 * z2);
-    const Real T = k3 * w * w - z3 + z0 * cos_phi * z2 + z4;
+    const Real z4 = k5 * (z1 * z1 + z2 * z2);
+    const Real T = k4 * w * w - z3 + z0 * cos_phi * z2 + z4;
 
     // Result
     energy[0] = T;
@@ -317,7 +319,7 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
     const Real &phi = state[2], &v = state[3], &w = state[4];
-    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k3 = par[7];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
@@ -325,7 +327,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     // Multipliers
     const Real z0 = k0 * w;
     const Real z1 = k1 * w * z0;
-    const Real z2 = k0 * k2 * v * z0;
+    const Real z2 = k3 * v * z0;
     const Real z3 = z1 * sin_phi + v * w * cos_phi;
     const Real z4 = z1 * cos_phi - v * w * sin_phi;
     const Real lambda_blade = m * z3 * cos_phi - z2 - m * z4 * sin_phi;
@@ -373,7 +375,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 0.5, 0};
 
 constexpr alembert_solver_table table{
-    4, 3, 2, 3, 6, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
+    4, 3, 2, 3, 7, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },

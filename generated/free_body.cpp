@@ -3,7 +3,7 @@
 //
 //   state  psi [rad], theta [rad], phi [rad], then w1, w2, w3
 //   par    m [kg], I1 [kg*m^2], I2 [kg*m^2], I3 [kg*m^2]
-//   cost   24 operations a right-hand side: 3 additions, 16 multiplications, 1 divisions, 4 functions
+//   cost   21 operations a right-hand side: 3 additions, 13 multiplications, 1 divisions, 4 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
@@ -189,9 +189,9 @@ void prepare(Real* par) {
     const Real k0 = I2 - I3;
     const Real k1 = I1 - I3;
     const Real k2 = I1 - I2;
-    const Real k3 = Real(1) / I1;
-    const Real k4 = Real(1) / I2;
-    const Real k5 = Real(1) / I3;
+    const Real k3 = k0 / I1;
+    const Real k4 = k1 / I2;
+    const Real k5 = k2 / I3;
     const Real k6 = Real(0.5) * I3;
 
     // Result
@@ -208,8 +208,7 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &theta = state[1], &phi = state[2], &w1 = state[3], &w2 = state[4], &w3 = state[5];
-    const Real &I1 = par[1], &I2 = par[2], &I3 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6], &k3 = par[7];
-    const Real &k4 = par[8], &k5 = par[9];
+    const Real &I1 = par[1], &I2 = par[2], &I3 = par[3], &k3 = par[7], &k4 = par[8], &k5 = par[9];
 
     // Trigonometry
     const auto trig0 = sincos(theta, phi);
@@ -223,14 +222,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real theta_dot = w1 * cos_phi - w2 * sin_phi;
     const Real phi_dot = w3 - z0 * cos_theta * z1;
 
-    // Forcing f
-    const Real f0 = k0 * w2 * w3;
-    const Real f2 = k2 * w1 * w2;
-
     // Solve M u' = f with M = L D L^T
-    const Real w1_dot = k3 * f0;
-    const Real w2_dot = -k4 * k1 * w1 * w3;
-    const Real w3_dot = k5 * f2;
+    const Real w1_dot = k3 * w2 * w3;
+    const Real w2_dot = -k4 * w1 * w3;
+    const Real w3_dot = k5 * w1 * w2;
 
     // Result
     rate[0] = psi_dot;
@@ -281,12 +276,15 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z2 = z0 * z1;
     const Real z3 = w1 * cos_phi - w2 * sin_phi;
     const Real z4 = w3 - z0 * cos_theta * z1;
-    const Real z5 = (I1 * cos_phi * cos_phi + I2 * sin_phi * sin_phi) * z3 * z3;
-    const Real z6 = k2 * sin_theta * sin_phi * cos_phi * z3;
-    const Real z7 = (I1 * sin_phi * sin_phi + I2 * cos_phi * cos_phi) * sin_theta * sin_theta;
-    const Real z8 = (z7 + I3 * cos_theta * cos_theta) * z2;
-    const Real z9 = (z6 + Real(0.5) * z8 + I3 * cos_theta * z4) * z2;
-    const Real T = (Real(0.5) * z5 + k6 * z4 * z4) + z9;
+    const Real z5 = cos_phi * cos_phi;
+    const Real z6 = sin_phi * sin_phi;
+    const Real z7 = (I1 * z5 + I2 * z6) * z3 * z3;
+    const Real z8 = k2 * sin_theta * z3 * sin_phi * cos_phi;
+    const Real z9 = (I1 * z6 + I2 * z5) * sin_theta * sin_theta;
+    const Real z10 = I3 * cos_theta;
+    const Real z11 = (z9 + z10 * cos_theta) * z2;
+    const Real z12 = (z8 + Real(0.5) * z11 + z10 * z4) * z2;
+    const Real T = (Real(0.5) * z7 + k6 * z4 * z4) + z12;
 
     // Result
     energy[0] = T;

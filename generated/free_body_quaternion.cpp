@@ -3,7 +3,7 @@
 //
 //   state  e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
 //   par    A [kg m^2], B [kg m^2], C [kg m^2]
-//   cost   33 operations a right-hand side: 8 additions, 25 multiplications, 0 divisions, 0 functions
+//   cost   30 operations a right-hand side: 8 additions, 22 multiplications, 0 divisions, 0 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
@@ -36,9 +36,9 @@ void prepare(Real* par) {
     const Real k0 = B - C;
     const Real k1 = A - C;
     const Real k2 = A - B;
-    const Real k3 = Real(1) / A;
-    const Real k4 = Real(1) / B;
-    const Real k5 = Real(1) / C;
+    const Real k3 = k0 / A;
+    const Real k4 = k1 / B;
+    const Real k5 = k2 / C;
     const Real k6 = Real(0.5) * A;
     const Real k7 = Real(0.5) * B;
     const Real k8 = Real(0.5) * C;
@@ -60,8 +60,7 @@ template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
-    const Real &A = par[0], &B = par[1], &C = par[2], &k0 = par[3], &k1 = par[4], &k2 = par[5], &k3 = par[6];
-    const Real &k4 = par[7], &k5 = par[8];
+    const Real &A = par[0], &B = par[1], &C = par[2], &k3 = par[6], &k4 = par[7], &k5 = par[8];
 
     // Kinematics q' = h(q, u, t)
     const Real e0_dot = -Real(0.5) * (e1 * w1 + e2 * w2 + e3 * w3);
@@ -69,14 +68,10 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real e2_dot = Real(0.5) * (e0 * w2 - e1 * w3 + e3 * w1);
     const Real e3_dot = Real(0.5) * (e0 * w3 + e1 * w2 - e2 * w1);
 
-    // Forcing f
-    const Real f0 = k0 * w2 * w3;
-    const Real f2 = k2 * w1 * w2;
-
     // Solve M u' = f with M = L D L^T
-    const Real w1_dot = k3 * f0;
-    const Real w2_dot = -k4 * k1 * w1 * w3;
-    const Real w3_dot = k5 * f2;
+    const Real w1_dot = k3 * w2 * w3;
+    const Real w2_dot = -k4 * w1 * w3;
+    const Real w3_dot = k5 * w1 * w2;
 
     // Result
     rate[0] = e0_dot;
@@ -119,33 +114,41 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real &A = par[0], &B = par[1], &C = par[2], &k0 = par[3], &k1 = par[4], &k2 = par[5];
 
     // Energy
-    const Real z0 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z1 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z2 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z3 = e0 * w1 + e2 * w3 - e3 * w2;
-    const Real z4 = Real(1) / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3);
-    const Real z5 = A * e1 * e1 + B * e2 * e2 + C * e3 * e3;
-    const Real z6 = z5 * z4 * z4 * z2 * z2;
-    const Real z7 = A * e2 * e2 + B * e1 * e1 + C * e0 * e0;
-    const Real z8 = z7 * z1 * z1 * z4 * z4;
-    const Real z9 = A * e0 * e0 + B * e3 * e3 + C * e2 * e2;
-    const Real z10 = z9 * z3 * z3 * z4 * z4;
-    const Real z11 = A * e3 * e3 + B * e0 * e0 + C * e1 * e1;
-    const Real z12 = z11 * z0 * z0 * z4 * z4;
-    const Real z13 = k2 * e0 * e3 - C * e1 * e2;
-    const Real z14 = z13 * z3 * z0 * z4 * z4;
-    const Real z15 = k1 * e0 * e2 + B * e1 * e3;
-    const Real z16 = z15 * z3 * z1 * z4 * z4;
-    const Real z17 = k2 * e1 * e2 - C * e0 * e3;
-    const Real z18 = z17 * z1 * z4 * z4 * z2;
-    const Real z19 = A * e0 * e1 - k0 * e2 * e3;
-    const Real z20 = z19 * z3 * z4 * z4 * z2;
-    const Real z21 = A * e2 * e3 - k0 * e0 * e1;
-    const Real z22 = z21 * z1 * z0 * z4 * z4;
-    const Real z23 = k1 * e1 * e3 + B * e0 * e2;
-    const Real z24 = z23 * z0 * z4 * z4 * z2;
-    const Real T = Real(0.5) * z6 + Real(0.5) * z8 + Real(0.5) * z10 + Real(0.5) * z12 + z14 - z16 - z18 + z20
-        - z22 + z24;
+    const Real z0 = e0 * e0;
+    const Real z1 = e1 * e1;
+    const Real z2 = e2 * e2;
+    const Real z3 = e3 * e3;
+    const Real z4 = e0 * w2 - e1 * w3 + e3 * w1;
+    const Real z5 = e0 * w3 + e1 * w2 - e2 * w1;
+    const Real z6 = e1 * w1 + e2 * w2 + e3 * w3;
+    const Real z7 = e0 * w1 + e2 * w3 - e3 * w2;
+    const Real z8 = Real(1) / ((z0 + z1) + (z2 + z3));
+    const Real z9 = z8 * z8;
+    const Real z10 = A * z3 + B * z0 + C * z1;
+    const Real z11 = z10 * z4 * z4 * z9;
+    const Real z12 = e0 * e2;
+    const Real z13 = e1 * e3;
+    const Real z14 = z5 * z9;
+    const Real z15 = (k1 * z12 + B * z13) * z7 * z14;
+    const Real z16 = A * z2 + B * z1 + C * z0;
+    const Real z17 = z16 * z5 * z14;
+    const Real z18 = e2 * e3;
+    const Real z19 = e0 * e1;
+    const Real z20 = (A * z18 - k0 * z19) * z4 * z14;
+    const Real z21 = e1 * e2;
+    const Real z22 = e0 * e3;
+    const Real z23 = z9 * z6;
+    const Real z24 = (k2 * z21 - C * z22) * z5 * z23;
+    const Real z25 = A * z1 + B * z2 + C * z3;
+    const Real z26 = z25 * z23 * z6;
+    const Real z27 = (k1 * z13 + B * z12) * z4 * z23;
+    const Real z28 = (A * z19 - k0 * z18) * z7 * z23;
+    const Real z29 = z7 * z9;
+    const Real z30 = (k2 * z22 - C * z21) * z4 * z29;
+    const Real z31 = A * z0 + B * z3 + C * z2;
+    const Real z32 = z31 * z7 * z29;
+    const Real T = Real(0.5) * z11 - z15 + Real(0.5) * z17 - z20 - z24 + Real(0.5) * z26 + z27 + z28 + z30
+        + Real(0.5) * z32;
 
     // Result
     energy[0] = T;
@@ -165,38 +168,45 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     // Outputs
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
-    const Real z2 = e2 * e2;
-    const Real z3 = e3 * e3;
-    const Real z4 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z5 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z6 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z7 = e0 * w1 + e2 * w3 - e3 * w2;
-    const Real z8 = Real(1) / (z0 + z1 + z2 + z3);
-    const Real z9 = e0 * z7;
-    const Real z10 = z9 + e3 * z4 - e2 * z5 + e1 * z6;
-    const Real z11 = z8 * z10;
-    const Real z12 = e3 * z7;
-    const Real z13 = z12 - e0 * z4 - e1 * z5 - e2 * z6;
-    const Real z14 = z8 * z13;
-    const Real z15 = e2 * z7;
-    const Real z16 = z15 - e1 * z4 + e0 * z5 + e3 * z6;
-    const Real z17 = z8 * z16;
-    const Real z18 = k6 * (z0 + z1 - z2 - z3) * z8 * z11;
-    const Real z19 = e0 * e3;
-    const Real z20 = e1 * e2;
-    const Real z21 = z18 + B * (z19 - z20) * z8 * z14;
-    const Real z22 = e0 * e2;
-    const Real z23 = e1 * e3;
-    const Real Hx = Real(2) * (z21 + C * (z22 + z23) * z8 * z17);
-    const Real z24 = k7 * (z0 - z1 + z2 - z3) * z8 * z14;
-    const Real z25 = A * (z19 + z20) * z8 * z11 - z24;
-    const Real z26 = e0 * e1;
-    const Real z27 = e2 * e3;
-    const Real Hy = Real(2) * (z25 - C * (z26 - z27) * z8 * z17);
-    const Real z28 = A * (z22 - z23) * z8 * z11;
-    const Real z29 = z28 + B * (z26 + z27) * z8 * z14;
-    const Real z30 = k8 * (z0 - z1 - z2 + z3) * z8 * z17;
-    const Real Hz = -Real(2) * (z29 - z30);
+    const Real z2 = z0 + z1;
+    const Real z3 = e2 * e2;
+    const Real z4 = e3 * e3;
+    const Real z5 = z3 + z4;
+    const Real z6 = e0 * w2 - e1 * w3 + e3 * w1;
+    const Real z7 = e0 * w3 + e1 * w2 - e2 * w1;
+    const Real z8 = e1 * w1 + e2 * w2 + e3 * w3;
+    const Real z9 = e0 * w1 + e2 * w3 - e3 * w2;
+    const Real z10 = Real(1) / (z2 + z5);
+    const Real z11 = e0 * z9;
+    const Real z12 = z11 + e3 * z6 - e2 * z7 + e1 * z8;
+    const Real z13 = e3 * z9;
+    const Real z14 = z13 - e0 * z6 - e1 * z7 - e2 * z8;
+    const Real z15 = z10 * z14;
+    const Real z16 = e2 * z9;
+    const Real z17 = z16 - e1 * z6 + e0 * z7 + e3 * z8;
+    const Real z18 = z10 * z17;
+    const Real z19 = z10 * z12;
+    const Real z20 = e0 * e2;
+    const Real z21 = e1 * e3;
+    const Real z22 = e2 * e3;
+    const Real z23 = e0 * e1;
+    const Real z24 = e1 * e2;
+    const Real z25 = e0 * e3;
+    const Real z26 = k6 * z19 * (z2 - z5) * z10;
+    const Real z27 = B * z15;
+    const Real z28 = z26 + z27 * (z25 - z24) * z10;
+    const Real z29 = C * z18;
+    const Real Hx = Real(2) * (z28 + z29 * (z20 + z21) * z10);
+    const Real z30 = A * z19;
+    const Real z31 = z0 - z1;
+    const Real z32 = z3 - z4;
+    const Real z33 = k7 * z15 * (z31 + z32) * z10;
+    const Real z34 = z30 * (z25 + z24) * z10 - z33;
+    const Real Hy = Real(2) * (z34 - z29 * (z23 - z22) * z10);
+    const Real z35 = z30 * (z20 - z21) * z10;
+    const Real z36 = z35 + z27 * (z23 + z22) * z10;
+    const Real z37 = z36 - k8 * z18 * (z31 - z32) * z10;
+    const Real Hz = -Real(2) * z37;
 
     // Result
     out[0] = Hx;
@@ -221,15 +231,16 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real &w3 = state[6];
 
     // Constraints
-    const Real z0 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z1 = e2 * z0;
-    const Real z2 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z3 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z4 = e0 * w1 + e2 * w3 - e3 * w2;
+    const Real z0 = (e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3);
+    const Real z1 = e0 * w2 - e1 * w3 + e3 * w1;
+    const Real z2 = e2 * z1;
+    const Real z3 = e0 * w3 + e1 * w2 - e2 * w1;
+    const Real z4 = e1 * w1 + e2 * w2 + e3 * w3;
+    const Real z5 = e0 * w1 + e2 * w3 - e3 * w2;
 
     // Result
-    position[0] = e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3 - Real(1);
-    velocity[0] = z1 + e3 * z2 - e0 * z3 + e1 * z4;
+    position[0] = z0 - Real(1);
+    velocity[0] = z2 + e3 * z3 - e0 * z4 + e1 * z5;
     rows[0] = Real(2) * e0;
     rows[1] = Real(2) * e1;
     rows[2] = Real(2) * e2;
@@ -244,106 +255,91 @@ template <typename Real>
 void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
-    const Real &A = par[0], &B = par[1], &C = par[2], &k0 = par[3], &k1 = par[4], &k2 = par[5], &k3 = par[6];
-    const Real &k4 = par[7], &k5 = par[8], &k6 = par[9], &k7 = par[10], &k8 = par[11];
+    const Real &A = par[0], &B = par[1], &C = par[2], &k3 = par[6], &k4 = par[7], &k5 = par[8], &k6 = par[9];
+    const Real &k7 = par[10], &k8 = par[11];
 
     // Multipliers
-    const Real z0 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z1 = e2 * z0;
-    const Real z2 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z3 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z4 = e0 * w1 + e2 * w3 - e3 * w2;
-    const Real z5 = z1 + e3 * z2 - e0 * z3 + e1 * z4;
-    const Real z6 = k3 * k0 * w2 * w3;
-    const Real z7 = k4 * k1 * w1 * w3;
-    const Real z8 = k5 * k2 * w1 * w2;
-    const Real z9 = Real(1) / (e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3);
-    const Real z10 = e2 * z6;
-    const Real z11 = e0 * z8;
-    const Real z12 = e1 * z7;
-    const Real z13 = w2 * z4;
-    const Real z14 = Real(0.5) * z10 - Real(0.5) * z11 + Real(0.5) * z12 - Real(0.25) * z13 + Real(0.25) * w1
-        * z0 + Real(0.25) * w3 * z3;
-    const Real z15 = e2 * z9;
-    const Real z16 = A * z15;
-    const Real z17 = e1 * z9;
-    const Real z18 = B * z17;
-    const Real z19 = e0 * z9;
-    const Real z20 = C * z19;
-    const Real z21 = e3 * z9;
-    const Real z22 = z16 * z17 - z18 * z15 - z20 * z21;
-    const Real z23 = z14 * z22;
-    const Real z24 = e2 * z7;
-    const Real z25 = e3 * z8;
-    const Real z26 = e1 * z6;
-    const Real z27 = w3 * z2;
-    const Real z28 = Real(0.5) * z24 - Real(0.5) * z25 - Real(0.5) * z26 - Real(0.25) * z27 - Real(0.25) * w2
-        * z0 - Real(0.25) * w1 * z4;
-    const Real z29 = A * z17 * z17;
-    const Real z30 = B * z15 * z15;
-    const Real z31 = z28 * (z29 + z30 + C * z21 * z21);
-    const Real z32 = e0 * z7;
-    const Real z33 = e1 * z8;
-    const Real z34 = e3 * z6;
-    const Real z35 = w3 * z4;
-    const Real z36 = Real(0.5) * z32 + Real(0.5) * z33 - Real(0.5) * z34 + Real(0.25) * z35 - Real(0.25) * w1
-        * z2 + Real(0.25) * w2 * z3;
-    const Real z37 = A * z21;
-    const Real z38 = B * z19;
-    const Real z39 = C * z17;
-    const Real z40 = z37 * z17 + z38 * z15 - z39 * z21;
-    const Real z41 = e2 * z8;
-    const Real z42 = e0 * z6;
-    const Real z43 = e3 * z7;
-    const Real z44 = w2 * z2;
-    const Real z45 = Real(0.5) * z41 + Real(0.5) * z42 + Real(0.5) * z43 - Real(0.25) * z44 + Real(0.25) * w3
-        * z0 - Real(0.25) * w1 * z3;
-    const Real z46 = A * z19;
-    const Real z47 = B * z21;
-    const Real z48 = C * z15;
-    const Real z49 = z46 * z17 - z47 * z15 + z48 * z21;
-    const Real z50 = e0 * z4;
-    const Real z51 = z50 + e3 * z0 - e2 * z2 + e1 * z3;
-    const Real z52 = z9 * z51;
-    const Real z53 = k6 * z52;
-    const Real z54 = e3 * z4;
-    const Real z55 = z54 - e0 * z0 - e1 * z2 - e2 * z3;
-    const Real z56 = z9 * z55;
-    const Real z57 = k7 * z56;
-    const Real z58 = z53 * z56 - z57 * z52;
-    const Real z59 = e2 * z4;
-    const Real z60 = z59 - e1 * z0 + e0 * z2 + e3 * z3;
-    const Real z61 = z9 * z9 * z5;
-    const Real z62 = z58 - k8 * z60 * z61;
-    const Real z63 = z9 * z60;
-    const Real z64 = k8 * z63;
-    const Real z65 = z53 * z63 - z64 * z52;
-    const Real z66 = z65 + k7 * z55 * z61;
-    const Real z67 = z57 * z63 - z64 * z56;
-    const Real z68 = k6 * z51 * z61 - z67;
-    const Real z69 = z62 * z21 + z66 * z15 - z68 * z17;
-    const Real z70 = z23 - z31 - z36 * z40 + z45 * z49 + z69;
-    const Real z71 = e0 * z70;
-    const Real z72 = z28 * z22;
-    const Real z73 = z16 * z19 + z18 * z21 - z20 * z15;
-    const Real z74 = z45 * z73;
-    const Real z75 = z16 * z15 + z18 * z17 + z20 * z19;
-    const Real z76 = z16 * z21 - z18 * z19 + z20 * z17;
-    const Real z77 = z66 * z17 + z62 * z19 + z68 * z15;
-    const Real z78 = z72 - z74 - z14 * z75 + z36 * z76 + z77;
-    const Real z79 = z46 * z19 + z47 * z21 + z48 * z15;
-    const Real z80 = z45 * z79;
-    const Real z81 = z37 * z19 - z38 * z21 - z39 * z15;
-    const Real z82 = z36 * z81;
-    const Real z83 = z68 * z19 - z62 * z15 + z66 * z21;
-    const Real z84 = z80 - z82 + z14 * z73 - z28 * z49 - z83;
-    const Real z85 = z37 * z21 + z38 * z19 + z39 * z17;
-    const Real z86 = z36 * z85;
-    const Real z87 = z45 * z81;
-    const Real z88 = z66 * z19 - z68 * z21 - z62 * z17;
-    const Real z89 = z86 - z87 - z14 * z76 + z28 * z40 - z88;
-    const Real z90 = z71 - e3 * z78 - e1 * z84 + e2 * z89;
-    const Real lambda_F = -Real(2) * z90 * z9;
+    const Real z0 = (e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3);
+    const Real z1 = e0 * w2 - e1 * w3 + e3 * w1;
+    const Real z2 = e2 * z1;
+    const Real z3 = e0 * w3 + e1 * w2 - e2 * w1;
+    const Real z4 = e1 * w1 + e2 * w2 + e3 * w3;
+    const Real z5 = e0 * w1 + e2 * w3 - e3 * w2;
+    const Real z6 = z2 + e3 * z3 - e0 * z4 + e1 * z5;
+    const Real z7 = k3 * w2 * w3;
+    const Real z8 = k4 * w1 * w3;
+    const Real z9 = k5 * w1 * w2;
+    const Real z10 = Real(1) / z0;
+    const Real z11 = (w2 * z5 - w1 * z1) - w3 * z4;
+    const Real z12 = Real(0.5) * e2 * z7 + Real(0.5) * e1 * z8 - Real(0.5) * e0 * z9 - Real(0.25) * z11;
+    const Real z13 = e2 * z10;
+    const Real z14 = A * z13;
+    const Real z15 = e0 * z10;
+    const Real z16 = e1 * z10;
+    const Real z17 = B * z16;
+    const Real z18 = e3 * z10;
+    const Real z19 = C * z15;
+    const Real z20 = z14 * z15 + z17 * z18 - z19 * z13;
+    const Real z21 = z12 * z20;
+    const Real z22 = (w3 * z5 - w1 * z3) + w2 * z4;
+    const Real z23 = Real(0.5) * e1 * z9 + Real(0.5) * e0 * z8 - Real(0.5) * e3 * z7 + Real(0.25) * z22;
+    const Real z24 = A * z18;
+    const Real z25 = B * z15;
+    const Real z26 = C * z16;
+    const Real z27 = z24 * z15 - z25 * z18 - z26 * z13;
+    const Real z28 = z23 * z27;
+    const Real z29 = w1 * z5 + (w3 * z3 + w2 * z1);
+    const Real z30 = Real(0.5) * e2 * z8 - Real(0.5) * e3 * z9 - Real(0.5) * e1 * z7 - Real(0.25) * z29;
+    const Real z31 = A * z15;
+    const Real z32 = B * z18;
+    const Real z33 = C * z13;
+    const Real z34 = z31 * z16 - z32 * z13 + z33 * z18;
+    const Real z35 = (w2 * z3 - w3 * z1) + w1 * z4;
+    const Real z36 = Real(0.5) * e3 * z8 + Real(0.5) * e2 * z9 + Real(0.5) * e0 * z7 - Real(0.25) * z35;
+    const Real z37 = z31 * z15 + z32 * z18 + z33 * z13;
+    const Real z38 = e0 * z5;
+    const Real z39 = z38 + e3 * z1 - e2 * z3 + e1 * z4;
+    const Real z40 = z10 * z10 * z6;
+    const Real z41 = e3 * z5;
+    const Real z42 = z41 - e0 * z1 - e1 * z3 - e2 * z4;
+    const Real z43 = z10 * z42;
+    const Real z44 = k7 * z43;
+    const Real z45 = e2 * z5;
+    const Real z46 = z45 - e1 * z1 + e0 * z3 + e3 * z4;
+    const Real z47 = z10 * z46;
+    const Real z48 = k8 * z47;
+    const Real z49 = z44 * z47 - z48 * z43;
+    const Real z50 = k6 * z39 * z40 - z49;
+    const Real z51 = z10 * z39;
+    const Real z52 = k6 * z51;
+    const Real z53 = z52 * z43 - z44 * z51;
+    const Real z54 = z53 - k8 * z46 * z40;
+    const Real z55 = z52 * z47 - z48 * z51;
+    const Real z56 = z55 + k7 * z42 * z40;
+    const Real z57 = z50 * z15 - z54 * z13 + z56 * z18;
+    const Real z58 = z21 - z28 - z30 * z34 + z36 * z37 - z57;
+    const Real z59 = e1 * z58;
+    const Real z60 = z36 * z20;
+    const Real z61 = z14 * z13 + z17 * z16 + z19 * z15;
+    const Real z62 = z12 * z61;
+    const Real z63 = z14 * z16 - z17 * z13 - z19 * z18;
+    const Real z64 = z14 * z18 - z17 * z15 + z19 * z16;
+    const Real z65 = z50 * z13 + z54 * z15 + z56 * z16;
+    const Real z66 = z60 + z62 - z30 * z63 - z23 * z64 - z65;
+    const Real z67 = z36 * z34;
+    const Real z68 = A * z16 * z16;
+    const Real z69 = B * z13 * z13;
+    const Real z70 = z30 * (z68 + z69 + C * z18 * z18);
+    const Real z71 = z24 * z16 + z25 * z13 - z26 * z18;
+    const Real z72 = z54 * z18 - z50 * z16 + z56 * z13;
+    const Real z73 = z67 - z70 - z23 * z71 + z12 * z63 + z72;
+    const Real z74 = z30 * z71;
+    const Real z75 = z12 * z64;
+    const Real z76 = z24 * z18 + z25 * z15 + z26 * z16;
+    const Real z77 = z50 * z18 - z56 * z15 + z54 * z16;
+    const Real z78 = z74 - z75 + z23 * z76 - z36 * z27 + z77;
+    const Real z79 = z59 - e3 * z66 - e0 * z73 - e2 * z78;
+    const Real lambda_F = Real(2) * z79 * z10;
 
     // Result
     lambda[0] = lambda_F;
@@ -356,24 +352,20 @@ void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]]
     const Real &w3 = state[6];
 
     // Projection
-    const Real z0 = e0 * e0;
-    const Real z1 = e1 * e1;
-    const Real z2 = e2 * e2;
-    const Real z3 = e3 * e3;
-    const Real z4 = z0 + z1 + z2 + z3 - Real(1);
-    const Real z5 = z0 + z1 + z2 + z3;
-    const Real z6 = z4 / z5;
+    const Real z0 = (e0 * e0 + e1 * e1) + (e2 * e2 + e3 * e3);
+    const Real z1 = z0 - Real(1);
+    const Real z2 = z1 / z0;
 
     // Result
-    out[0] = e0 - Real(0.5) * e0 * z6;
-    out[1] = e1 - Real(0.5) * e1 * z6;
-    out[2] = e2 - Real(0.5) * e2 * z6;
-    out[3] = e3 - Real(0.5) * e3 * z6;
+    out[0] = e0 - Real(0.5) * e0 * z2;
+    out[1] = e1 - Real(0.5) * e1 * z2;
+    out[2] = e2 - Real(0.5) * e2 * z2;
+    out[3] = e3 - Real(0.5) * e3 * z2;
     out[4] = w1;
     out[5] = w2;
     out[6] = w3;
-    position[0] = z4;
-    pivots[0] = Real(4) * z5;
+    position[0] = z1;
+    pivots[0] = Real(4) * z0;
 }
 
 // What the runtime loads (alembert/abi.hpp).

@@ -3,7 +3,7 @@
 //
 //   state  x [m], y [m], phi [rad], theta [rad], then spin, roll
 //   par    m [kg], r [m], g [m/s^2], beta [rad]
-//   cost   8 operations a right-hand side: 0 additions, 6 multiplications, 0 divisions, 2 functions
+//   cost   7 operations a right-hand side: 0 additions, 5 multiplications, 0 divisions, 2 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
@@ -193,14 +193,15 @@ void prepare(Real* par) {
     const Real M00 = Real(0.25) * z0;
     const Real M11 = Real(1.5) * z0;
     const Real k0 = m * r * g * sin_beta;
-    const Real k1 = (Real(2) / Real(3)) * Real(1) / z0;
+    const Real z1 = Real(1) / z0;
+    const Real k1 = (Real(2) / Real(3)) * z1 * k0;
     const Real k2 = r * r;
-    const Real z1 = Real(1) / (k2 + Real(1));
-    const Real k3 = m * g * z1 * sin_beta;
-    const Real k4 = m * r * r * g * z1 * sin_beta;
-    const Real k5 = Real(0.5) * m * r * r * r * z1;
-    const Real k6 = m * r * r * z1;
-    const Real k7 = m * z1;
+    const Real z2 = Real(1) / (k2 + Real(1));
+    const Real k3 = m * g * z2 * sin_beta;
+    const Real k4 = m * r * r * g * z2 * sin_beta;
+    const Real k5 = (Real(1) / Real(3)) * z1 * m * r * r * r * z2;
+    const Real k6 = m * z2;
+    const Real k7 = m * r * r * z2;
     const Real k8 = Real(0.125) * z0;
     const Real k9 = Real(0.5) * m;
     const Real k10 = m * r * g * cos_beta;
@@ -227,20 +228,17 @@ void prepare(Real* par) {
 template <typename Real>
 void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
     const Real &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &k0 = par[6], &k1 = par[7];
+    const Real &r = par[1], &k1 = par[7];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Kinematics q' = h(q, u, t)
-    const Real x_dot = r * roll * cos_phi;
-    const Real y_dot = r * roll * sin_phi;
-
-    // Forcing f
-    const Real f1 = k0 * cos_phi;
+    const Real x_dot = roll * r * cos_phi;
+    const Real y_dot = roll * r * sin_phi;
 
     // Solve M u' = f with M = L D L^T
-    const Real roll_dot = k1 * f1;
+    const Real roll_dot = k1 * cos_phi;
 
     // Result
     rate[0] = x_dot;
@@ -281,8 +279,8 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Energy
-    const Real z0 = r * roll * cos_phi;
-    const Real z1 = r * roll * sin_phi;
+    const Real z0 = roll * r * cos_phi;
+    const Real z1 = roll * r * sin_phi;
     const Real z2 = k9 * (z1 * z1 + z0 * z0);
     const Real T = k8 * spin * spin + M00 * roll * roll + z2;
     const Real V = k10 - k11 * x;
@@ -316,29 +314,25 @@ void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* stat
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
 void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2], &roll = state[5];
+    const Real &phi = state[2];
     const Real &r = par[1];
 
     // Trigonometry
     const auto [sin_phi, cos_phi] = sincos(phi);
 
-    // Constraints
-    const Real z0 = r * cos_phi;
-    const Real z1 = r * sin_phi;
-
     // Result
     position[0] = Real(0);
     position[1] = Real(0);
-    velocity[0] = r * roll * cos_phi - roll * z0;
-    velocity[1] = r * roll * sin_phi - roll * z1;
+    velocity[0] = Real(0);
+    velocity[1] = Real(0);
     rows[0] = Real(1);
     rows[1] = Real(0);
     rows[2] = Real(0);
-    rows[3] = -z0;
+    rows[3] = -r * cos_phi;
     rows[4] = Real(0);
     rows[5] = Real(1);
     rows[6] = Real(0);
-    rows[7] = -z1;
+    rows[7] = -r * sin_phi;
     rows[8] = Real(0);
     rows[9] = Real(0);
     rows[10] = Real(0);
@@ -356,16 +350,19 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const auto [sin_phi, cos_phi] = sincos(phi);
 
     // Multipliers
-    const Real z0 = k1 * k0 * cos_phi;
-    const Real z1 = r * z0 * sin_phi + r * roll * spin * cos_phi;
-    const Real z2 = k6 * z1 * sin_phi * cos_phi;
-    const Real z3 = r * z0 * cos_phi - r * roll * spin * sin_phi;
-    const Real z4 = k7 * z3 * (k2 * sin_phi * sin_phi + Real(1));
-    const Real z5 = k3 + k4 * sin_phi * sin_phi + k5 * z0 * cos_phi + z2 - z4;
-    const Real lambda_along_x = -z5;
-    const Real z6 = k6 * z3 * sin_phi * cos_phi;
-    const Real z7 = k7 * z1 * (k2 * cos_phi * cos_phi + Real(1));
-    const Real lambda_along_y = k4 * sin_phi * cos_phi - k5 * z0 * sin_phi - z6 + z7;
+    const Real z0 = k1 * cos_phi;
+    const Real z1 = sin_phi * sin_phi;
+    const Real z2 = k4 * z1;
+    const Real z3 = k5 * k0 * cos_phi;
+    const Real z4 = r * roll;
+    const Real z5 = z0 * r * cos_phi - z4 * spin * sin_phi;
+    const Real z6 = k6 * z5 * (k2 * z1 + Real(1));
+    const Real z7 = sin_phi * cos_phi;
+    const Real z8 = k7 * z7;
+    const Real z9 = z0 * r * sin_phi + z4 * spin * cos_phi;
+    const Real lambda_along_x = z6 - k3 - z2 - z3 * cos_phi - z8 * z9;
+    const Real z10 = k6 * z9 * (k2 * cos_phi * cos_phi + Real(1));
+    const Real lambda_along_y = k4 * z7 - z3 * sin_phi + z10 - z8 * z5;
 
     // Result
     lambda[0] = lambda_along_x;

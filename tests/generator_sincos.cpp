@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The sines and cosines of emitted code, alone, in groups and in packs, for this processor and for any (SSE2 alone, no fused
 // multiply-add), against glibc's long double (64 bits, good to an ulp of its own) and, next to multiples of π/2, against CLN's
-// 60 digits. tests/bench/sincos.sh does the same at 10⁷ points.
+// 60 digits. tests/bench/sines.sh does the same at 10⁷ points, all against CLN.
 #include <cln/cln.h>
 #include <doctest/doctest.h>
 

@@ -214,12 +214,42 @@ Program with_common_factors(const Program& old) {
     });
 }
 
+/// k·(k′·a) → (k·k′)·a, where k and k′ depend on parameters alone and no other acceleration wants k′·a.
+Program with_gathered_constants(const Program& old) {
+    Rewriting rewriting(old);
+    std::map<int, int> uses;
+    for (const int id : old.needed(old.right_hand_side()))
+        for (const int arg : old[id].args) ++uses[arg];
+    for (const int id : old.right_hand_side()) ++uses[id];
+
+    const auto has_constant = [&](const Node& node) {
+        return std::any_of(node.args.begin(), node.args.end(), [&](int arg) { return old[arg].is_constant(); });
+    };
+    return rewriting.finish([&](int id) {
+        const Node& node = old[id];
+        if (node.op != Op::product || node.is_constant() || node.is_reciprocal() || !has_constant(node)) return rewriting.plain(id);
+        std::vector<Program::Factor> factors;
+        for (std::size_t k = 0; k < node.args.size(); ++k) {
+            const int arg = node.args[k];
+            const Node& inner = old[arg];
+            if (node.exponents[k] != 1 || uses[arg] != 1 || inner.op != Op::product || inner.is_reciprocal() || !has_constant(inner)) {
+                factors.emplace_back(rewriting.image(arg), node.exponents[k]);
+                continue;
+            }
+            for (std::size_t i = 0; i < inner.args.size(); ++i) factors.emplace_back(rewriting.image(inner.args[i]), inner.exponents[i]);
+        }
+        return rewriting.made().product(1, factors);
+    });
+}
+
+Program with_pairs_and_constants(const Program& old) { return with_gathered_constants(with_shared_pairs(old)); }
+
 int cost(const Program& program) { return program.count(program.right_hand_side()).total(); }
 
 }  // namespace
 
 Program shared(Program best) {
-    for (const auto pass : {with_common_factors, with_shared_pairs}) {
+    for (const auto pass : {with_common_factors, with_pairs_and_constants}) {
         Program next = pass(best).canonical();
         if (cost(next) < cost(best)) best = std::move(next);
     }

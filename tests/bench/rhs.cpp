@@ -7,7 +7,8 @@
 // with |q| ≤ π; each is perturbed by its own previous answer, so that no evaluation can be left out, and none waits for
 // the one before. The floor is n calls of glibc's sincos on the same angles in the same loop.
 // Accelerations at a reference state (50 digits: FOLDER/reference/chains.json, FOLDER/bench/systems/) give `error`, relative to
-// the largest. A rival (rivals.hpp) is timed in the same turns once its accelerations at all 64 states are ours to 1e-9.
+// the largest. A rival (rivals.hpp) is timed in the same turns once its accelerations at all 64 states are ours to 1e-9; so is
+// the function of the system's name in FOLDER/bench/by_hand.cpp, where there is one.
 #include <fmt/format.h>
 #include <math.h>
 #include <time.h>
@@ -19,6 +20,7 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <string>
@@ -36,6 +38,7 @@ namespace {
 
 constexpr int states = 64, slices = 400;
 constexpr double slice_ns = 1e5, feedback = 1e-9, agreement = 1e-9;
+constexpr double time_step = 0.37;  // from one of the 64 states to the next, for what depends on time
 
 double now_ns() {
     timespec t{};
@@ -61,7 +64,7 @@ std::vector<double> timed(const std::vector<std::function<void()>>& walks) {
         walk();
         const double start = now_ns();
         for (int k = 0; k < 5; ++k) walk();
-        repeats.push_back(std::max(1, static_cast<int>(slice_ns / ((now_ns() - start) / 5))));
+        repeats.push_back(std::max(1, static_cast<int>(slice_ns / std::max(1.0, (now_ns() - start) / 5))));
     }
     std::vector<std::vector<double>> times(walks.size());
     for (int slice = 0; slice < slices; ++slice)
@@ -111,15 +114,18 @@ double error_of(const alembert_solver_table& table, const Module& module, const 
     return worst / largest;
 }
 
+using Accelerations = std::function<void(double t, const double* state, double* accelerations)>;
+using ByHand = void (*)(double t, const double* state, double* rate);
+
 /// The states and accelerations of a rival are ours? (Those where the accelerations are larger are weaker by rounding.)
-void compare(const bench::Rival& rival, const std::string& system, const alembert_solver_table& table, const std::vector<double>& par, Walkers& walkers) {
+void compare(const std::string& rival, const Accelerations& accelerations, const std::string& system, const alembert_solver_table& table, const std::vector<double>& par, Walkers& walkers) {
     const int n = table.coordinates;
     std::vector<double> rate(2 * n), theirs(n);
     double worst = 0;
     for (int k = 0; k < states; ++k) {
         const double* state = walkers.perturbed(k, 2 * n);
-        table.rhs(0, state, par.data(), rate.data());
-        rival.accelerations(state, state + n, theirs.data());
+        table.rhs(k * time_step, state, par.data(), rate.data());
+        accelerations(k * time_step, state, theirs.data());
         double difference = 0, largest = 0;
         for (int i = 0; i < n; ++i) {
             difference = std::max(difference, std::abs(theirs[i] - rate[n + i]));
@@ -128,7 +134,7 @@ void compare(const bench::Rival& rival, const std::string& system, const alember
         worst = std::max(worst, difference / largest);
     }
     if (!(worst < agreement))
-        throw std::runtime_error(fmt::format("{}: accelerations of {} are not ours: {:.1e} apart, expected less than {:.0e}", rival.name, system, worst, agreement));
+        throw std::runtime_error(fmt::format("{}: accelerations of {} are not ours: {:.1e} apart, expected less than {:.0e}", rival, system, worst, agreement));
 }
 
 Json reference_of(const std::string& folder, const std::string& name) {
@@ -159,21 +165,39 @@ Json measured(const Json& info, const std::string& source, const std::string& fo
         }
     });
     walks.emplace_back([&] {
-        for (int k = 0; k < states; ++k) table.rhs(0, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
+        for (int k = 0; k < states; ++k) table.rhs(k * time_step, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
     });
-    PackWalk walk_packs(module, states, ours.base, feedback);
-    walks.emplace_back([&] { walk_packs(); });
+    std::optional<PackWalk> packs;  // where it was emitted with --batch
+    if (module.pack() != nullptr) packs.emplace(module, states, ours.base, feedback);
+    walks.emplace_back([&] {
+        if (packs) (*packs)();
+    });
 
     const std::optional<bench::Tree> tree = bench::tree_of(name, folder + "/bench/systems");
     const std::vector<bench::Rival> rivals = tree ? bench::rivals_of(*tree) : std::vector<bench::Rival>();
     std::vector<Walkers> theirs(rivals.size(), Walkers(n, s, 1));
     for (std::size_t r = 0; r < rivals.size(); ++r) {
-        compare(rivals[r], name, table, par, theirs[r]);
+        const auto accelerations = [&rival = rivals[r], n](double, const double* state, double* a) { rival.accelerations(state, state + n, a); };
+        compare(rivals[r].name, accelerations, name, table, par, theirs[r]);
         walks.emplace_back([&walkers = theirs[r], &accelerations = rivals[r].accelerations, n, s] {
             for (int k = 0; k < states; ++k) {
                 const double* state = walkers.perturbed(k, n + s);
                 accelerations(state, state + n, &walkers.answer[k * walkers.width + n]);
             }
+        });
+    }
+    const ObjectFile hand(compile(text_of(folder + "/bench/by_hand.cpp"), "by_hand", {}).object);
+    const auto by_hand = reinterpret_cast<ByHand>(hand.find(name.c_str()));
+    Walkers hands(n, s, 1);
+    if (by_hand != nullptr) {
+        const auto accelerations = [by_hand, n](double t, const double* state, double* a) {
+            std::vector<double> rate(2 * n);
+            by_hand(t, state, rate.data());
+            std::copy_n(&rate[n], n, a);
+        };
+        compare("by hand", accelerations, name, table, par, hands);
+        walks.emplace_back([&] {
+            for (int k = 0; k < states; ++k) by_hand(k * time_step, hands.perturbed(k, n + s), &hands.answer[k * hands.width]);
         });
     }
     const std::vector<double> ns = timed(walks);
@@ -182,13 +206,14 @@ Json measured(const Json& info, const std::string& source, const std::string& fo
     row["system"] = name;
     row["floor_ns"] = ns[0];
     row["ours_ns"] = ns[1];
-    row["ours_pack_ns"] = ns[2];
+    row["ours_pack_ns"] = packs ? Json(ns[2]) : Json(nullptr);
     row["formulation"] = info.at("formulation");
     row["operations"] = info.at("operations");
     row["error"] = reference.is_null() ? Json(nullptr) : Json(error_of(table, module, reference));
     row["compile_s"] = compiled.from_cache ? Json(nullptr) : Json(compiled.seconds);
     row["rivals"] = Json::object();
     for (std::size_t r = 0; r < rivals.size(); ++r) row["rivals"][rivals[r].name] = ns[3 + r];
+    if (by_hand != nullptr) row["rivals"]["by hand"] = ns.back();
     return row;
 }
 
@@ -209,7 +234,10 @@ void print_rivals(const Json& rows) {
         if (row.at("rivals").empty()) continue;
         const double floor = row.at("floor_ns");
         fmt::print("{:<16} {:>9.2f}", row.at("system").get<std::string>(), row.at("ours_ns").get<double>() / floor);
-        for (const std::string& name : names) fmt::print(" {:>9.2f}", row.at("rivals").at(name).get<double>() / floor);
+        for (const std::string& name : names) {
+            const auto rival = row.at("rivals").find(name);
+            fmt::print(" {:>9}", rival == row.at("rivals").end() ? "-" : fmt::format("{:.2f}", rival->get<double>() / floor));
+        }
         fmt::print("\n");
     }
 }

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # rhs.sh [--alone] [--json FILE] [--svg FILE] [BUILD]: the time of one emitted right-hand side, in floors (n calls of glibc's sincos),
 # for chains of 2 to 32 rods with joint torques, two arms of seven joints, the double pendulum and the four-bar, beside those of
-# MuJoCo, KDL, Bullet, DART and Simbody from Debian's packages (--alone: without); BUILD is the folder of the build (build/release).
+# MuJoCo, KDL, Bullet, DART and Simbody from Debian's packages (--alone: without), and of two systems of one coordinate beside those
+# written by hand (by_hand.cpp); BUILD is the folder of the build (build/release).
 # Packages that are missing are installed where this runs as root, and left out otherwise.
 # --json writes a list of {system, floor_ns, ours_ns, ours_pack_ns, formulation, operations, error, compile_s, rivals: {name: ns}},
 # --svg a bar chart. rhs.cpp says how time is taken.
@@ -63,6 +64,7 @@ for arm in arm7 arm7g; do
     python3 -B "$root/scenes/benchmark/torques.py" "$root/scenes/benchmark/trees/$arm.toml" >"$folder/$arm.toml"
     add "$folder/$arm.toml"
 done
+for one in pendulum oscillator spring; do add "$root/tests/bench/systems/$one.toml"; done
 add "$root/scenes/textbook/double_pendulum.toml"
 add "$root/scenes/textbook/four_bar.toml"
 [ -n "$file" ] || file=$folder/rows.json

@@ -28,7 +28,7 @@ Tree chain(int n) {
 }  // namespace
 
 std::optional<Tree> tree_of(const std::string& name, const std::string& folder) {
-    if (name.starts_with("pend")) {
+    if (name.starts_with("pend") && name.size() > 4 && name.find_first_not_of("0123456789", 4) == std::string::npos) {
         Tree tree = chain(std::stoi(name.substr(4)));
         tree.tau.assign(tree.bodies.size(), 0.0);
         return tree;

@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# swell.sh [ALEMBERT]: chains of N rods with relative angles; process time of `alembert emit` (derive, lower and emit;
+# swell.sh [--far] [ALEMBERT]: chains of N rods with relative angles; process time of `alembert emit` (derive, lower and emit;
 # median of 5 runs), operations of a right-hand side, and the exponent with which these grow from one row to the next.
+# --far: also 64 to 512 rods, emitted once, compiled and run: seconds of both, operations, and one right-hand side in floors (n calls
+# of glibc's sincos) as rhs.cpp takes them; its bench_rhs is built in the build that ALEMBERT belongs to.
 set -eu -o pipefail
 
 root=$(cd -- "$(dirname -- "$0")/../.." && pwd)
+far=
+if [ "${1:-}" = --far ]; then
+    far=yes
+    shift
+fi
 alembert=${1:-$root/build/release/generator/alembert}
+case $alembert in -*) echo "usage: swell.sh [--far] [ALEMBERT]" >&2; exit 3 ;; esac
 runs=5
 folder=$(mktemp -d)
 trap 'rm -rf -- "$folder"' EXIT
@@ -39,3 +47,20 @@ awk '
         printf "required: N = 8 in under 0.05 s (%s), N = 32 in under 2 s (%s)\n",
             at[8] < 0.05 ? "holds" : "FAILS", at[32] < 2 ? "holds" : "FAILS"
     }' <<<"$rows"
+
+[ -n "$far" ] || exit 0
+build=$(cd -- "$(dirname -- "$alembert")/.." && pwd)
+log=$(cmake --build "$build" --target bench_rhs 2>&1) || { printf '%s\n' "$log" >&2; exit 5; }
+export XDG_CACHE_HOME=$folder/cache
+runs=1
+printf '\n%4s %10s %10s %12s %10s %8s   %s\n' N "emit s" "compile s" operations "rhs ns" floors formulation
+for n in 64 128 256 512; do
+    row=$(measure "$n")
+    "$build/tests/bench_rhs" --json "$folder/row.json" "$root/tests" "$folder/emit.json" "$folder/chain$n.cpp" >/dev/null
+    python3 -B - "$folder/row.json" "$row" <<'PRINT'
+import json, sys
+row = json.load(open(sys.argv[1]))[0]
+n, seconds, operations, formulation = sys.argv[2].split(" ", 3)
+print(f'{n:>4} {seconds:>10} {row["compile_s"]:>10.2f} {operations:>12} {row["ours_ns"]:>10.0f} {row["ours_ns"] / row["floor_ns"]:>8.2f}   {formulation}')
+PRINT
+done
