@@ -49,7 +49,7 @@ std::string exact_text(const Rational& value) {
 
 constexpr std::size_t least_lanes = 4;   // of a pack
 // Measured on chains, planets and a governor; 1 is what a step takes beside its series.
-constexpr double operation_cost = 0.0010, product_cost = 0.0055;
+constexpr double operation_cost = 0.0008, product_cost = 0.0055;
 constexpr double operation_time = 4, packing_time = 16, gathering_time = 15, solving_time = 12;  // cycles
 constexpr int orders_to_settle = 12;     // of dependences that go from order to order
 constexpr std::size_t most_straight = 250;  // operations at an order, of which straight-line code is made for all orders
@@ -87,6 +87,8 @@ public:
         set("given", given());
         set("gathering", gathering());
         set("chain", chain());
+        const std::size_t operations = operations_at_an_order();
+        is_straight_ = packs_.empty() && has_edges() && operations <= most_straight;
         set("storing", storing());
         set("ones", ones());
         set("edges", edges());
@@ -111,10 +113,9 @@ public:
         number("most_order", static_cast<std::size_t>(most_order));
         number("most_order_quad", static_cast<std::size_t>(most_order_quad));
         number("k", constants_.size());
-        const std::size_t operations = operations_at_an_order();
         std::string straight;
         for (int k = 1; k <= most_order; ++k) straight += fmt::format("{}one(constant<{}>{{}})", k > 1 ? " && " : "", k);
-        file.set("has_straight", packs_.empty() && has_edges() && operations <= most_straight);
+        file.set("has_straight", is_straight_);
         file.set("straight", straight);
         file.set("order_cost", fmt::format("{:.3g}", operation_cost * static_cast<double>(operations)));
         file.set("product_cost", fmt::format("{:.3g}", product_cost * products_eight_wide()));
@@ -180,8 +181,7 @@ private:
         for (const Lines& part : {given(), chain(), storing()})
             for (const std::string& line : part) {
                 std::size_t here = 0, blocks = 1;
-                const bool is_stored = line.starts_with("store<");
-                for (const char* sign : {" * ", " + ", " - ", is_stored ? ", " : " = "})
+                for (const char* sign : {" * ", " + ", " - ", " = "})
                     for (std::size_t at = line.find(sign); at != std::string::npos; at = line.find(sign, at + 1)) ++here;
                 if (const std::size_t lanes = line.find("l < "); lanes != std::string::npos) blocks = std::stoul(line.substr(lanes + 4)) / 8;
                 count += here * blocks;
@@ -1059,7 +1059,12 @@ private:
 
     Lines storing() const {
         Lines lines;
-        for (std::size_t first = 0; first < lanes_in_order_.size(); first += 8) {
+        for (std::size_t l = 0; l < lanes_in_order_.size() && !is_straight_; ++l) {
+            const Lane& lane = lanes_in_order_[l];
+            lines.push_back(fmt::format("left[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.a, lane.a_rate)));
+            lines.push_back(fmt::format("right[{} * k + {}] = {};", lanes_padded(), l, scalar(lane.b, lane.b_rate)));
+        }
+        for (std::size_t first = 0; first < lanes_in_order_.size() && is_straight_; first += 8) {
             std::string left, right;
             for (std::size_t l = first; l < std::min(first + 8, lanes_in_order_.size()); ++l) {
                 const Lane& lane = lanes_in_order_[l];
@@ -1160,6 +1165,7 @@ private:
     std::vector<Named> named_;                    // of each node
     std::vector<std::vector<Product>> products_;  // that each node sums up
     std::vector<int> constants_;                  // of the Program, in the order of `par`
+    bool is_straight_ = false;                    // all orders in straight-line code
     int columns_count_ = 0, single_count_ = 0;
     std::map<Lane, int> lanes_;
     std::vector<Lane> lanes_in_order_;

@@ -3,7 +3,7 @@
 //
 //   bench_rhs [--json FILE] FOLDER INFO SOURCE.cpp [INFO SOURCE.cpp …]      INFO: what `emit --json` printed
 //
-// Thread CPU time of many short slices, the floor's and ours in turn; the median of each. A slice walks through 64 states
+// Thread CPU time of many short slices, the floor's and ours in turn, each after a third of a slice that is not timed; the median of each. A slice walks through 64 states
 // with |q| ≤ π; each is perturbed by its own previous answer, so that no evaluation can be left out, and none waits for
 // the one before. The floor is n calls of glibc's sincos on the same angles in the same loop.
 // Accelerations at a reference state (50 digits: FOLDER/reference/chains.json, FOLDER/bench/systems/) give `error`, relative to
@@ -69,6 +69,7 @@ std::vector<double> timed(const std::vector<std::function<void()>>& walks) {
     std::vector<std::vector<double>> times(walks.size());
     for (int slice = 0; slice < slices; ++slice)
         for (std::size_t which = 0; which < walks.size(); ++which) {
+            for (int k = 0; k < (repeats[which] + 2) / 3; ++k) walks[which]();  // not timed: caches, and the clock that wide vectors take
             const double start = now_ns();
             for (int k = 0; k < repeats[which]; ++k) walks[which]();
             times[which].push_back((now_ns() - start) / repeats[which] / states);
