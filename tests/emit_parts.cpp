@@ -12,6 +12,7 @@
 #include "alembert/packs.hpp"
 #include "emit/emit.hpp"
 #include "emit/parts.hpp"
+#include "formalism/formalisms.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
@@ -35,6 +36,10 @@ TEST_CASE("parts: several names in a line, and names that only the next line kno
     REQUIRE(parts.list.size() == 3);  // the first two lines stay together
     CHECK(parts.carried == 2);
     CHECK(parts.list[2].lines.front() == "const Real& c0 = carried[1];");
+    const FunctionParts pair = in_parts({"const auto [s1, c1] = sincos(q);", "out[0] = c1;", "out[1] = s1;"}, 1);
+    REQUIRE(pair.list.size() == 3);
+    CHECK(pair.carried == 2);
+    CHECK(pair.list[0].lines.size() == 3);
 }
 
 TEST_CASE("parts: a file whose functions are in parts computes what the whole one does, packs too") {
@@ -71,5 +76,36 @@ TEST_CASE("parts: a file whose functions are in parts computes what the whole on
         }
         for (int i = 0; i < n * n; ++i) CHECK(std::abs(M[i] - M_parts[i]) < 1e-13);
         for (int i = 0; i < n; ++i) CHECK(std::abs(f[i] - f_parts[i]) < 1e-12 * size);
+    }
+}
+
+TEST_CASE("parts: of scenes of every kind, in the shortest parts") {
+    for (const char* scene : {"textbook/four_bar.toml", "textbook/heavy_top_quaternion.toml", "textbook/rattleback.toml", "benchmark/pleiades.toml", "benchmark/flyball_governor.toml"}) {
+        CAPTURE(scene);
+        const Mechanism m = build(read_scene(test::source_path(std::string("scenes/") + scene)));
+        const Equations equations = m.speeds.empty() ? formalism("routh").derive(m) : formalism("kane").derive(m);
+        const Program program = choose(m, equations).program;
+        const Module whole = load(compile(emit(program).text, "whole", {}).object), parts = load(compile(emit(program, {.longest_function = 5}).text, "parts", {}).object);
+        const alembert_solver_table &a = whole.table(), &b = parts.table();
+        const State<double> start = start_of(m).state();
+        const auto width = static_cast<std::size_t>(a.coordinates + a.speeds), rows = static_cast<std::size_t>(a.constraints);
+        std::vector<double> y = start.q;
+        y.insert(y.end(), start.qdot.begin(), start.qdot.end());
+        y.resize(width, 0.3);
+        const std::vector<double> par = prepared(whole), par_parts = prepared(parts);
+        CHECK(par == par_parts);
+        const auto of = [&](const alembert_solver_table& table) {
+            std::vector<double> all(width + 5 + static_cast<std::size_t>(table.outputs) + 2 * rows + 2 * rows * width);
+            double* to = all.data();
+            table.rhs(0.1, y.data(), par.data(), to);
+            table.energy(0.1, y.data(), to, par.data(), to + width, to + width + 4);
+            table.outputs_at(0.1, y.data(), to, par.data(), to + width + 5);
+            if (rows > 0) table.constraints_at(0.1, y.data(), par.data(), all.data() + all.size() - 2 * rows - 2 * rows * width, all.data() + all.size() - rows - 2 * rows * width, all.data() + all.size() - 2 * rows * width);
+            return all;
+        };
+        const std::vector<double> x = of(a), z = of(b);
+        double size = 1;
+        for (const double value : x) size = std::max(size, std::abs(value));
+        for (std::size_t i = 0; i < x.size(); ++i) CHECK(std::abs(x[i] - z[i]) <= 1e-11 * size);
     }
 }

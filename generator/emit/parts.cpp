@@ -28,10 +28,15 @@ std::set<std::string> names_in(const std::string& line) {
     return names;
 }
 
-/// Names that a line declares: before " = ", outside brackets.
+constexpr std::string_view head = "const Real ", pair = "const auto [", group = "const auto ";
+
+/// Names that a line declares: those of a pair in its brackets, or before " = ", outside brackets.
 std::vector<std::string> declared_in(const std::string& line) {
-    constexpr std::string_view head = "const Real ";
     std::vector<std::string> names;
+    if (line.starts_with(pair)) {
+        const std::set<std::string> both = names_in(line.substr(pair.size(), line.find(']') - pair.size()));
+        return {both.begin(), both.end()};
+    }
     if (!line.starts_with(head)) return names;
     std::size_t start = head.size();
     int depth = 0;
@@ -51,7 +56,7 @@ FunctionParts in_parts(const std::vector<std::string>& statements, std::size_t l
     FunctionParts parts;
     std::map<std::string, std::size_t> made_in;  // name → part
     for (std::size_t i = 0; i < statements.size(); ++i) {
-        const bool is_open = i > 0 && statements[i - 1].starts_with("const auto ");
+        const bool is_open = i > 0 && statements[i - 1].starts_with(group) && !statements[i - 1].starts_with(pair);
         if (parts.list.empty() || (parts.list.back().lines.size() >= length && !is_open)) parts.list.emplace_back();
         FunctionPart& part = parts.list.back();
         part.lines.push_back(statements[i]);

@@ -10,8 +10,8 @@
 /// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute for 18 000,
 /// most of it for registers). What a part makes and a later one needs goes through the array `carried`, once.
 ///
-/// A statement is a line: `const Real a = …;`, also with several names, `const auto a = …;`, whose names the next line takes, or an
-/// assignment to what is no name of the function's own.
+/// A statement is a line: `const Real a = …;`, also with several names, `const auto [a, b] = …;`, `const auto a = …;`, whose members
+/// the next line takes, or an assignment to what is no name of the function's own.
 
 #include <set>
 #include <string>
