@@ -16,6 +16,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
+#include "emit/pieces.hpp"
 #include "emit/templates.hpp"
 #include "emit/timely.hpp"
 #include "emit/writer.hpp"
@@ -152,11 +153,6 @@ private:
         int a, b;
         bool a_rate, b_rate;
         auto operator<=>(const Lane&) const = default;
-    };
-
-    struct Piece {
-        bool negative;
-        std::string text;
     };
 
     /// Nodes of the same shape whose arguments stand in lanes of the same order: one vector operation for all of them.
@@ -505,19 +501,6 @@ private:
         if (weight.constant >= 0) text += (text.empty() ? "" : " * ") + constant(weight.constant);
         if (!factor.empty()) text += (text.empty() ? "" : " * ") + factor;
         return {cln::minusp(weight.number), text.empty() ? "Real(1)" : text};
-    }
-
-    static std::string joined(std::vector<Piece> pieces) {
-        if (pieces.empty()) return "Real(0)";
-        const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& x) { return !x.negative; });
-        if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);
-        std::string result = (pieces[0].negative ? "-" : "") + pieces[0].text;
-        for (std::size_t k = 1; k < pieces.size(); ++k) result += (pieces[k].negative ? " - " : " + ") + pieces[k].text;
-        return result;
-    }
-
-    static std::string bracketed(const std::string& text) {
-        return text.find(' ') == std::string::npos ? text : "(" + text + ")";
     }
 
     std::string now(int id) const {

@@ -17,8 +17,6 @@ std::string product(const std::vector<std::string>& factors) {
     return text;
 }
 
-std::string grouped(const std::string& text) { return text.find(' ') == std::string::npos ? text : "(" + text + ")"; }
-
 double time_of(const Times& times, const Moment& moment) {
     return times[static_cast<std::size_t>(moment.before)][static_cast<std::size_t>(moment.node)] + moment.delay;
 }
@@ -50,36 +48,27 @@ double Timely::ready(const Times& times) const {
     return std::max(inner, plain) + (outer_.empty() ? 0 : latency);
 }
 
-/// Begins with something that is not subtracted, where there is one.
-std::string Timely::joined(std::vector<Signed> pieces) {
-    const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Signed& x) { return !x.negative; });
-    if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);
-    std::string text;
-    for (const Signed& x : pieces) text += (text.empty() ? x.negative ? "-" : "" : x.negative ? " - " : " + ") + x.text;
-    return text;
-}
-
 /// Of one weight the sign goes outside; a sum of several is multiplied as a whole.
-Timely::Signed Timely::weight_of(const Group& group) {
+Piece Timely::weight_of(const Group& group) {
     if (group.weights.size() == 1) return group.weights[0];
-    std::vector<Signed> weights = group.weights;
-    for (Signed& weight : weights)
+    std::vector<Piece> weights = group.weights;
+    for (Piece& weight : weights)
         if (weight.text.empty()) weight.text = "Real(1)";
     return {false, "(" + joined(weights) + ")"};
 }
 
 /// Terms with the same weight in one bracket.
 std::string Timely::together(const std::vector<const Group*>& groups) {
-    std::vector<Signed> weights;
+    std::vector<Piece> weights;
     std::vector<std::vector<std::string>> terms;
     for (const Group* group : groups) {
-        const Signed weight = weight_of(*group);
-        const auto same = std::find_if(weights.begin(), weights.end(), [&](const Signed& w) { return w.negative == weight.negative && w.text == weight.text; });
+        const Piece weight = weight_of(*group);
+        const auto same = std::find_if(weights.begin(), weights.end(), [&](const Piece& w) { return w.negative == weight.negative && w.text == weight.text; });
         const auto place = static_cast<std::size_t>(same - weights.begin());
         if (same == weights.end()) weights.push_back(weight), terms.emplace_back();
         terms[place].push_back(product({group->factor, group->late}));
     }
-    std::vector<Signed> pieces;
+    std::vector<Piece> pieces;
     for (std::size_t k = 0; k < weights.size(); ++k) {
         std::string sum;
         for (const std::string& term : terms[k]) sum += (sum.empty() ? "" : " + ") + term;
@@ -96,12 +85,12 @@ std::string Timely::text(const Times& times) const {
     for (const int k : in_order(times)) (groups_[k].is_inner ? inner : plain).push_back(&groups_[k]);
     if (plain.empty()) {
         const std::string scale = product({outer_, inner_});
-        return scale.empty() ? together(inner) : product({grouped(scale), grouped(together(inner))});
+        return scale.empty() ? together(inner) : product({bracketed(scale), bracketed(together(inner))});
     }
-    std::string text = inner.empty() ? "" : inner_.empty() ? together(inner) : product({inner_, grouped(together(inner))});
+    std::string text = inner.empty() ? "" : inner_.empty() ? together(inner) : product({inner_, bracketed(together(inner))});
     const std::string rest = together(plain);
     text += text.empty() ? rest : rest[0] == '-' ? " - " + rest.substr(1) : " + " + rest;
-    return outer_.empty() ? text : product({outer_, grouped(text)});
+    return outer_.empty() ? text : product({outer_, bracketed(text)});
 }
 
 }  // namespace alembert

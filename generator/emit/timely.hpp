@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "emit/pieces.hpp"
+
 namespace alembert {
 
 /// When each node's coefficient is ready, in cycles: of this order, the one before, and two before.
@@ -50,21 +52,16 @@ public:
     std::string text(const Times& times) const;
 
 private:
-    struct Signed {
-        bool negative;
-        std::string text;
-    };
     /// All terms with the same factor of the same late value.
     struct Group {
         std::string factor, late;
         Moment ready;
         bool is_inner;
-        std::vector<Signed> weights;
+        std::vector<Piece> weights;
     };
     std::vector<int> in_order(const Times& times) const;
-    static std::string joined(std::vector<Signed> pieces);
     static std::string together(const std::vector<const Group*>& groups);
-    static Signed weight_of(const Group& group);
+    static Piece weight_of(const Group& group);
 
     std::string outer_, inner_;
     std::vector<Group> groups_;
