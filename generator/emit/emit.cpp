@@ -437,15 +437,15 @@ private:
         for (std::size_t k = 0; k < pivots.size(); ++k) results.push_back({fmt::format("pivots[{}]", k), pivots[k]});
         for (const Result& result : results) all.push_back({"Projection", "", result.node});
         add(functions, function("project", "One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.",
-                              "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, "
-                              "Real* position, [[maybe_unused]] Real* pivots",
-                              all, results));
+                                "[[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, "
+                                "Real* position, [[maybe_unused]] Real* pivots",
+                                all, results));
         if (gamma.empty()) return;
         for (const Goal& goal : gamma) right.push_back({fmt::format("out[{}]", goal.name.substr(5)), goal.node});  // "gamma2": of the third constraint
         add(functions, function("gamma_at", p_.speeds.empty() ? "gamma of A q'' = gamma." : "gamma of A u' = gamma.",
-                              "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
-                              "Real* out",
-                              gamma, right));
+                                "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
+                                "Real* out",
+                                gamma, right));
     }
 
     /// Of the entries that are not zero: rows and columns as text, and where each goes.
