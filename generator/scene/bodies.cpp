@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "scene/keys.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
@@ -65,8 +66,8 @@ std::vector<Name> read_quaternion(const Table& table) {
 Inertia read_tensor(const Reading& reading, const toml::table& node, Place place) {
     Inertia inertia;
     const Table table(reading, node, "the inertia", place);
-    table.allow({"xx", "yy", "zz", "xy", "yz", "zx"});
-    const std::string_view keys[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    table.allow("body.inertia");
+    const auto keys = keys_of("body.inertia");
     for (std::size_t i = 0; i < 6; ++i)
         inertia.tensor[i] = table.has(keys[i]) ? table.expression(keys[i]) : zero(place);
     return inertia;
@@ -139,7 +140,7 @@ std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
 }
 
 void read_frame(Table table, Scene& scene) {
-    table.allow({"name", "parent", "rotate", "quaternion"});
+    table.allow("frame");
     Frame frame;
     frame.name = table.needed_name("name");
     table.entitle(frame.name);
@@ -157,7 +158,7 @@ void read_frame(Table table, Scene& scene) {
 }
 
 void read_point(Table table, Scene& scene) {
-    table.allow({"name", "from", "offset", "axes"});
+    table.allow("point");
     Point point;
     point.name = table.needed_name("name");
     table.entitle(point.name);
@@ -166,7 +167,7 @@ void read_point(Table table, Scene& scene) {
 }
 
 void read_particle(Table table, Scene& scene) {
-    table.allow({"name", "mass", "at", "position", "from", "axes"});
+    table.allow("particle");
     Particle particle;
     particle.name = table.needed_name("name");
     table.entitle(particle.name);
@@ -176,7 +177,7 @@ void read_particle(Table table, Scene& scene) {
 }
 
 void read_body(Table table, Scene& scene) {
-    table.allow({"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"});
+    table.allow("body");
     Body body;
     body.name = table.needed_name("name");
     table.entitle(body.name);

@@ -113,8 +113,7 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
 }  // namespace
 
 void read_joint(Table table, Scene& scene) {
-    table.allow({"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate",
-                 "axis", "pitch", "coordinates", "angles", "motion"});
+    table.allow("joint");
     const std::size_t mistakes = table.reading().diagnostics.size();
     Joint joint;
     joint.name = table.needed_name("name");

@@ -36,7 +36,7 @@ Link read_link(const Table& table, std::string_view constant) {
 }  // namespace
 
 void read_force(Table table, Scene& scene) {
-    table.allow({"at", "vector", "axes", "reaction"});
+    table.allow("force");
     Force force;
     force.place = table.place();
     force.at = table.needed_name("at");
@@ -47,7 +47,7 @@ void read_force(Table table, Scene& scene) {
 }
 
 void read_impulse(Table table, Scene& scene) {
-    table.allow({"at", "vector", "axes"});
+    table.allow("impulse");
     Impulse impulse;
     impulse.place = table.place();
     impulse.at = table.needed_name("at");
@@ -57,7 +57,7 @@ void read_impulse(Table table, Scene& scene) {
 }
 
 void read_torque(Table table, Scene& scene) {
-    table.allow({"on", "vector", "axes", "reaction"});
+    table.allow("torque");
     Torque torque;
     torque.place = table.place();
     torque.on = table.needed_name("on");
@@ -75,17 +75,17 @@ void read_torque(Table table, Scene& scene) {
 }
 
 void read_spring(Table table, Scene& scene) {
-    table.allow({"between", "along", "stiffness", "length"});
+    table.allow("spring");
     scene.springs.push_back(read_link(table, "stiffness"));
 }
 
 void read_damper(Table table, Scene& scene) {
-    table.allow({"between", "along", "damping"});
+    table.allow("damper");
     scene.dampers.push_back(read_link(table, "damping"));
 }
 
 void read_constraint(Table table, Scene& scene) {
-    table.allow({"name", "holonomic", "nonholonomic", "multiplier"});
+    table.allow("constraint");
     ConstraintRule rule;
     rule.name = table.needed_name("name");
     table.entitle(rule.name);
@@ -107,7 +107,7 @@ void read_constraint(Table table, Scene& scene) {
 }
 
 void read_rolling(Table table, Scene& scene) {
-    table.allow({"name", "body", "contact", "axes", "on"});
+    table.allow("rolling");
     RollingRule rule;
     rule.name = table.needed_name("name");
     table.entitle(rule.name);
@@ -119,7 +119,7 @@ void read_rolling(Table table, Scene& scene) {
 }
 
 void read_unilateral(Table table, Scene& scene) {
-    table.allow({"name", "gap", "restitution"});
+    table.allow("unilateral");
     UnilateralRule rule;
     rule.name = table.needed_name("name");
     table.entitle(rule.name);

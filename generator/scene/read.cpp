@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 
 #include "scene/check.hpp"
+#include "scene/keys.hpp"
 #include "scene/later.hpp"
 #include "scene/layout.hpp"
 #include "scene/placing.hpp"
@@ -31,38 +33,37 @@ void each(const Table& table, Scene& scene) {
 }
 
 struct Section {
-    std::string_view name;
-    bool is_list;
+    std::string_view name;  ///< in scene/keys.hpp
     void (*read)(const Table&, Scene&);
 };
 
 constexpr Section sections[] = {
-    {"parameters", false, one<read_parameters>},
-    {"inputs", false, one<read_inputs>},
-    {"coordinates", false, one<read_coordinates>},
-    {"speeds", false, one<read_speeds>},
-    {"definitions", false, one<read_definitions>},
-    {"frame", true, each<read_frame>},
-    {"point", true, each<read_point>},
-    {"particle", true, each<read_particle>},
-    {"body", true, each<read_body>},
-    {"joint", true, each<read_joint>},
-    {"force", true, each<read_force>},
-    {"torque", true, each<read_torque>},
-    {"spring", true, each<read_spring>},
-    {"damper", true, each<read_damper>},
-    {"constraint", true, each<read_constraint>},
-    {"rolling", true, each<read_rolling>},
-    {"unilateral", true, each<read_unilateral>},
-    {"impulse", true, each<read_impulse>},
-    {"impulses", false, one<read_impulses>},
-    {"energy", false, one<read_energy>},
-    {"dissipation", false, one<read_dissipation>},
-    {"forces", false, one<read_forces>},
-    {"outputs", false, one<read_outputs>},
-    {"event", true, each<read_event>},
-    {"simulation", false, one<read_simulation>},
-    {"claim", true, each<read_claim>},
+    {"parameters", one<read_parameters>},
+    {"inputs", one<read_inputs>},
+    {"coordinates", one<read_coordinates>},
+    {"speeds", one<read_speeds>},
+    {"definitions", one<read_definitions>},
+    {"frame", each<read_frame>},
+    {"point", each<read_point>},
+    {"particle", each<read_particle>},
+    {"body", each<read_body>},
+    {"joint", each<read_joint>},
+    {"force", each<read_force>},
+    {"torque", each<read_torque>},
+    {"spring", each<read_spring>},
+    {"damper", each<read_damper>},
+    {"constraint", each<read_constraint>},
+    {"rolling", each<read_rolling>},
+    {"unilateral", each<read_unilateral>},
+    {"impulse", each<read_impulse>},
+    {"impulses", one<read_impulses>},
+    {"energy", one<read_energy>},
+    {"dissipation", one<read_dissipation>},
+    {"forces", one<read_forces>},
+    {"outputs", one<read_outputs>},
+    {"event", each<read_event>},
+    {"simulation", one<read_simulation>},
+    {"claim", each<read_claim>},
 };
 
 /// Where a table's header is: of one written `x = { … }` the key.
@@ -72,7 +73,7 @@ Place header_of(const Entry& entry) {
 }
 
 void read_section(const Reading& reading, const Section& section, const Entry& entry, Scene& scene) {
-    if (!section.is_list) {
+    if (table_named(section.name).shape != TableKeys::Shape::list) {
         if (const toml::table* const table = entry.node->as_table())
             return section.read(Table(reading, *table, fmt::format("[{}]", section.name), header_of(entry)),
                                 scene);
@@ -101,7 +102,8 @@ void read_section(const Reading& reading, const Section& section, const Entry& e
 }
 
 void refuse_unknown(const Reading& reading, const Entry& entry) {
-    std::vector<std::string> known{"title", "source", "notes", "gravity"};
+    const std::span<const std::string_view> own = keys_of("");
+    std::vector<std::string> known(own.begin(), own.end());
     for (const Section& section : sections) known.emplace_back(section.name);
     for (const std::string& name : later_sections()) known.push_back(name);
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();

@@ -62,7 +62,7 @@ std::optional<Name> read_method(const Table& table) {
 }  // namespace
 
 void read_simulation(const Table& table, Scene& scene) {
-    table.allow({"start", "duration", "tolerance", "step", "sample", "method", "period"});
+    table.allow("simulation");
     Simulation& simulation = scene.simulation;
     simulation.start = table.has("start") ? table.expression("start") : zero(table.place());
     const std::pair<std::string_view, Expression*> positive[] = {{"duration", &simulation.duration},
@@ -111,7 +111,7 @@ std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
 }  // namespace
 
 void read_event(Table table, Scene& scene) {
-    table.allow({"name", "when", "stop", "direction", "impulses"});
+    table.allow("event");
     EventRule event;
     event.name = table.needed_name("name");
     table.entitle(event.name);
@@ -123,7 +123,7 @@ void read_event(Table table, Scene& scene) {
 }
 
 void read_claim(Table table, Scene& scene) {
-    table.allow({"equation", "source", "unknowns", "constants", "at"});
+    table.allow("claim");
     Claim claim;
     claim.place = table.place();
     claim.source = table.text("source");

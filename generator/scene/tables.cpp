@@ -12,7 +12,7 @@ namespace {
 
 /// `name = value` or `name = { value, unit, about }`, as parameters and inputs have it.
 template <typename Item>
-Item read_item(const Table& table, const Entry& entry, const std::string& what) {
+Item read_item(const Table& table, const Entry& entry, const std::string& what, std::string_view keys_as) {
     Item item{.name = {entry.key, entry.place}, .value = {}, .unit = {}, .about = {}};
     const toml::table* const inner = entry.node->as_table();
     if (!inner) {
@@ -20,7 +20,7 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what) 
         return item;
     }
     const Table keys(table.reading(), *inner, what, entry.place);
-    keys.allow({"value", "unit", "about"});
+    keys.allow(keys_as);
     if (const Entry* const value = keys.find("value"))
         item.value = read_expression(table.reading(), *value->node, what);
     else
@@ -34,12 +34,12 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what) 
 
 void read_parameters(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.parameters.push_back(read_item<Parameter>(table, entry, labelled("parameter", entry.key)));
+        scene.parameters.push_back(read_item<Parameter>(table, entry, labelled("parameter", entry.key), "parameters.*"));
 }
 
 void read_inputs(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.inputs.push_back(read_item<Input>(table, entry, labelled("input", entry.key)));
+        scene.inputs.push_back(read_item<Input>(table, entry, labelled("input", entry.key), "inputs.*"));
 }
 
 Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
@@ -51,7 +51,7 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
         return coordinate;
     }
     const Table keys(reading, *inner, what, entry.place);
-    keys.allow({"initial", "rate", "guess", "rate_guess", "unit", "about"});
+    keys.allow("coordinates.*");
     for (const std::string_view key : {"rate", "rate_guess"})
         if (const Entry* const rate = keys.find(key)) coordinate.rate_given = rate->place;
     const auto start = [&](std::string_view key, std::string_view guess, Expression& value, bool& is_guess) {
@@ -77,7 +77,7 @@ void read_speeds(const Table& table, Scene& scene) {
         Speed speed{.name = {entry.key, entry.place}, .form = {}, .initial = {}, .unit = {}, .about = {}};
         if (const toml::table* const inner = entry.node->as_table()) {
             const Table keys(table.reading(), *inner, what, entry.place);
-            keys.allow({"form", "initial", "unit", "about"});
+            keys.allow("speeds.*");
             speed.form = keys.needed_expression("form");
             speed.initial = keys.expression("initial");
             speed.unit = keys.text("unit");
@@ -97,7 +97,7 @@ void read_definitions(const Table& table, Scene& scene) {
 }
 
 void read_energy(const Table& table, Scene& scene) {
-    table.allow({"kinetic", "potential", "lagrangian"});
+    table.allow("energy");
     scene.kinetic = table.expression("kinetic");
     scene.potential = table.expression("potential");
     scene.lagrangian = table.expression("lagrangian");
@@ -107,7 +107,7 @@ void read_energy(const Table& table, Scene& scene) {
 }
 
 void read_dissipation(const Table& table, Scene& scene) {
-    table.allow({"rayleigh"});
+    table.allow("dissipation");
     scene.rayleigh = table.needed_expression("rayleigh");
 }
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "scene/keys.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -156,22 +158,13 @@ Table::Table(const Reading& reading, const toml::table& table, std::string title
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.place < b.place; });
 }
 
-void Table::allow(std::initializer_list<std::string_view> known,
-                  std::initializer_list<std::string_view> later) const {
-    const std::vector<std::string> all = [&] {
-        std::vector<std::string> list(known.begin(), known.end());
-        list.insert(list.end(), later.begin(), later.end());
-        return list;
-    }();
+void Table::allow(std::string_view name) const {
+    const std::span<const std::string_view> known = keys_of(name);
     for (const Entry& entry : entries_) {
         if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
-        if (std::find(later.begin(), later.end(), entry.key) != later.end()) {
-            reading_->complain(entry.place, fmt::format("{} is not supported yet", what(entry.key)));
-            continue;
-        }
-        const std::string meant = nearest(entry.key, all);
-        std::string hint = meant.empty() ? fmt::format("it may have {}", fmt::join(all, ", "))
-                                         : fmt::format("did you mean '{}'?", meant);
+        const std::string meant = nearest(entry.key, {known.begin(), known.end()});
+        const std::string hint = meant.empty() ? fmt::format("it may have {}", fmt::join(known, ", "))
+                                               : fmt::format("did you mean '{}'?", meant);
         reading_->complain(entry.place,
                            fmt::format("unknown key {} in {}; {}", in_quotes(entry.key), title_, hint));
     }

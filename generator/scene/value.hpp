@@ -5,10 +5,9 @@
 /// on with an empty value; keys come in the order of the file.
 ///
 ///     const Table table(reading, node, "[[particle]]", place);
-///     table.allow({"name", "mass", "at"});
+///     table.allow("particle");
 ///     particle.mass = table.needed_expression("mass");
 
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -66,9 +65,8 @@ public:
     Place place() const { return place_; }
     const std::vector<Entry>& entries() const { return entries_; }
 
-    /// Complains of each key that is neither `known` nor among those of `later` issues.
-    void allow(std::initializer_list<std::string_view> known,
-               std::initializer_list<std::string_view> later = {}) const;
+    /// Complains of each key that the table of this name in scene/keys.hpp does not have.
+    void allow(std::string_view name) const;
 
     const Entry* find(std::string_view key) const;
     bool has(std::string_view key) const { return find(key) != nullptr; }

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The tables of a scene and the keys of each: the one list that the reader goes by. A test compares docs/scene-language.md and
+/// docs/scene.schema.json with it.
+///
+///     keys_of("force")            // at, vector, axes, reaction
+///
+/// A table that stands inside another is named by the way to it: "body.inertia". A star stands for a name that the user chooses:
+/// "parameters.*" is the longer form of one parameter, { value, unit, about }.
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace alembert {
+
+struct TableKeys {
+    enum class Shape {
+        one,   ///< [table], once in a scene
+        list,  ///< [[table]], any number of times
+        inner  ///< a table as a value: { … }
+    };
+    std::string_view table;
+    Shape shape;
+    std::array<std::string_view, 13> known = {};  ///< empty at the end; none at all where the user chooses the names
+
+    constexpr std::span<const std::string_view> keys() const {
+        return {known.data(), static_cast<std::size_t>(std::find(known.begin(), known.end(), "") - known.begin())};
+    }
+};
+
+inline constexpr TableKeys table_keys[] = {
+    {"", TableKeys::Shape::one, {"title", "source", "notes", "gravity"}},
+    {"parameters", TableKeys::Shape::one},
+    {"parameters.*", TableKeys::Shape::inner, {"value", "unit", "about"}},
+    {"inputs", TableKeys::Shape::one},
+    {"inputs.*", TableKeys::Shape::inner, {"value", "unit", "about"}},
+    {"coordinates", TableKeys::Shape::one},
+    {"coordinates.*", TableKeys::Shape::inner, {"initial", "rate", "guess", "rate_guess", "unit", "about"}},
+    {"speeds", TableKeys::Shape::one},
+    {"speeds.*", TableKeys::Shape::inner, {"form", "initial", "unit", "about"}},
+    {"definitions", TableKeys::Shape::one},
+    {"frame", TableKeys::Shape::list, {"name", "parent", "rotate", "quaternion"}},
+    {"point", TableKeys::Shape::list, {"name", "from", "offset", "axes"}},
+    {"particle", TableKeys::Shape::list, {"name", "mass", "at", "position", "from", "axes"}},
+    {"body", TableKeys::Shape::list, {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"}},
+    {"body.inertia", TableKeys::Shape::inner, {"xx", "yy", "zz", "xy", "yz", "zx"}},
+    {"joint",
+     TableKeys::Shape::list,
+     {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis", "pitch",
+      "coordinates", "angles", "motion"}},
+    {"joint.coordinates", TableKeys::Shape::inner},
+    {"joint.coordinates.*", TableKeys::Shape::inner, {"initial", "rate", "guess", "rate_guess", "unit", "about"}},
+    {"joint.motion", TableKeys::Shape::inner},
+    {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction"}},
+    {"torque", TableKeys::Shape::list, {"on", "vector", "axes", "reaction"}},
+    {"spring", TableKeys::Shape::list, {"between", "along", "stiffness", "length"}},
+    {"damper", TableKeys::Shape::list, {"between", "along", "damping"}},
+    {"constraint", TableKeys::Shape::list, {"name", "holonomic", "nonholonomic", "multiplier"}},
+    {"rolling", TableKeys::Shape::list, {"name", "body", "contact", "axes", "on"}},
+    {"unilateral", TableKeys::Shape::list, {"name", "gap", "restitution"}},
+    {"impulse", TableKeys::Shape::list, {"at", "vector", "axes"}},
+    {"impulses", TableKeys::Shape::one},
+    {"energy", TableKeys::Shape::one, {"kinetic", "potential", "lagrangian"}},
+    {"dissipation", TableKeys::Shape::one, {"rayleigh"}},
+    {"forces", TableKeys::Shape::one},
+    {"outputs", TableKeys::Shape::one},
+    {"event", TableKeys::Shape::list, {"name", "when", "stop", "direction", "impulses"}},
+    {"event.impulses", TableKeys::Shape::inner},
+    {"simulation", TableKeys::Shape::one, {"start", "duration", "tolerance", "step", "sample", "method", "period"}},
+    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
+};
+
+/// Throws std::logic_error where the list has no such table, which is a mistake in the reader.
+inline const TableKeys& table_named(std::string_view name) {
+    for (const TableKeys& one : table_keys)
+        if (one.table == name) return one;
+    throw std::logic_error("scene/keys.hpp has no table '" + std::string(name) + "'");
+}
+
+inline std::span<const std::string_view> keys_of(std::string_view table) { return table_named(table).keys(); }
+
+}  // namespace alembert
