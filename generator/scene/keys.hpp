@@ -53,9 +53,6 @@ inline constexpr TableKeys table_keys[] = {
      TableKeys::Shape::list,
      {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis", "pitch",
       "coordinates", "angles", "motion"}},
-    {"joint.coordinates", TableKeys::Shape::inner},
-    {"joint.coordinates.*", TableKeys::Shape::inner, {"initial", "rate", "guess", "rate_guess", "unit", "about"}},
-    {"joint.motion", TableKeys::Shape::inner},
     {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction"}},
     {"torque", TableKeys::Shape::list, {"on", "vector", "axes", "reaction"}},
     {"spring", TableKeys::Shape::list, {"between", "along", "stiffness", "length"}},
@@ -70,7 +67,6 @@ inline constexpr TableKeys table_keys[] = {
     {"forces", TableKeys::Shape::one},
     {"outputs", TableKeys::Shape::one},
     {"event", TableKeys::Shape::list, {"name", "when", "stop", "direction", "impulses"}},
-    {"event.impulses", TableKeys::Shape::inner},
     {"simulation", TableKeys::Shape::one, {"start", "duration", "tolerance", "step", "sample", "method", "period"}},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
 };
