@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# The documentation says what the program does: the commands in README.md and docs/ are run and their output is compared, and
+# docs/commands.md has every verb, option and field of JSON that the program has, and no other verb or option.
+#   docs.sh PROGRAM
+#
+# A block ```console holds commands after "$ " and what they print. "…" stands for any lines, or any text in a line. Numbers are compared to five
+# digits, those below 1e-7 in size only as small, counts of steps and times not at all. A block "```toml NAME" or "```text NAME" is
+# a file of that name, which the commands after it may read; scenes/ and tests/ are those of the repository.
+set -u
+program=$(realpath "$1")
+root=$(cd "$(dirname "$0")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/bin" "$work/here"
+ln -s "$program" "$work/bin/alembert"
+ln -s "$root/scenes" "$root/tests" "$work/here"
+export PATH=$work/bin:$PATH XDG_CACHE_HOME=$work/cache LC_ALL=C.UTF-8
+cd "$work/here" || exit 5
+failed=0
+commands=0
+
+# What differs from machine to machine or from run to run becomes the same.
+normal() {
+    awk '{
+        if ($0 ~ /^seconds: / || $0 ~ /processor time/) { print "seconds"; next }
+        gsub(/[0-9]+ (steps|rejected|evaluations|additions|operations)/, "# count")
+        sub(/^[0-9.]+ s$/, "# s")
+        rest = $0; line = ""
+        while (match(rest, /-?[0-9]+\.[0-9]+(e[-+]?[0-9]+)?|-?[0-9]+e-[0-9]+/)) {
+            x = substr(rest, RSTART, RLENGTH) + 0
+            shown = x < 1e-7 && x > -1e-7 ? "~0" : sprintf("%.5g", x)
+            line = line substr(rest, 1, RSTART - 1) shown
+            rest = substr(rest, RSTART + RLENGTH)
+        }
+        line = line rest
+        gsub(/[ \t]+/, " ", line); sub(/ $/, "", line)
+        print line
+    }'
+}
+
+# same EXPECTED PRINTED: line by line; a line "…" in the first stands for any lines, "…" in a line for any text.
+same() {
+    LC_ALL=C awk 'function alike(w, g, k, end) {
+            k = index(w, "…")
+            if (k == 0) return w == g
+            end = substr(w, k + length("…"))
+            return substr(g, 1, k - 1) == substr(w, 1, k - 1) && length(g) >= k - 1 + length(end) && substr(g, length(g) - length(end) + 1) == end
+        }
+        NR == FNR { want[++n] = $0; next } { got[++m] = $0 }
+        END {
+            j = 1
+            for (i = 1; i <= n; ++i) {
+                if (want[i] != "…") { if (j > m || !alike(want[i], got[j++])) exit 1; continue }
+                if (i == n) exit 0
+                while (j <= m && !alike(want[i + 1], got[j])) ++j
+            }
+            exit j <= m
+        }' "$1" "$2"
+}
+
+# run_one FILE LINE COMMAND, the expected output in $work/want; keeps the exit code for "echo $?".
+code=0
+run_one() {
+    if [ "$3" = 'echo $?' ]; then
+        echo "$code" >"$work/printed"
+    else
+        bash -c "$3" >"$work/printed" 2>&1 </dev/null
+        code=$?
+    fi
+    commands=$((commands + 1))
+    normal <"$work/want" >"$work/want.normal"
+    normal <"$work/printed" >"$work/printed.normal"
+    same "$work/want.normal" "$work/printed.normal" && return
+    printf '%s:%s: $ %s\nprints something else than the documentation says:\n' "$1" "$2" "$3"
+    diff "$work/want.normal" "$work/printed.normal"
+    failed=1
+}
+
+for path in "$root"/README.md "$root"/docs/*.md; do
+    file=${path#"$root"/}
+    inside='' command='' at=0 number=0
+    while IFS= read -r line || [ -n "$line" ]; do
+        number=$((number + 1))
+        case $inside,$line in
+            ,'```console') inside=console ;;
+            ,'```toml '* | ,'```text '*) inside=${line#'```'*' '} && : >"$inside" ;;
+            console,'```' | console,'$ '*)
+                [ -z "$command" ] || run_one "$file" "$at" "$command"
+                command=''
+                : >"$work/want"
+                if [ "$line" = '```' ]; then inside=''; else command=${line#'$ '} at=$number; fi
+                ;;
+            console,*) printf '%s\n' "$line" >>"$work/want" ;;
+            ,*) ;;
+            *,'```') inside='' ;;
+            *) printf '%s\n' "$line" >>"$inside" ;;
+        esac
+    done <"$path"
+done
+
+# The sections of docs/commands.md: "## `verb`", and what all verbs share under "## Options of all verbs".
+section() { awk -v title="$1" '/^## / { on = $0 == "## " title; next } on' "$root/docs/commands.md"; }
+# shellcheck disable=SC2016 # backticks of Markdown
+options_in() { grep -oE '^\| `(-[a-z]`, `)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u; }
+verbs=$(alembert --help | awk '/^Subcommands:/ { on = 1; next } on && NF { print $1 }')
+# shellcheck disable=SC2016
+documented=$(grep -oE '^## `[a-z]+`' "$root/docs/commands.md" | tr -d '#` ')
+[ "$(sort <<<"$verbs")" = "$(sort <<<"$documented")" ] ||
+    { echo 'docs/commands.md has other verbs than the program:'; diff <(sort <<<"$documented") <(sort <<<"$verbs"); failed=1; }
+for verb in $verbs; do
+    has=$(alembert "$verb" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u)
+    says=$( (section 'Options of all verbs'; section "\`$verb\`") | options_in)
+    [ "$has" = "$says" ] ||
+        { echo "docs/commands.md has other options of $verb (<) than the program (>):"; diff <(echo "$says") <(echo "$has"); failed=1; }
+done
+
+# fields VERB ARGUMENTS...: the fields that it prints now are in the section of the verb.
+fields() {
+    for field in $(alembert "$@" --json 2>"$work/log" | grep -oE '^  "[a-z_0-9]+"' | tr -d ' "'); do
+        section "\`$1\`" | grep -qF "\`$field\`" || { echo "docs/commands.md does not say what the field $field of $1 --json is"; failed=1; }
+    done
+}
+fields derive scenes/textbook/slack_pendulum.toml --reactions
+fields derive scenes/textbook/double_pendulum_joints.toml --reactions
+fields derive scenes/textbook/chaplygin_sleigh_in_speeds.toml
+fields agree scenes/textbook/sled.toml
+fields audit scenes/textbook/sled.toml
+fields check scenes/textbook/double_pendulum.toml
+fields eval scenes/gallery/four_bar_joints.toml --reactions
+fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
+fields inverse scenes/textbook/sled.toml
+fields impact scenes/textbook/struck_rods.toml
+fields emit scenes/textbook/sled.toml -o solver --jacobian
+fields import tests/robots/torso.urdf -o torso.toml
+fields simulate scenes/gallery/clock.toml --duration 3
+fields simulate scenes/textbook/bouncing_ball.toml --method radau
+fields simulate scenes/gallery/four_bar_joints.toml --duration 0.5
+fields sweep scenes/textbook/double_pendulum.toml --vary theta1=0:1:2 --duration 0.1
+fields sweep scenes/textbook/double_pendulum.toml --vary theta1=0:1:2 --duration 0.1 -o sweep.csv
+fields bench scenes/textbook/bouncing_ball.toml --method dop853
+
+[ "$failed" = 0 ] && echo "$commands commands print what the documentation says; its verbs, options and fields are the program's"
+exit "$failed"
