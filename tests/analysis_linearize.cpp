@@ -7,9 +7,9 @@
 #include <map>
 
 #include "alembert/error.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/linearize.hpp"
-#include "analysis/redundancy.hpp"
+#include "state/assemble.hpp"
+#include "linear/linearize.hpp"
+#include "state/redundancy.hpp"
 #include "digits.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/lower.hpp"

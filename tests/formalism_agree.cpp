@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 
-#include "analysis/agree.hpp"
+#include "agree/agree.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"

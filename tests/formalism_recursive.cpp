@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "analysis/agree.hpp"
+#include "agree/agree.hpp"
 #include "emit/emit.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"

@@ -6,8 +6,8 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/rhs.hpp"
-#include "analysis/agree.hpp"
-#include "analysis/speeds.hpp"
+#include "agree/agree.hpp"
+#include "state/speeds.hpp"
 #include "emit/emit.hpp"
 #include "formalism/cancel.hpp"
 #include "formalism/kane.hpp"
@@ -16,8 +16,8 @@
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "model/energy.hpp"
-#include "report/derivation.hpp"
-#include "report/text.hpp"
+#include "derive/derivation.hpp"
+#include "notation/text.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"

@@ -11,7 +11,7 @@
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "alembert/taylor.hpp"
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"

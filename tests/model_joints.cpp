@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "analysis/agree.hpp"
-#include "analysis/assemble.hpp"
+#include "agree/agree.hpp"
+#include "state/assemble.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 

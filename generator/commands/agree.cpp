@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/agree.hpp"
+#include "agree/agree.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <iostream>
 
-#include "analysis/redundancy.hpp"
-#include "analysis/speeds.hpp"
+#include "state/redundancy.hpp"
+#include "state/speeds.hpp"
 #include "commands/pipeline.hpp"
 
 namespace alembert {

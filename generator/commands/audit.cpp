@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/audit.hpp"
+#include "audit/audit.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "alembert/error.hpp"
 #include "commands/pipeline.hpp"
-#include "report/text.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "alembert/compile.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/diagnose.hpp"
-#include "analysis/reference.hpp"
+#include "state/assemble.hpp"
+#include "state/diagnose.hpp"
+#include "run/reference.hpp"
 #include "commands/bounces.hpp"
 #include "commands/canonical.hpp"
 #include "commands/measure.hpp"

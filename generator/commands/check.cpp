@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/check.hpp"
+#include "check/check.hpp"
 
 #include <fmt/format.h>
 

@@ -4,16 +4,16 @@
 #include <cctype>
 #include <iostream>
 
-#include "analysis/contacts.hpp"
-#include "analysis/expression_of.hpp"
-#include "analysis/joint_reactions.hpp"
+#include "contact/contacts.hpp"
+#include "exact/expression_of.hpp"
+#include "reaction/joint_reactions.hpp"
 #include "commands/pipeline.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/own_steps.hpp"
-#include "report/derivation.hpp"
-#include "report/latex.hpp"
-#include "report/mathml.hpp"
-#include "report/text.hpp"
+#include "derive/derivation.hpp"
+#include "notation/latex.hpp"
+#include "notation/mathml.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "analysis/assemble.hpp"
-#include "analysis/contacts.hpp"
-#include "analysis/diagnose.hpp"
-#include "analysis/joint_reactions.hpp"
+#include "state/assemble.hpp"
+#include "contact/contacts.hpp"
+#include "state/diagnose.hpp"
+#include "reaction/joint_reactions.hpp"
 #include "commands/pipeline.hpp"
 
 namespace alembert {

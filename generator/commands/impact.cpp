@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/impact.hpp"
+#include "contact/impact.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 
 #include "commands/pipeline.hpp"
 #include "formalism/formalisms.hpp"
-#include "report/latex.hpp"
-#include "report/text.hpp"
+#include "notation/latex.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "alembert/dense.hpp"
 #include "commands/pipeline.hpp"
 #include "lower/inverse.hpp"

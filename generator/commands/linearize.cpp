@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/linearize.hpp"
+#include "linear/linearize.hpp"
 
 #include <fmt/format.h>
 
@@ -8,14 +8,14 @@
 #include <iostream>
 
 #include "alembert/error.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/contacts.hpp"
-#include "analysis/linearize_symbolic.hpp"
+#include "state/assemble.hpp"
+#include "contact/contacts.hpp"
+#include "linear/linearize_symbolic.hpp"
 #include "commands/pipeline.hpp"
 #include "formalism/elements.hpp"
 #include "lower/lower.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

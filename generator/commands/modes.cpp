@@ -5,8 +5,8 @@
 
 #include "alembert/canonical.hpp"
 #include "alembert/compile.hpp"
-#include "analysis/contacts.hpp"
-#include "analysis/diagnose.hpp"
+#include "contact/contacts.hpp"
+#include "state/diagnose.hpp"
 #include "commands/canonical.hpp"
 #include "commands/foreign.hpp"
 #include "emit/taylor.hpp"

@@ -12,13 +12,13 @@
 #include <fstream>
 #include <iostream>
 
-#include "analysis/assemble.hpp"
-#include "analysis/audit.hpp"
-#include "analysis/diagnose.hpp"
-#include "analysis/gimbal.hpp"
-#include "analysis/inertia_check.hpp"
-#include "analysis/redundancy.hpp"
-#include "analysis/speeds.hpp"
+#include "state/assemble.hpp"
+#include "audit/audit.hpp"
+#include "state/diagnose.hpp"
+#include "state/gimbal.hpp"
+#include "state/inertia_check.hpp"
+#include "state/redundancy.hpp"
+#include "state/speeds.hpp"
 #include "formalism/elements.hpp"
 #include "formalism/formalisms.hpp"
 #include "formalism/joint_tree.hpp"

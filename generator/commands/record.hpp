@@ -3,7 +3,7 @@
 
 /// What a run leaves behind: the rows of its CSV file, and what is said about contacts.
 
-#include "analysis/joint_reactions.hpp"
+#include "reaction/joint_reactions.hpp"
 #include "commands/modes.hpp"
 
 namespace alembert {

@@ -6,9 +6,9 @@
 #include <iostream>
 
 #include "alembert/drift.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/contacts.hpp"
-#include "analysis/joint_reactions.hpp"
+#include "state/assemble.hpp"
+#include "contact/contacts.hpp"
+#include "reaction/joint_reactions.hpp"
 #include "commands/estimate.hpp"
 #include "commands/method.hpp"
 #include "commands/progress.hpp"

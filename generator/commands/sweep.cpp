@@ -9,7 +9,7 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/ensemble.hpp"
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "commands/grid.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"

@@ -9,7 +9,7 @@
 #include "formalism/joint_tree.hpp"
 #include "lower/flatten.hpp"
 #include "lower/share.hpp"
-#include "report/readable.hpp"
+#include "notation/readable.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 /// Evaluates a Program exactly, modulo the prime 2⁶¹ − 1, at a random point.
 ///
 ///     const ModularPoint point{.seed = 7};
-///     if (const auto at = evaluate_mod(program, point, roots))    // nothing at an unlucky point: try another seed
+///     if (const auto at = evaluate_mod(program, point, roots))    // nothing at an unusable point: try another seed
 ///         at->value[roots[0]] == other->value[other_root];
 ///
 /// Two programs at the same point see the same values, whatever their nodes are numbered: every random value is a
@@ -17,7 +17,7 @@
 ///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of π/2ᵏ
 ///    have their values. `given_angles` sets the point of an x by its value.
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol: this
-///    keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unlucky.
+///    keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unusable.
 ///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one and
 ///    the other of the pair. All other functions are random functions of their arguments' values.
 /// What the last line and √3, √5 … (no squares modulo this prime) leave out are identities such as
@@ -44,7 +44,7 @@ struct ModularPoint {
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
     std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
     int halves = 2;                        ///< turns are kept of x/2^halves: sin(x/4) needs 2
-    int finer = 0;                         ///< turns that are not given, of x/2^(halves + finer): halvings() of analysis/lucky.hpp
+    int finer = 0;                         ///< turns that are not given, of x/2^(halves + finer): halvings() of exact/square_points.hpp
 
     /// Uniform, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {
@@ -372,7 +372,7 @@ private:
 
 }  // namespace modular
 
-/// All that `roots` need. Nothing where the point is unlucky: a denominator is zero, what stands under a root is no
+/// All that `roots` need. Nothing where the point is unusable: a denominator is zero, what stands under a root is no
 /// square, an angle is divided by more than 2^halves.
 inline std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
                                                  std::span<const int> roots) {
