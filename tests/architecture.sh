@@ -17,20 +17,20 @@ ginac='#include.*(ginac|cln/)'
 mapfile -t runtime < <(files lib)
 mapfile -t scene < <(files generator/scene)
 mapfile -t below_model < <(files generator/scene generator/symbolic)
-mapfile -t emit < <(files generator/emit)
+mapfile -t without_ginac < <(files generator/program generator/emit)
+mapfile -t program < <(files generator/program)
 mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
 mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
 mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
 mapfile -t formalism < <(files generator/formalism generator/model)
 
-forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|lower|emit|analysis|report|commands|urdf)/' "${runtime[@]}"
+forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|program|lower|emit|analysis|report|commands|urdf)/' "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
-forbid 'a lower layer includes a higher one' '#include "(model|formalism|lower|emit|analysis|commands)/' "${below_model[@]}"
-forbid 'model or formalism includes what comes later' '#include "(lower|emit|analysis|commands)/' "${formalism[@]}"
-forbid 'GiNaC beyond lower' '#include.*ginac' "${emit[@]}" generator/lower/program.hpp generator/lower/program.cpp \
-    generator/lower/solve.cpp generator/lower/solve.hpp generator/lower/share.cpp generator/lower/share.hpp \
-    generator/lower/interpret.hpp
+forbid 'a lower layer includes a higher one' '#include "(model|formalism|program|lower|emit|analysis|commands)/' "${below_model[@]}"
+forbid 'model or formalism includes what comes later' '#include "(program|lower|emit|analysis|commands)/' "${formalism[@]}"
+forbid 'GiNaC beyond lower' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${without_ginac[@]}"
+forbid 'program includes another room' '#include "(scene|emit|analysis|report|commands|urdf)/' "${program[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"

@@ -27,7 +27,7 @@
 
 #include "analysis/lucky.hpp"
 #include "formalism/equations.hpp"
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 
