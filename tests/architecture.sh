@@ -40,7 +40,7 @@ done
 forbid 'the runtime includes the generator' "#include \"($every)/" "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
-forbid 'GiNaC in the rooms program and emit' '#include.*ginac' "${graph[@]}"
+forbid 'GiNaC in the rooms program and emit' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"

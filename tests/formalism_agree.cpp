@@ -9,8 +9,8 @@
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
-#include "lower/modular.hpp"
-#include "lower/prime_polynomial.hpp"
+#include "program/modular.hpp"
+#include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

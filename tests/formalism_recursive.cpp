@@ -14,8 +14,8 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
-#include "lower/flatten.hpp"
-#include "lower/modular.hpp"
+#include "program/flatten.hpp"
+#include "program/modular.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

@@ -11,8 +11,8 @@
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
-#include "lower/differentiate.hpp"
-#include "lower/partials.hpp"
+#include "program/differentiate.hpp"
+#include "program/partials.hpp"
 #include "scenes.hpp"
 #include "symbolic/symbols.hpp"
 

@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "lower/interpret.hpp"
-#include "lower/share.hpp"
-#include "lower/solve.hpp"
+#include "program/interpret.hpp"
+#include "program/share.hpp"
+#include "program/solve.hpp"
 
 using namespace alembert;
 

@@ -15,7 +15,7 @@
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
-#include "lower/quad.hpp"
+#include "program/quad.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

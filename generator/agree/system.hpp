@@ -10,9 +10,9 @@
 #include <map>
 #include <optional>
 
-#include "lower/interpret.hpp"
 #include "lower/lower.hpp"
-#include "lower/modular.hpp"
+#include "program/interpret.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 

@@ -23,8 +23,8 @@
 /// occurs whose identities the arithmetic does not know, "yes" (which then holds beside the variety too) is kept,
 /// and "no" must be seen at one of `states` in floating point as well; else nothing is said.
 
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -10,8 +10,8 @@
 /// smallest singular value of A, each row in units of its usual size, is below 1e-9. Coordinates that do not matter keep
 /// their values, angles are brought into ±π. t stays as it is. Mechanisms beyond some thirty constraints are not searched.
 
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "commands/pipeline.hpp"
-#include "lower/differentiate.hpp"
+#include "program/differentiate.hpp"
 
 namespace alembert {
 

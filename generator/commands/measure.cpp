@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "formalism/routhian.hpp"
-#include "lower/interpret.hpp"
 #include "lower/lower.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include "commands/canonical.hpp"
 #include "commands/foreign.hpp"
 #include "commands/separable.hpp"
-#include "lower/recurrence.hpp"
+#include "program/recurrence.hpp"
 
 namespace alembert {
 

@@ -10,7 +10,7 @@
 #include "commands/canonical.hpp"
 #include "commands/foreign.hpp"
 #include "emit/taylor.hpp"
-#include "lower/differentiate.hpp"
+#include "program/differentiate.hpp"
 
 namespace alembert {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "alembert/contact.hpp"
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

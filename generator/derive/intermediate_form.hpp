@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "formalism/equations.hpp"
-#include "lower/program.hpp"
+#include "program/program.hpp"
 #include "notation/readable.hpp"
 
 namespace alembert {

@@ -20,8 +20,8 @@
 #include "emit/templates.hpp"
 #include "emit/timely.hpp"
 #include "emit/writer.hpp"
-#include "lower/recurrence.hpp"
-#include "lower/solve.hpp"
+#include "program/recurrence.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 

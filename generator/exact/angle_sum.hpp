@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "lower/prime_polynomial.hpp"
+#include "program/prime_polynomial.hpp"
 
 namespace alembert {
 

@@ -27,7 +27,7 @@
 
 #include "exact/square_points.hpp"
 #include "formalism/equations.hpp"
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 ///
 /// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf ∂_p.
 
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 #include "symbolic/intermediates.hpp"
 
 namespace alembert {

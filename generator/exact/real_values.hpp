@@ -14,7 +14,7 @@
 
 #include <ginac/ginac.h>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Random points of the constraint variety f(q, t) = 0, exactly, modulo the prime of lower/modular.hpp.
+/// Random points of the constraint variety f(q, t) = 0, exactly, modulo the prime of program/modular.hpp.
 ///
 ///     const Variety variety = variety_points(program, positions, others, 3);
 ///     variety.on_variety && evaluate_mod(program, variety.points[0], positions)->value[positions[0]].is_zero()
@@ -19,7 +19,7 @@
 
 #include <vector>
 
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 

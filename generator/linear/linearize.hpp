@@ -16,7 +16,7 @@
 /// Solved for δq, δu in independent ones, and projected on the null space of A, δλ is gone. (Meijaard, Papadopoulos, Ruina &
 /// Schwab, Proc. R. Soc. A 463 (2007) 1955, appendix; Neimark & Fufaev, Dynamics of Nonholonomic Systems (1972), chapter VI.)
 ///
-/// Derivatives are exact: chain rule on each node of a Program (lower/jet.hpp), in long double.
+/// Derivatives are exact: chain rule on each node of a Program (program/jet.hpp), in long double.
 ///
 /// Steady: independent speeds do not change, and no coordinate moves that anything depends on. Which these are is found at random
 /// states near the given one: coordinates that neither u' nor the rates of the others hold are cyclic, in constrained scenes

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "formalism/equations.hpp"
-#include "lower/jet.hpp"
+#include "program/jet.hpp"
 
 namespace alembert {
 

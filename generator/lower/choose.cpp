@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
-#include "lower/flatten.hpp"
-#include "lower/share.hpp"
+#include "program/flatten.hpp"
+#include "program/share.hpp"
 #include "notation/readable.hpp"
 
 namespace alembert {

@@ -13,8 +13,8 @@
 
 #include <optional>
 
-#include "lower/program.hpp"
 #include "model/mechanism.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "formalism/kinematics.hpp"
-#include "lower/interpret.hpp"
 #include "lower/project.hpp"
 #include "lower/recursion.hpp"
-#include "lower/solve.hpp"
+#include "program/interpret.hpp"
+#include "program/solve.hpp"
 #include "symbolic/functions.hpp"
 
 namespace alembert {

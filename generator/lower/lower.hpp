@@ -15,9 +15,9 @@
 #include <functional>
 
 #include "formalism/equations.hpp"
-#include "lower/program.hpp"
 #include "lower/recursion_form.hpp"
 #include "model/energy.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -4,7 +4,7 @@
 #include "lower/project.hpp"
 
 #include "lower/lower.hpp"
-#include "lower/solve.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 

@@ -14,7 +14,7 @@
 /// there is nothing to move. No roots at all where that is true of each.
 
 #include "formalism/equations.hpp"
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

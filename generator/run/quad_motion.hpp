@@ -18,7 +18,7 @@
 #include <functional>
 #include <vector>
 
-#include "lower/quad.hpp"
+#include "program/quad.hpp"
 
 namespace alembert {
 

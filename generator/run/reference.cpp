@@ -10,7 +10,7 @@
 
 #include "alembert/dense.hpp"
 #include "lower/lower.hpp"
-#include "lower/tape.hpp"
+#include "program/tape.hpp"
 
 namespace alembert {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "lower/program.hpp"
 #include "lower/start.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lower/interpret.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -8,8 +8,8 @@
 ///
 /// Moments are looked at about the mass centre, whatever point the scene gives them about.
 
-#include "lower/interpret.hpp"
 #include "model/mechanism.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

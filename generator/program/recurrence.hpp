@@ -27,7 +27,7 @@
 ///
 /// `recurrences` throws ModelError for functions with a kink: abs, sign, min and max have no series there.
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/differentiate.hpp"
+#include "program/differentiate.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 #include <random>
 
-#include "lower/interpret.hpp"
-#include "lower/partials.hpp"
-#include "lower/solve.hpp"
+#include "program/interpret.hpp"
+#include "program/partials.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 

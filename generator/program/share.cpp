@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/share.hpp"
+#include "program/share.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
 
-#include "lower/rewriting.hpp"
+#include "program/rewriting.hpp"
 
 namespace alembert {
 

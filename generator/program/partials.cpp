@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/partials.hpp"
+#include "program/partials.hpp"
 
 #include <algorithm>
 #include <map>

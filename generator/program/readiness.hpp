@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -22,7 +22,7 @@
 #include <optional>
 #include <string>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

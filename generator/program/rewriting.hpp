@@ -8,7 +8,7 @@
 
 #include <functional>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 /// its arguments, so the derivative of what is evaluated carries rounding errors and nothing else. At a kink of abs, sign,
 /// min or max it is that of one side.
 
-#include "lower/interpret.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

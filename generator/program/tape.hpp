@@ -14,8 +14,8 @@
 #include <span>
 #include <utility>
 
-#include "lower/interpret.hpp"
-#include "lower/quad.hpp"
+#include "program/interpret.hpp"
+#include "program/quad.hpp"
 
 namespace alembert {
 

@@ -6,7 +6,7 @@
 /// A recursion adds two things at a time. Written as one sum, every product in it is a fused multiply-add, and what comes last can
 /// be added last.
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

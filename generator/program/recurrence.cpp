@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/recurrence.hpp"
+#include "program/recurrence.hpp"
 
 #include <fmt/format.h>
 

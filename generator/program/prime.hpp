@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

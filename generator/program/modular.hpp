@@ -33,9 +33,9 @@
 #include <utility>
 #include <vector>
 
-#include "lower/prime.hpp"
-#include "lower/program.hpp"
-#include "lower/turn.hpp"
+#include "program/prime.hpp"
+#include "program/program.hpp"
+#include "program/turn.hpp"
 
 namespace alembert {
 

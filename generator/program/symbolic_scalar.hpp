@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// Angles modulo 2⁶¹ − 1: points of the circle x² + y² = 1, which multiply as complex numbers. Those with plain coordinates
-/// (lower/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and every π/2ᵏ; π/3 is beside it.
+/// (program/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and every π/2ᵏ; π/3 is beside it.
 ///
 ///     const PrimeTurn third = turn.power(*PrimeTurn::exponent(Rational(1) / 3));    // third.power(3) is turn
 ///     PrimeTurn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every program
@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "lower/prime.hpp"
+#include "program/prime.hpp"
 
 namespace alembert {
 

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "lower/modular.hpp"
+#include "program/modular.hpp"
 
 namespace alembert {
 
@@ -130,7 +130,7 @@ inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
     }
 }
 
-/// In ascending order: the plain ones if all coefficients are plain (lower/prime.hpp). Of the zero polynomial: none.
+/// In ascending order: the plain ones if all coefficients are plain (program/prime.hpp). Of the zero polynomial: none.
 inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
     using namespace prime_polynomial;
     std::vector<Prime> found;

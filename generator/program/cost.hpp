@@ -8,7 +8,7 @@
 ///
 /// Chains are counted in cycles (readiness.hpp). A processor overlaps part of a chain with the next call, so that both count.
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

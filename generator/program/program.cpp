@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 #include <cln/integer.h>
 

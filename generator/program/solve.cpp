@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // M = L D Lᵀ:  d_k = M_kk,  l_ik = M_ik / d_k,  M_ij ← M_ij − l_ik M_jk;  then L y = f, z = D⁻¹ y, Lᵀ x = z
 // (Golub & Van Loan, Matrix Computations, §4.1).
-#include "lower/solve.hpp"
+#include "program/solve.hpp"
 
 #include <algorithm>
 #include <utility>

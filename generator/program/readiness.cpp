@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/readiness.hpp"
+#include "program/readiness.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/flatten.hpp"
+#include "program/flatten.hpp"
 
-#include "lower/rewriting.hpp"
+#include "program/rewriting.hpp"
 
 namespace alembert {
 

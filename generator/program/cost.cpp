@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/cost.hpp"
+#include "program/cost.hpp"
 
 #include <algorithm>
 
-#include "lower/readiness.hpp"
+#include "program/readiness.hpp"
 
 namespace alembert {
 

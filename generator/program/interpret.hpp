@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -11,7 +11,7 @@
 /// Greedy: the pair that occurs most often is taken first, ties by the canonical order, so the result is the same in
 /// every run (the idea is Breuer's, Generation of optimal code for expressions via factorization, CACM 12 (1969)).
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

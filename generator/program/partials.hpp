@@ -21,7 +21,7 @@
 #include <optional>
 #include <span>
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 
