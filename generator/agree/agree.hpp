@@ -3,7 +3,8 @@
 
 /// Do all formalisms say the same?
 ///
-///     const Agreement result = agree(derive_all(mechanism), mechanism);
+///     const Agreed all = agree(read_scene("scenes/textbook/coin.toml"));
+///     const Agreement result = agree(derive_all(mechanism).equations, mechanism);
 ///     result.verdict == Agreement::Verdict::proved
 ///
 /// First exactly, modulo 2⁶¹ − 1 at random points: the reduced row echelon form of [−Aᵀ M | f; 0 A | γ] is the same for
@@ -15,6 +16,7 @@
 /// evaluation does not know every identity between functions.
 
 #include "formalism/formalisms.hpp"
+#include "state/prepared.hpp"
 
 namespace alembert {
 
@@ -36,5 +38,15 @@ struct Agreement {
 
 /// Compares all with the first. `seconds`: how long the normal form may take.
 Agreement agree(const std::vector<Equations>& equations, const Mechanism& mechanism, double seconds = 10);
+
+/// The whole verb: a scene's formalisms and what they agree on.
+struct Agreed : Prepared {
+    Derivations derivations;
+    Agreement agreement;
+    double seconds = 0;  ///< by the clock on the wall
+};
+
+/// Derives by every formalism that applies, and compares. Throws SceneError for a mistake in the scene.
+Agreed agree(Scene scene);
 
 }  // namespace alembert

@@ -330,4 +330,10 @@ private:
 
 Audit audit_of(const Mechanism& mechanism) { return Auditing(mechanism).go(); }
 
+Audited audit(Scene scene) {
+    Audited result{prepared(std::move(scene))};
+    result.audit = audit_of(result.mechanism);
+    return result;
+}
+
 }  // namespace alembert

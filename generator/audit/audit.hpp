@@ -17,6 +17,8 @@
 #include "audit/singular_poses.hpp"
 #include "notation/phrase.hpp"
 
+#include "state/prepared.hpp"
+
 namespace alembert {
 
 struct AuditedConstraint {
@@ -57,5 +59,14 @@ struct Audit {
 };
 
 Audit audit_of(const Mechanism& mechanism);
+
+/// The whole verb: a scene with the audit of its constraints.
+struct Audited : Prepared {
+    Audit audit;
+};
+
+/// Throws SceneError for a mistake in the scene; contradictory constraints and an initial state that breaks them are no exception here,
+/// but stand in `audit.problem`.
+Audited audit(Scene scene);
 
 }  // namespace alembert

@@ -530,4 +530,12 @@ Checked check(const Scene& scene, const Mechanism& mechanism) {
     return Checker(scene, mechanism, equations).run();
 }
 
+CheckedScene check(Scene scene, const std::string& by) {
+    if (scene.claims.empty())
+        throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
+    CheckedScene result{derived(std::move(scene), {.by = by})};
+    result.checked = check(result.scene, result.mechanism);
+    return result;
+}
+
 }  // namespace alembert

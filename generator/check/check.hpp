@@ -23,6 +23,8 @@
 #include "check/slip.hpp"
 #include "scene/scene.hpp"
 
+#include "derive/derived.hpp"
+
 namespace alembert {
 
 enum class Verdict { proved, refuted, undecided, vacuous };
@@ -47,5 +49,12 @@ struct Checked {
 
 /// Throws SceneError for a claim that the mechanism cannot read.
 Checked check(const Scene& scene, const Mechanism& mechanism);
+
+/// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the teacher's choice.
+/// Throws ModelError where there are no claims.
+struct CheckedScene : Derived {
+    Checked checked;
+};
+CheckedScene check(Scene scene, const std::string& by = {});
 
 }  // namespace alembert

@@ -122,4 +122,10 @@ Impact impact(const Mechanism& mechanism) {
     return result;
 }
 
+Struck impact(Scene scene) {
+    Struck result{prepared(std::move(scene))};
+    result.hit = impact(result.mechanism);
+    return result;
+}
+
 }  // namespace alembert

@@ -22,6 +22,8 @@
 #include "lower/start.hpp"
 #include "notation/readable.hpp"
 
+#include "state/prepared.hpp"
+
 namespace alembert {
 
 struct Impact {
@@ -55,5 +57,11 @@ struct Impact {
 /// Throws ModelError for a gap that is negative at the start, IntegrationError where there are no rates after (the reason
 /// is that of `strike`), and what `assemble` throws for positions that break a constraint.
 Impact impact(const Mechanism& mechanism);
+
+/// The whole verb: a scene with what its impulses do.
+struct Struck : Prepared {
+    Impact hit;
+};
+Struck impact(Scene scene);
 
 }  // namespace alembert

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/derivation.hpp"
+
+#include <fmt/format.h>
+
+#include "notation/latex.hpp"
+#include "notation/text.hpp"
+#include "report/formula_page.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The four steps of the book but for the equations themselves.
+std::vector<Block> steps(const Derivation& shown, const Notation& n) {
+    const auto statements = [&](const std::vector<Statement>& list) {
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Statement& s : list) result.emplace_back(n.left(s), n.phrase(s.value));
+        return result;
+    };
+    std::string names;
+    for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + n.inline_phrase(q);
+    const int freedom = shown.degrees_of_freedom;
+    std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
+                                           freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
+                               {}}};
+
+    if (!shown.angular.empty()) blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
+    std::vector<Statement> energies = shown.energies;
+    const auto total = [&](const char* letter, const Phrase& value) {
+        energies.push_back({Statement::Kind::energy, letter, "", {}, value});
+    };
+    if (shown.lagrangian) {
+        total("L", *shown.lagrangian);
+    } else {
+        total("T", shown.kinetic);
+        total("V", shown.potential);
+    }
+    blocks.push_back({shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
+                      statements(energies)});
+    blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
+                                           : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
+                      statements(shown.forces)});
+    for (std::size_t k = 0; k < shown.sections.size(); ++k) {
+        const Section& section = shown.sections[k];
+        blocks.push_back({(k == 0 ? "4. " : "") + section.words, statements(section.statements)});
+        for (const auto& [left, right] : section.equalities)
+            blocks.back().equalities.emplace_back(n.phrase(left), n.phrase(right));
+    }
+    if (!shown.sections.empty()) return blocks;
+    blocks.push_back({shown.lagrangian ? "4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:"
+                                       : "4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:",
+                      statements(shown.derivatives)});
+    return blocks;
+}
+
+}  // namespace
+
+Json as_json(const DerivedScene& d) {
+    const Derivation& shown = d.shown;
+    const Mechanism& m = d.mechanism;
+    Json result;
+    result["formalism"] = shown.formalism;
+    result["degrees_of_freedom"] = shown.degrees_of_freedom;
+    result["coordinates"] = Json::array();
+    result["speeds"] = Json::array();
+    for (const GiNaC::symbol& q : m.q) {
+        result["coordinates"].push_back(q.get_name());
+        if (m.speeds.empty()) result["speeds"].push_back(q.get_name() + "'");
+    }
+    for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
+    result["multipliers"] = Json::array();
+    for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
+    if (!shown.gaps.empty()) {
+        result["gaps"] = Json::object();
+        for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
+    }
+    if (!shown.reactions.empty()) {
+        result["reactions"] = Json::object();
+        for (const Statement& r : shown.reactions) result["reactions"][r.of][text(*r.by)] = text(r.value);
+    }
+    result["kinetic"] = text(shown.kinetic);
+    result["potential"] = text(shown.potential);
+    if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
+    result["equations"] = Json::array();
+    for (const ReadableEquation& e : shown.equations) {
+        Json one = {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}};
+        if (e.divided_by) one["divided_by"] = text(*e.divided_by);
+        result["equations"].push_back(std::move(one));
+    }
+    if (!shown.kinematics.empty()) {
+        result["kinematics"] = Json::array();
+        for (const auto& [rate, value] : shown.kinematics)
+            result["kinematics"].push_back({{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
+    }
+    for (const auto* list : {&shown.speeds, &shown.definitions})
+        for (const auto& [name, value] : *list)
+            result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
+    for (const Statement& s : d.joint_loads) result["joint_reactions"][s.of][s.letter] = text(s.value);
+    return result;
+}
+
+std::string as_page(const DerivedScene& d, const PageOptions& options) {
+    const Derivation& shown = d.shown;
+    const Notation n = notation_of(options.format);
+    std::vector<Block> blocks;
+    if (options.format == "text" && !d.scene.title.empty()) blocks.push_back({d.scene.title, {}});
+    if (!shown.definitions.empty()) {
+        blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
+        for (const auto& [name, value] : shown.definitions)
+            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+        for (const Section& section : shown.sections) {
+            if (!options.steps) break;
+            blocks.push_back({section.words, {}});
+            for (const Statement& s : section.statements) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+        }
+    } else if (options.steps) {
+        for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
+    }
+    const bool free = d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
+    if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
+    for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
+    blocks.push_back({fmt::format("Equations of motion ({}{}):",
+                                  shown.title,
+                                  !d.by.empty()        ? ""
+                                  : !d.equations.h.empty() ? "; the scene has generalized speeds"
+                                  : free && d.has_unilateral_reactions ? "; the coordinates are independent while all gaps are open"
+                                  : free              ? "; the coordinates are independent"
+                                                      : "; the coordinates are not independent"),
+                      {}});
+    for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (!shown.kinematics.empty()) {
+        blocks.push_back({"with the rates of the coordinates:", {}});
+        for (const auto& [rate, value] : shown.kinematics) blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
+    }
+    for (const Phrase& pole : shown.poles)
+        blocks.push_back({fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
+    if (!shown.constraints.empty()) {
+        const bool all = d.equations.A.empty();
+        blocks.push_back({all ? "The constraints, which the speeds obey:"
+                              : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
+        for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
+    if (!shown.reactions.empty()) {
+        blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
+        for (const Statement& r : shown.reactions) blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
+    }
+    if (!d.joint_loads.empty()) {
+        blocks.push_back({"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:", {}});
+        for (const Statement& s : d.joint_loads) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+    }
+    if (!shown.gaps.empty()) {
+        blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
+        for (const auto& [name, phrase] : shown.gaps)
+            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
+    }
+    for (std::size_t i = 0; i < shown.equations.size(); ++i)
+        if (shown.equations[i].divided_by)
+            blocks.push_back({fmt::format("The equation of {} has been divided by {}.",
+                                          n.inline_phrase(shown.rows[i]),
+                                          n.inline_phrase(*shown.equations[i].divided_by)),
+                              {}});
+    return n.page(blocks);
+}
+
+}  // namespace alembert
