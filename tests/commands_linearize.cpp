@@ -171,3 +171,20 @@ y = "n*x"
     CHECK(matrix(pendulum["matrices"]["K"])(0, 0) == doctest::Approx(2 * 9.81));
     CHECK_FALSE(json_of({"linearize", bicycle, "--at", "kick=0", "--json"}).contains("symbolic"));
 }
+
+TEST_CASE("linearize: a kink at the state exits with 3 and names the function, and beside it the scene is linearized") {
+    const std::string text = "[parameters]\nk = 2\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
+                             "[[force]]\nat = \"P\"\nvector = [\"k*(1 - abs(x)) - k*max(1 - 2*abs(x), 0)\", 0]\n";
+    const std::string scene = temporary("kink.toml", text);
+    const auto result = run({"linearize", scene, "--json"});
+    CHECK(result.exit == 3);
+    CHECK(result.out.empty());
+    CHECK(result.err.find("abs(x)") != std::string::npos);
+    const Json beside = json_of({"linearize", scene, "--at", "x=-1", "--json"});
+    CHECK(beside["matrices"]["A"][1][0] == 2);
+    const std::string drag = temporary("drag.toml", "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
+                                                    "[[force]]\nat = \"P\"\nvector = [\"-x'*sqrt(x'^2+y'^2)-4*x\", \"-y\"]\n");
+    const Json near = json_of({"linearize", drag, "--json"});
+    CHECK(near["matrices"]["K"] == Json::parse("[[4.0, 0.0], [0.0, 1.0]]"));
+    CHECK(near["matrices"]["C"] == Json::parse("[[0.0, 0.0], [0.0, 0.0]]"));
+}
