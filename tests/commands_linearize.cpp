@@ -188,3 +188,17 @@ TEST_CASE("linearize: a kink at the state exits with 3 and names the function, a
     CHECK(near["matrices"]["K"] == Json::parse("[[4.0, 0.0], [0.0, 1.0]]"));
     CHECK(near["matrices"]["C"] == Json::parse("[[0.0, 0.0], [0.0, 0.0]]"));
 }
+
+// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards and returns from a bounce.
+TEST_CASE("linearize: a contact that presses is a constraint, and one that touches without a force is refused") {
+    const auto scene = [](const std::string& weight) {
+        return temporary("floor" + weight + ".toml",
+                         "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n[[force]]\n"
+                         "at = \"P\"\nvector = [\"-4*x\", \"-3*y - " + weight + "\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n"
+                         "restitution = 0.5\n");
+    };
+    CHECK(json_of({"linearize", scene("1"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-4.0, 0.0]]"));
+    const auto touching = run({"linearize", scene("0"), "--json"});
+    CHECK(touching.exit == 3);
+    CHECK(touching.err.find("contact floor touches at this state without a force") != std::string::npos);
+}

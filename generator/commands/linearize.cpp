@@ -221,7 +221,14 @@ int linearize(const Request& request) {
         const ContactView view(d.mechanism);
         const State<double> state = start.state();
         check_gaps(d.scene, d.mechanism, view, state, closed_gap);
-        const std::vector<int> closed = contacts_at_rest(view, state, closed_gap).closed;
+        const Lasting lasting = contacts_at_rest(view, state, closed_gap);
+        const std::vector<std::string> idle = touching_without_force(view, state, lasting);
+        if (!idle.empty())
+            throw ModelError(fmt::format("contact {} touches at this state without a force: it presses on one side of the state and opens on "
+                                         "the other, so the equations of motion have no first derivative there. Give a state with --at in "
+                                         "which the contact presses or is open, or leave the contact out",
+                                         fmt::join(idle, ", ")));
+        const std::vector<int>& closed = lasting.closed;
         if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
     }
     const Linearization near = linearized(d, request, start);
