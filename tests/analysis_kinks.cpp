@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One-sided derivatives against closed forms, and which states linearize accepts where functions of the scene have kinks.
+// One-sided derivatives against closed forms, and which states linearize accepts where functions of the scene have
+// kinks.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -18,21 +19,25 @@ using namespace alembert;
 
 namespace {
 
-Germ along(double x, double slope) { return Germ::path(x, 1e-13L, {static_cast<long double>(slope)}); }
+Germ along(double x, double slope) {
+    return Germ::path(x, 1e-13L, {static_cast<long double>(slope)});
+}
 
 /// Σ c_k ε^k of this germ is the given function of ε to the power of ε that it is known to.
 void check_series(const Germ& germ, long double (*f)(long double)) {
     REQUIRE(germ.defined());
     const long double epsilon = 0.01L;
     long double sum = 0;
-    for (const Germ::Term& term : germ.terms()) sum += term.value * std::pow(epsilon, static_cast<long double>(term.exponent));
+    for (const Germ::Term& term : germ.terms())
+        sum += term.value * std::pow(epsilon, static_cast<long double>(term.exponent));
     CHECK(std::abs(sum - f(epsilon)) < 1e-9L);  // (0.01)^5 times a coefficient of ten
 }
 
 /// A particle of mass 2 in x and y with this force along x and −3 y along y, and this potential.
 Linearization linearized(const std::string& force, const std::string& potential, double x, double y = 0) {
     const std::string text = fmt::format(
-        "[parameters]\nk = 2\nnone = 0\n[coordinates]\nx = {}\ny = {}\n[[particle]]\nname = \"P\"\nmass = 2\nposition = [\"x\", \"y\"]\n"
+        "[parameters]\nk = 2\nnone = 0\n[coordinates]\nx = {}\ny = {}\n[[particle]]\nname = \"P\"\nmass = "
+        "2\nposition = [\"x\", \"y\"]\n"
         "[[force]]\nat = \"P\"\nvector = [\"{}\", \"-3*y\"]\n{}",
         x, y, force, potential.empty() ? "" : "[energy]\npotential = \"" + potential + "\"\n");
     const Mechanism m = build(parse_scene(text, "kink.toml"));
@@ -52,7 +57,9 @@ std::string refusal(const std::string& force, const std::string& potential, doub
     return "";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -67,13 +74,16 @@ TEST_CASE("germ: each function is the series of its closed form on a path throug
     check_series(pow(along(0, 1), Germ(2.5L)), [](long double e) { return std::pow(e, 2.5L); });
     check_series(pow(along(0, -1), Germ(3)), [](long double e) { return -e * e * e; });
     check_series(sin(along(0, 1)) / abs(along(0, 1)), [](long double e) { return std::sin(e) / e; });
-    check_series(tan(along(0.4, 1)) + exp(along(-1, 2)), [](long double e) { return std::tan(0.4 + e) + std::exp(-1 + 2 * e); });
-    check_series(tanh(along(0.3, 1)) * log(along(2, 1)), [](long double e) { return std::tanh(0.3 + e) * std::log(2 + e); });
+    check_series(tan(along(0.4, 1)) + exp(along(-1, 2)),
+                 [](long double e) { return std::tan(0.4 + e) + std::exp(-1 + 2 * e); });
+    check_series(tanh(along(0.3, 1)) * log(along(2, 1)),
+                 [](long double e) { return std::tanh(0.3 + e) * std::log(2 + e); });
     check_series(sinh(along(0.3, 1)) - atan(along(2, 1)) * cosh(along(1, 1)),
                  [](long double e) { return std::sinh(0.3 + e) - std::atan(2 + e) * std::cosh(1 + e); });
     CHECK_FALSE(sqrt(along(0, -1)).defined());
     CHECK_FALSE((Germ(1) / Germ(0)).defined());
-    CHECK(sin(Germ::path(std::numbers::pi, 1e-13L, {1})).side() == -1);  // π is not exact in floating point; the slope decides
+    CHECK(sin(Germ::path(std::numbers::pi, 1e-13L, {1})).side() ==
+          -1);  // π is not exact in floating point; the slope decides
 }
 
 TEST_CASE("linearize: kinks are refused, with the slopes of both sides") {
@@ -100,8 +110,9 @@ TEST_CASE("linearize: kinks are refused, with the slopes of both sides") {
     CHECK(has(refusal("-atan2(y, x)", ""), "atan2(y,x)"));
     CHECK(has(refusal("-atan2(y, x)", "", -1), "jumps where y"));
     CHECK(has(refusal("asin(x) - pi/2", "", 1), "has no value where x grows"));
-    CHECK(has(refusal("asin(1 - x^2) - pi/2", ""), "has the slope -1.41421 in x where x grows, and 1.41421 where it falls"));
-    CHECK(has(refusal("-sign(x)*y", ""), "sign(x)"));             // zero along both axes
+    CHECK(has(refusal("asin(1 - x^2) - pi/2", ""),
+              "has the slope -1.41421 in x where x grows, and 1.41421 where it falls"));
+    CHECK(has(refusal("-sign(x)*y", ""), "sign(x)"));  // zero along both axes
     CHECK(has(refusal("-min(abs(x), abs(y))", ""), "min(abs(x),abs(y))"));
     CHECK(has(refusal("-max(0, min(x, y) - 10*abs(x - y))", ""), "max"));  // not zero in a narrow cone alone
     CHECK(has(refusal("abs(sin(x))", "", std::numbers::pi), "x = 3.14159"));
@@ -116,7 +127,8 @@ TEST_CASE("linearize: a potential without a second derivative is refused, and sa
     CHECK(has(refusal("0", "k/2*(sqrt(x^2 + y^2) - 1)^2"), "two limits: 2 where x grows, and -2 where x falls"));
 }
 
-TEST_CASE("linearize: what is differentiable although a function in it is not has the matrices of its derivative") {
+TEST_CASE(
+    "linearize: what is differentiable although a function in it is not has the matrices of its derivative") {
     const auto stiffness = [](const std::string& force, const std::string& potential, double x = 0) {
         const Linearization near = linearized(force, potential, x);
         CAPTURE(force);
@@ -125,12 +137,13 @@ TEST_CASE("linearize: what is differentiable although a function in it is not ha
         CHECK(std::abs(near.P(1, 0)) < 1e-14);
         return near.P(0, 0);
     };
-    for (const char* force : {"-5*x - k*x*abs(x)", "-5*x - abs(x)^3", "-5*x + max(x, 0)^2", "-5*x - sign(x)*y^2", "-5*x + abs(x)^1.5",
-                              "-5*x - sqrt(x^2)^3", "-5*x - x*sqrt(x^2 + y^2)", "-5*x + min(x, -x) + max(x, -x)", "-5*x + abs(x) - max(x, -x)",
-                              "-5*x + x'*abs(x)", "-5*x + none*abs(x)", "-5*x*sign(x)^2"})
+    for (const char* force :
+         {"-5*x - k*x*abs(x)", "-5*x - abs(x)^3", "-5*x + max(x, 0)^2", "-5*x - sign(x)*y^2", "-5*x + abs(x)^1.5",
+          "-5*x - sqrt(x^2)^3", "-5*x - x*sqrt(x^2 + y^2)", "-5*x + min(x, -x) + max(x, -x)",
+          "-5*x + abs(x) - max(x, -x)", "-5*x + x'*abs(x)", "-5*x + none*abs(x)", "-5*x*sign(x)^2"})
         CHECK(stiffness(force, "") == doctest::Approx(5).epsilon(1e-14));
     CHECK(stiffness("0", "abs(x)^3 + x^2") == doctest::Approx(2).epsilon(1e-14));
-    CHECK(stiffness("-5*abs(x) + 5", "", 1) == doctest::Approx(5).epsilon(1e-14));   // off the kink
+    CHECK(stiffness("-5*abs(x) + 5", "", 1) == doctest::Approx(5).epsilon(1e-14));  // off the kink
     CHECK(stiffness("x^1.5 - 1", "", 1) == doctest::Approx(-1.5).epsilon(1e-14));
     CHECK(stiffness("-tanh(x/0.001)", "") == doctest::Approx(1000).epsilon(1e-14));
     CHECK(stiffness("-sqrt(x^2 + 0.01) + 0.1 - 5*x", "") == doctest::Approx(5).epsilon(1e-14));  // smoothed

@@ -8,11 +8,7 @@
 #include <random>
 
 #include "alembert/error.hpp"
-#include "analysis/expression_of.hpp"
-#include "analysis/paths.hpp"
-#include "lower/lower.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "analysis/kink_message.hpp"
 
 namespace alembert {
 
@@ -21,7 +17,7 @@ using Column = VectorOf<long double>;
 
 namespace {
 
-constexpr Index few_directions = 12;         // all sums and differences of two of so many are tried
+constexpr Index few_directions = 12;           // all sums and differences of two of so many are tried
 constexpr long double rest_known_to = 1e-11L;  // of max(1, |u'|), max(1, |λ|)
 constexpr long double linear_to = 1e-9L;
 
@@ -41,9 +37,15 @@ struct Wanted {
 
 class Differentiability {
 public:
-    Differentiability(const Residuals& r, const Split& split, const Instant<long double>& at, const Tangent<long double>& here,
-                      const Mechanism& m, const Equations& e)
-        : r_(r), split_(split), at_(at), here_(here), m_(m), e_(e), size_(r.n + r.s + 1 + static_cast<Index>(r.inputs.size())) {}
+    Differentiability(const Residuals& r, const Split& split, const Instant<long double>& at,
+                      const Tangent<long double>& here, const Mechanism& m, const Equations& e)
+        : r_(r),
+          split_(split),
+          at_(at),
+          here_(here),
+          m_(m),
+          e_(e),
+          size_(r.n + r.s + 1 + static_cast<Index>(r.inputs.size())) {}
 
     void check() {
         point_ = on_path(r_, at_, Column::Zero(size_));
@@ -61,23 +63,29 @@ public:
 private:
     /// What is differentiated, in the notation of linearize.hpp; forces with the sign of f.
     void collect() {
-        const auto about = [](long double x, int sign) {  // at an equilibrium where the formula has no value u' is 0
-            return Germ(std::isfinite(x) ? sign * x : 0, std::isfinite(x) ? rest_known_to * std::max(1.0L, std::abs(x)) : rest_known_to);
+        const auto about = [](long double x,
+                              int sign) {  // at an equilibrium where the formula has no value u' is 0
+            return Germ(std::isfinite(x) ? sign * x : 0,
+                        std::isfinite(x) ? rest_known_to * std::max(1.0L, std::abs(x)) : rest_known_to);
         };
         const auto single = [&](const std::string& name, int node, bool derivative) {
             wanted_.push_back({name, {{node, Germ(1)}}, derivative});
         };
-        const auto mass = [&](int i, int j) { return r_.mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)]; };
+        const auto mass = [&](int i, int j) {
+            return r_.mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)];
+        };
         for (int i = 0; i < r_.s; ++i) {
             const std::string name = fmt::format("the right-hand side of the equation for {}'", speed(i));
             Wanted force{name, {{r_.forcing[i], Germ(1)}}};
             for (int j = 0; j < r_.s; ++j) force.terms.emplace_back(mass(i, j), about(here_.udot[j], -1));
-            for (int k = 0; k < r_.kept; ++k) force.terms.emplace_back(r_.row[k * r_.s + i], about(here_.lambda[k], 1));
+            for (int k = 0; k < r_.kept; ++k)
+                force.terms.emplace_back(r_.row[k * r_.s + i], about(here_.lambda[k], 1));
             wanted_.push_back(std::move(force));
         }
         for (int k = 0; k < r_.kept; ++k) {
             Wanted acceleration{"the acceleration of a constraint", {{r_.gamma[k], Germ(-1)}}};
-            for (int i = 0; i < r_.s; ++i) acceleration.terms.emplace_back(r_.row[k * r_.s + i], about(here_.udot[i], 1));
+            for (int i = 0; i < r_.s; ++i)
+                acceleration.terms.emplace_back(r_.row[k * r_.s + i], about(here_.udot[i], 1));
             wanted_.push_back(std::move(acceleration));
         }
         for (const int node : r_.mass) single("the mass matrix", node, false);
@@ -94,8 +102,8 @@ private:
             if (j == independent) continue;
             columns_.push_back(j);
             names_.push_back(j < static_cast<Index>(split_.q.size()) ? m_.q[split_.q[j]].get_name()
-                             : j < independent                       ? speed(split_.u[j - static_cast<Index>(split_.q.size())])
-                                                                     : input(r_.inputs[j - independent - 1]));
+                             : j < independent ? speed(split_.u[j - static_cast<Index>(split_.q.size())])
+                                               : input(r_.inputs[j - independent - 1]));
         }
     }
 
@@ -106,7 +114,8 @@ private:
     /// Both ways along Σ weight · direction, with some curvature across the constraints.
     Sides sides(const Column& weight) {
         Column d = Column::Zero(size_), c = Column::Zero(size_);
-        for (std::size_t j = 0; j < columns_.size(); ++j) d += weight[static_cast<Index>(j)] * here_.along.col(columns_[j]);
+        for (std::size_t j = 0; j < columns_.size(); ++j)
+            d += weight[static_cast<Index>(j)] * here_.along.col(columns_[j]);
         for (const int i : split_.q_dependent) c[i] = unit();
         for (const int i : split_.u_dependent) c[r_.n + i] = unit();
         return {on_path(r_, at_, d, c), on_path(r_, at_, -d, -c)};
@@ -159,20 +168,26 @@ private:
         return std::abs(found.value - sum) <= allowed;
     }
 
-    /// What is wrong with this function on the two sides; empty where nothing is. `by`: the variable that changes, if it is one.
+    /// What is wrong with this function on the two sides; empty where nothing is. `by`: the variable that changes,
+    /// if it is one.
     std::string fault(const Wanted& f, const Germ& above, const Germ& below, const std::string& by) const {
         const Germ here = f.on(point_);
         if (!here.defined() && !above.defined() && !below.defined())
             return "has no value at this state: it divides by 0, or an argument is outside its function's domain";
         const auto side = [&](bool up) {
-            return by.empty() ? std::string("in some directions") : fmt::format("where {} {}", by, up ? "grows" : "falls");
+            return by.empty() ? std::string("in some directions")
+                              : fmt::format("where {} {}", by, up ? "grows" : "falls");
         };
         for (const bool up : {true, false}) {
             const Germ& x = up ? above : below;
-            if (!x.defined()) return fmt::format("has no value {}: the state is on the border of its domain", side(up));
+            if (!x.defined())
+                return fmt::format("has no value {}: the state is on the border of its domain", side(up));
             const Germ::Term *first = x.leading(), start = x.at(0), rest = here.at(0);
-            if (first != nullptr && first->exponent < -1e-9) return fmt::format("grows without bound {}", side(up));
-            if (here.defined() && std::abs(start.value - rest.value) > start.error + rest.error + linear_to * (std::abs(start.value) + std::abs(rest.value)))
+            if (first != nullptr && first->exponent < -1e-9)
+                return fmt::format("grows without bound {}", side(up));
+            if (here.defined() &&
+                std::abs(start.value - rest.value) >
+                    start.error + rest.error + linear_to * (std::abs(start.value) + std::abs(rest.value)))
                 return fmt::format("jumps {}: from {} to {}", side(up), shown(rest.value), shown(start.value));
             if (!f.derivative) continue;
             for (const Germ::Term& term : x.terms())
@@ -181,18 +196,22 @@ private:
             if (x.order() <= 1) return fmt::format("has a slope that the series do not decide {}", side(up));
         }
         const Germ::Term up = above.at(0), down = below.at(0);
-        if (!here.defined() && std::abs(up.value - down.value) > up.error + down.error + linear_to * (std::abs(up.value) + std::abs(down.value)))
-            return fmt::format("has no value at this state, and two limits: {} {}, and {} {}", shown(up.value), side(true), shown(down.value), side(false));
+        if (!here.defined() && std::abs(up.value - down.value) >
+                                   up.error + down.error + linear_to * (std::abs(up.value) + std::abs(down.value)))
+            return fmt::format("has no value at this state, and two limits: {} {}, and {} {}", shown(up.value),
+                               side(true), shown(down.value), side(false));
         if (!here.defined()) return "has no value at this state itself, as the formula divides by 0 there";
         if (!f.derivative || slope(above, below)) return "";
         const std::string one = shown(above.at(1).value), other = shown(-below.at(1).value);
         return by.empty() ? "has slopes in two opposite directions that are not those of a linear function"
-                          : fmt::format("has the slope {} in {} where {} grows, and {} where it falls", one, by, by, other);
+                          : fmt::format("has the slope {} in {} where {} grows, and {} where it falls", one, by,
+                                        by, other);
     }
 
     static std::string shown(long double x) { return fmt::format("{:.6g}", static_cast<double>(x) + 0.0); }
 
-    /// Critical functions in this sum that are not smooth on these sides; all critical ones in it where it is their combination.
+    /// Critical functions in this sum that are not smooth on these sides; all critical ones in it where it is
+    /// their combination.
     std::vector<int> blamed(const Wanted& f, const Sides& both) const {
         std::vector<int> roots, found, all;
         for (const auto& [node, factor] : f.terms)
@@ -206,79 +225,15 @@ private:
         return found.empty() ? all : found;
     }
 
-    [[noreturn]] void refuse(const std::vector<int>& nodes, const std::string& where, const std::string& what) const {
-        std::vector<std::string> functions, labels;
-        for (const int id : nodes) add(functions, text_of(r_.program, id));
-        in_the_scene(functions, labels);
-        if (functions.size() > 3) functions.resize(3);
-        throw ModelError(fmt::format("the equations of motion have no first derivative at {}, so they cannot be linearized there: because of "
-                                     "{}{}, {} {}. A force must have a first derivative at the state, and a potential a second one. Give a "
-                                     "state off this point with --at, or a function that is smooth there, such as sqrt(x^2 + e^2) for abs(x)",
-                                     place(nodes), fmt::join(functions, ", "), labels.empty() ? "" : fmt::format(" in {}", fmt::join(labels, ", ")),
-                                     where, what));
-    }
-
-    static void add(std::vector<std::string>& list, const std::string& item) {
-        if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
-    }
-
-    std::string text_of(const Program& program, int id) const {
-        std::vector<GiNaC::symbol> unknown;
-        for (const Mechanism::Input& input : m_.inputs) unknown.insert(unknown.end(), input.derivative.begin(), input.derivative.end());
-        const bool in_rates = e_.h.empty() || &program != &r_.program;
-        const auto value = in_rates || r_.s <= r_.n ? expression_of(program, id, m_, unknown) : std::nullopt;
-        if (!value) return fmt::format("{}(…)", name_of(program[id].op));
-        GiNaC::exmap speeds;
-        for (int i = 0; i < r_.s && !in_rates; ++i) speeds[m_.qdot[i]] = e_.u[i];
-        const auto f = fourier(value->subs(speeds), *m_.symbols, 400);
-        return f ? text(readable(*f)) : fmt::format("{}(…)", name_of(program[id].op));
-    }
-
-    /// The critical functions of the scene's energies and loads, with the labels of these. Among them those in `functions`, or all
-    /// where these appear by differentiation alone, as sign(x) of abs(x), and no change where there are none.
-    void in_the_scene(std::vector<std::string>& functions, std::vector<std::string>& labels) const {
-        std::vector<Part> parts;
-        for (const auto* list : {&m_.kinetic, &m_.potential}) parts.insert(parts.end(), list->begin(), list->end());
-        if (m_.given_lagrangian) parts.push_back({"the Lagrangian", *m_.given_lagrangian});
-        for (const Load& load : m_.loads)
-            for (const Load::Pair& pair : load.pairs)
-                for (const GiNaC::ex& value : {pair.force, pair.velocity}) parts.push_back({load.label, value});
-        std::vector<GiNaC::ex> values;
-        for (const Part& part : parts) values.push_back(part.value);
-        Program program = begun(m_);
-        const std::vector<int> nodes = lower_expressions(program, m_, values);
-        State<Germ> state;
-        const auto about = [](long double x) { return Germ(x, 1e-13L * std::max(1.0L, std::abs(x))); };
-        for (const long double x : at_.parameters) state.parameters.push_back(Germ(x));
-        for (const long double x : at_.q) state.q.push_back(about(x));
-        for (const int node : r_.rate) state.qdot.push_back(about(point_[node].at(0).value));
-        state.t = Germ(at_.t);
-        const std::vector<Germ> value = interpret(program, state);
-        std::vector<std::pair<std::string, std::string>> found;  // function, label
-        for (std::size_t k = 0; k < nodes.size(); ++k)
-            for (const int id : critical_nodes(program, std::vector<int>{nodes[k]}, value)) found.emplace_back(text_of(program, id), parts[k].label);
-        const auto is_known = [&](const auto& item) { return std::find(functions.begin(), functions.end(), item.first) != functions.end(); };
-        if (std::any_of(found.begin(), found.end(), is_known)) std::erase_if(found, [&](const auto& item) { return !is_known(item); });
-        if (!found.empty()) functions.clear();
-        for (const auto& [function, label] : found) add(functions, function), add(labels, label);
-    }
-
-    /// "x = 0, y' = 1": of the variables in these functions.
-    std::string place(const std::vector<int>& nodes) const {
-        std::vector<std::string> result;
-        for (const int id : r_.program.needed(nodes)) {
-            const Variable& v = r_.program[id].variable;
-            if (r_.program[id].op != Op::variable) continue;
-            const auto i = static_cast<std::size_t>(v.index);
-            if (v.kind == Variable::Kind::coordinate) result.push_back(fmt::format("{} = {}", m_.q[i].get_name(), shown(at_.q[i])));
-            if (v.kind == Variable::Kind::rate) result.push_back(fmt::format("{} = {}", speed(v.index), shown(at_.u[i])));
-            if (v.kind == Variable::Kind::unknown) result.push_back(fmt::format("{} = {}", input(v.index), shown(point_[id].at(0).value)));
-        }
-        return result.empty() ? "this state" : fmt::format("{}", fmt::join(result, ", "));
+    [[noreturn]] void refuse(const std::vector<int>& nodes, const std::string& where,
+                             const std::string& what) const {
+        throw ModelError(no_derivative({r_, at_, point_, m_, e_}, nodes, fmt::format("{} {}", where, what)));
     }
 
     std::string speed(int i) const { return e_.u[i].get_name(); }
-    std::string input(int k) const { return m_.inputs[k / 3].derivative[0].get_name() + std::string(static_cast<std::size_t>(k % 3), '\''); }
+    std::string input(int k) const {
+        return m_.inputs[k / 3].derivative[0].get_name() + std::string(static_cast<std::size_t>(k % 3), '\'');
+    }
 
     const Residuals& r_;
     const Split& split_;
@@ -298,8 +253,9 @@ private:
 
 }  // namespace
 
-void check_differentiable(const Residuals& residuals, const Split& split, const Instant<long double>& at, const Tangent<long double>& here,
-                          const Mechanism& mechanism, const Equations& equations) {
+void check_differentiable(const Residuals& residuals, const Split& split, const Instant<long double>& at,
+                          const Tangent<long double>& here, const Mechanism& mechanism,
+                          const Equations& equations) {
     Differentiability(residuals, split, at, here, mechanism, equations).check();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Series in ε with leading term c ε^v:  (c ε^v (1 + r))^a = c^a ε^(va) Σ binomial(a, k) r^k,   f(c + δ) = Σ f^(k)(c)/k! δ^k.
-// Taylor coefficients of tanh and atan come from y' = 1 − y² and y' (1 + x²) = 1.
+// Series in ε with leading term c ε^v:  (c ε^v (1 + r))^a = c^a ε^(va) Σ binomial(a, k) r^k,   f(c + δ) = Σ
+// f^(k)(c)/k! δ^k. Taylor coefficients of tanh and atan come from y' = 1 − y² and y' (1 + x²) = 1.
 #include "lower/germ.hpp"
 
 #include <cmath>
@@ -11,9 +11,9 @@ namespace {
 
 using Real = Germ::Real;
 
-constexpr double known_to = 6;        // power of ε up to which a series is kept
-constexpr std::size_t longest = 14;   // Taylor coefficients
-constexpr double same = 1e-9;         // exponents that differ by less are equal
+constexpr double known_to = 6;       // power of ε up to which a series is kept
+constexpr std::size_t longest = 14;  // Taylor coefficients
+constexpr double same = 1e-9;        // exponents that differ by less are equal
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
 /// Of sin(c + s), or cos with a quarter turn more.
@@ -50,7 +50,8 @@ Germ Germ::undefined() {
 Germ Germ::path(Real x, Real error, const std::vector<Real>& steps) {
     Germ result(x, error);
     for (std::size_t k = 0; k < steps.size(); ++k)
-        if (steps[k] != 0) result.terms_.push_back({static_cast<double>(k + 1), steps[k], rounding * std::abs(steps[k])});
+        if (steps[k] != 0)
+            result.terms_.push_back({static_cast<double>(k + 1), steps[k], rounding * std::abs(steps[k])});
     return result;
 }
 
@@ -272,8 +273,9 @@ Germ atan2(const Germ& y, const Germ& x) {
     const Germ::Term *first_y = y.leading(), *first_x = x.leading();
     if (first_y == nullptr && first_x == nullptr) return Germ(0);
     if (first_y == nullptr) return x.side() < 0 ? Germ(pi) : Germ(0);
-    const bool steep = first_x == nullptr || first_y->exponent < first_x->exponent - same ||
-                       (first_y->exponent < first_x->exponent + same && std::abs(first_y->value) > std::abs(first_x->value));
+    const bool steep =
+        first_x == nullptr || first_y->exponent < first_x->exponent - same ||
+        (first_y->exponent < first_x->exponent + same && std::abs(first_y->value) > std::abs(first_x->value));
     if (steep) return Germ(y.side() * pi / 2, rounding) - atan(x / y);
     return x.side() > 0 ? atan(y / x) : Germ(y.side() * pi, rounding) + atan(y / x);
 }

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The values of a function on a short path that leaves a point: `interpret` over germs gives one-sided derivatives.
+/// The values of a function on a short path that leaves a point: `interpret` over germs gives one-sided
+/// derivatives.
 ///
 ///     State<Germ> state = …;
 ///     state.q[0] = Germ::path(0, 1e-13L, {1, 0});     // x = 0 + 1·ε, ε → 0 from above; 0 is known to 1e-13
 ///     interpret(program, state)[node]                 // |x| is 1·ε;  sqrt(x) is 1·ε^(1/2);  x/|x| is 1
 ///
-/// A germ is a series Σ c_k ε^(e_k) with ascending real exponents, known up to a power of ε. The sign of a germ is that of its
-/// first coefficient, so abs, sign, min, max, roots and atan2 are decided by the side on which the path lies, where a number
-/// would say zero. Each coefficient carries a bound on its error (running error analysis: Higham, Accuracy and
-/// Stability of Numerical Algorithms (2002), §3.3); one within its bound is taken for zero. `defined` is false where a value
-/// is not real or not finite on the path: sqrt of a negative germ, division by zero.
+/// A germ is a series Σ c_k ε^(e_k) with ascending real exponents, known up to a power of ε. The sign of a germ is
+/// that of its first coefficient, so abs, sign, min, max, roots and atan2 are decided by the side on which the
+/// path lies, where a number would say zero. Each coefficient carries a bound on its error (running error
+/// analysis: Higham, Accuracy and Stability of Numerical Algorithms (2002), §3.3); one within its bound is taken
+/// for zero. `defined` is false where a value is not real or not finite on the path: sqrt of a negative germ,
+/// division by zero.
 
 #include <limits>
 #include <vector>
@@ -30,8 +32,8 @@ public:
     static constexpr double exact = std::numeric_limits<double>::infinity();
 
     Germ() = default;
-    Germ(int n) : Germ(static_cast<Real>(n)) {}          // NOLINT: a number is a number
-    Germ(bool b) : Germ(b ? Real(1) : Real(0)) {}        // NOLINT
+    Germ(int n) : Germ(static_cast<Real>(n)) {}    // NOLINT: a number is a number
+    Germ(bool b) : Germ(b ? Real(1) : Real(0)) {}  // NOLINT
     explicit Germ(Real x, Real error = 0) : terms_{{0, x, error}} { tidy(); }
 
     /// x + steps[0] ε + steps[1] ε² …; x is known to `error`.
