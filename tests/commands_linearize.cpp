@@ -198,7 +198,22 @@ TEST_CASE("linearize: a contact that presses is a constraint, and one that touch
                          "restitution = 0.5\n");
     };
     CHECK(json_of({"linearize", scene("1"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-4.0, 0.0]]"));
+    const auto open = run({"linearize", scene("-3"), "--at", "y=1", "--json"});  // above the floor: y'' = -3 y + 3
+    CHECK(open.exit == 0);
+    CHECK(Json::parse(open.out)["matrices"]["A"][3][1] == -3);
     const auto touching = run({"linearize", scene("0"), "--json"});
     CHECK(touching.exit == 3);
     CHECK(touching.err.find("contact floor touches at this state without a force") != std::string::npos);
+}
+
+// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force takes part in the slope, and |y| = x² has no kink on the curve.
+TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, and not where it runs along it") {
+    const auto bead = [](const std::string& name, const std::string& force) {
+        return temporary(name + ".toml", "[coordinates]\nx = 0\ny = { guess = 0 }\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
+                                         "[[force]]\nat = \"P\"\nvector = [\"" + force + "\", \"-1\"]\n[[constraint]]\nname = \"curve\"\n"
+                                         "holonomic = \"y - x^2\"\n");
+    };
+    CHECK(json_of({"linearize", bead("along", "-abs(y)"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-2.0, 0.0]]"));
+    CHECK(run({"linearize", bead("across", "-abs(x)")}).err.find("the slope -3 in x where x grows, and -1 where it falls") != std::string::npos);
+    CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
 }

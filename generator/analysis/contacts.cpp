@@ -134,6 +134,7 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
 // M q'' − f = Aᵀλ + Gᵀπ, of full rank in λ and π but for bilateral rows that depend on each other.
 std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state, const Lasting& lasting) {
     constexpr double nothing = 1e-9;  // of the largest force
+    if (lasting.closed.empty()) return {};
     const Situation here = view.at(state);
     const auto closed = static_cast<Eigen::Index>(lasting.closed.size());
     Eigen::MatrixXd rows(here.bilateral.rows.rows() + closed, here.M.cols());
