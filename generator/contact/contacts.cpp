@@ -131,4 +131,25 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     return lasting;
 }
 
+// M q'' − f = Aᵀλ + Gᵀπ, of full rank in λ and π but for bilateral rows that depend on each other.
+std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state, const Lasting& lasting) {
+    constexpr double nothing = 1e-9;  // of the largest force
+    if (lasting.closed.empty()) return {};
+    const Situation here = view.at(state);
+    const auto closed = static_cast<Eigen::Index>(lasting.closed.size());
+    Eigen::MatrixXd rows(here.bilateral.rows.rows() + closed, here.M.cols());
+    rows.topRows(here.bilateral.rows.rows()) = here.bilateral.rows;
+    for (Eigen::Index k = 0; k < closed; ++k)
+        rows.row(here.bilateral.rows.rows() + k) = here.contacts.rows.row(lasting.closed[static_cast<std::size_t>(k)]);
+    const Eigen::VectorXd reaction = here.M * lasting.acceleration - here.f;
+    const Eigen::VectorXd force = rows.transpose().completeOrthogonalDecomposition().solve(reaction).tail(closed);
+    std::vector<std::string> names;
+    for (Eigen::Index k = 0; k < closed; ++k) {
+        const double size = rows.row(here.bilateral.rows.rows() + k).cwiseAbs().maxCoeff();
+        if (force[k] * size <= nothing * here.f.cwiseAbs().maxCoeff())
+            names.push_back(view.names()[static_cast<std::size_t>(lasting.closed[static_cast<std::size_t>(k)])]);
+    }
+    return names;
+}
+
 }  // namespace alembert

@@ -50,4 +50,8 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
 /// The contacts that are closed and last at this state. Throws IntegrationError where no choice is consistent.
 Lasting contacts_at_rest(const ContactView& view, const State<double>& state, double tolerance);
 
+/// Contacts in `lasting.closed` that touch without a force: on one side of the state they open, on the other they press, so that the
+/// motion near it is not that of a constraint. Names, in the order of the scene.
+std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state, const Lasting& lasting);
+
 }  // namespace alembert

@@ -44,6 +44,7 @@ private:
                 for (std::size_t k = 0; k < args.size(); ++k) factors.push_back(pow(args[k], node.exponents[k]));
                 return ex(GiNaC::mul(factors));
             }
+            case Op::pow: return ex(pow(args[0], args[1]));
             default: return apply_function(name_of(node.op), args);
         }
     }

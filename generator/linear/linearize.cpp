@@ -9,6 +9,7 @@
 #include <random>
 
 #include "alembert/error.hpp"
+#include "linear/kinks.hpp"
 #include "linear/tangent.hpp"
 
 namespace alembert {
@@ -148,6 +149,7 @@ public:
         if (!settle(residuals_, split_, at_))
             throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state", state_.t, state_.q);
         here_ = tangent(residuals_, split_, at_);
+        check_differentiable(residuals_, split_, at_, here_, m_, e_);
         p_ = static_cast<Index>(split_.u.size());
         nr_ = static_cast<Index>(split_.q.size());
         if (!here_.speed_rates.allFinite() || !here_.speed_rates_by.allFinite())

@@ -14,9 +14,15 @@ constexpr int most_coordinates = 4;
 constexpr std::size_t most_terms = 12;
 constexpr double largest_tree = 2000;
 
-}  // namespace
+/// Has `e` the derivative of a function that GiNaC does not know: of abs, sign, min or max?
+bool has_unknown_derivative(const ex& e) {
+    if (GiNaC::is_a<GiNaC::fderivative>(e)) return true;
+    for (const ex& part : e)
+        if (has_unknown_derivative(part)) return true;
+    return false;
+}
 
-std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
+std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
     const int n = m.size();
     if (!m.constraints.empty() || !e.h.empty() || n > most_coordinates) return {};
     GiNaC::exmap there;
@@ -24,8 +30,10 @@ std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equa
         there[m.q[i]] = m.z->expand(q0[i]);
         there[m.qdot[i]] = m.z->expand(u0[i]);
     }
-    const auto readable_there = [&](const ex& value) -> std::optional<ex> {
-        const auto f = fourier(value.subs(there), *m.symbols, 400);
+    const auto readable_there = [&](const ex& derivative) -> std::optional<ex> {
+        const ex value = derivative.subs(there);
+        if (has_unknown_derivative(value)) return {};
+        const auto f = fourier(value, *m.symbols, 400);
         if (!f || f->size() > most_terms) return {};
         return expression(readable(*f));
     };
@@ -49,6 +57,16 @@ std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equa
             }
         }
     return result;
+}
+
+}  // namespace
+
+std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
+    try {
+        return matrices(m, e, q0, u0);
+    } catch (const GiNaC::pole_error&) {  // 0·∞, as of sqrt(x^2)^3 at 0
+        return {};
+    }
 }
 
 }  // namespace alembert

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "alembert/error.hpp"
+#include "linear/paths.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
@@ -21,6 +22,7 @@ using Index = Eigen::Index;
 Residuals::Residuals(const Mechanism& m, const Equations& e)
     : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.h.empty()) {
     Program all;
+    all.source_labels = m.z->source_labels();
     std::vector<std::pair<GiNaC::symbol, int>> given;
     for (int i = 0; i < s; ++i) given.emplace_back(e.u[i], all.variable({Variable::Kind::rate, i}));
     for (std::size_t i = 0; i < m.inputs.size(); ++i)
@@ -89,6 +91,7 @@ struct Values {
         for (std::size_t k = 0; k < r.inputs.size(); ++k) state.unknown[r.inputs[k]] = variable(at.inputs[k]);
         value_ = interpret(r.program, state);
         columns = static_cast<Index>(width);
+        repair(at);
     }
     VectorOf<Real> vector(const std::vector<int>& nodes) const {
         VectorOf<Real> result(static_cast<Index>(nodes.size()));
@@ -106,6 +109,32 @@ struct Values {
     Index columns = 0;
 
 private:
+    /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of sides: then the
+    /// derivatives are those of the root itself, in each direction in which both of its sides agree.
+    void repair(const Instant<Real>& at) {
+        if (!has_kinks(r_.program)) return;
+        const Instant<long double> point{.parameters = {at.parameters.begin(), at.parameters.end()},
+                                         .q = {at.q.begin(), at.q.end()},
+                                         .u = {at.u.begin(), at.u.end()},
+                                         .inputs = {at.inputs.begin(), at.inputs.end()},
+                                         .t = static_cast<long double>(at.t)};
+        const std::vector<Germ> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
+        std::vector<int> broken, all;
+        for (const Root& root : r_.program.roots) all.push_back(root.node);
+        if (critical_nodes(r_.program, all, here).empty()) return;
+        for (const Root& root : r_.program.roots)
+            if (root.group != "input" && !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty()) broken.push_back(root.node);
+        for (Index k = 0; k < columns; ++k) {
+            const VectorOf<long double> d = VectorOf<long double>::Unit(columns, k);
+            const std::vector<Germ> there = on_path(r_, point, d), back = on_path(r_, point, -d);
+            for (const int node : broken)
+                if (const auto found = slope(there[node], back[node])) {
+                    value_[node].d.resize(static_cast<std::size_t>(columns), Real(0));
+                    value_[node].d[static_cast<std::size_t>(k)] = static_cast<Real>(*found);
+                }
+        }
+    }
+
     const Residuals& r_;
     std::vector<Jet<Real>> value_;
 };
@@ -270,6 +299,9 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     result.force = U.transpose() * (R * along + M * forced);
     result.speed_rates_by = p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
 
+    result.along = along;
+    result.udot = udot;
+    result.lambda = lambda;
     const Vector rates = value.vector(r.rate);
     const Matrix rates_by = value.jacobian(r.rate) * along;
     result.rates.resize(nr);

@@ -56,6 +56,8 @@ struct Tangent {
     MatrixOf<Real> speed_rates_by;       ///< δw' = −mass⁻¹ force δ
     MatrixOf<Real> rates_by;             ///< δr'
     VectorOf<Real> to_position, to_velocity;  ///< Newton's step of the dependent coordinates, then speeds
+    MatrixOf<Real> along;                ///< rows q, u, t, inputs: what a change of each column moves
+    VectorOf<Real> udot, lambda;         ///< u' and multipliers of the undisturbed motion
 };
 
 /// Dependent: by the largest pivot of φ_q among `preferred_q`, of all where none of these will do; of ν_u likewise, the rates of
@@ -63,6 +65,7 @@ struct Tangent {
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 
+/// A derivative that the chain rule does not give node by node, as of sqrt(x^2)^3 at 0, is that of one-sided series (paths.hpp).
 template <typename Real>
 Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at);
 

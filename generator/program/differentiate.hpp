@@ -16,6 +16,9 @@
 /// is the same. Of these two, in several orders of elimination, and of the derivative straight through the solved accelerations the
 /// one with the fewest operations is taken.
 ///
+/// Where the right-hand side has a kink, the entries are those of the side on which the state lies; on the kink itself abs, min
+/// and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has 0, and sqrt at 0 infinity.
+///
 /// Groups of roots: "jacobian", (n + s) × (n + s); with `parameters` "parameter_jacobian", (n + s) × p, by the parameters that a
 /// caller sets, as they stand before `prepare`; with `power` "power_gradient", n + s: of dE/dt as a function of the state.
 

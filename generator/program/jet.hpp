@@ -9,7 +9,8 @@
 ///
 /// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient is the chain rule on those of
 /// its arguments, so the derivative of what is evaluated carries rounding errors and nothing else. At a kink of abs, sign,
-/// min or max it is that of one side.
+/// min or max it is that of one side of this function, which in a sum of several need be no side of the sum: germ.hpp gives
+/// one-sided derivatives.
 
 #include "program/interpret.hpp"
 
