@@ -16,7 +16,7 @@ namespace alembert {
 namespace {
 
 /// {name: value} of a group of roots, or `otherwise` where there is none.
-Json named_values(const Program& program, const std::vector<double>& value, const char* group, const Json& otherwise) {
+Json named_values(const Program& program, const std::vector<double>& value, Group group, const Json& otherwise) {
     Json object = Json::object();
     for (const Root& root : program.roots)
         if (root.group == group) object[root.name] = value[root.node];
@@ -58,7 +58,7 @@ int eval(const Request& request) {
 
     const auto fails = [&](const Program& p) {
         const std::vector<double> value = interpret(p, state);
-        const std::vector<int> wanted = p.nodes_of("acceleration");
+        const std::vector<int> wanted = p.nodes_of(Group::acceleration);
         return massless_combination(p, state) ||
                std::any_of(wanted.begin(), wanted.end(), [&](int id) { return !std::isfinite(value[id]); });
     };
@@ -67,36 +67,36 @@ int eval(const Request& request) {
                                            failure_at(d, state).value_or("the numbers overflow")),
                                state.t, start.q);
     std::vector<double> value = interpret(program, state);
-    for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+    for (const int id : program.nodes_of(Group::acceleration)) state.qddot.push_back(value[id]);
     value = interpret(program, state);  // outputs may hold accelerations
-    const auto single = [&](const char* group) { return value[program.nodes_of(group)[0]]; };
+    const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
 
     Json result;
     result["time"] = state.t;
     result["coordinates"] = by_coordinate(program, state.q.data());
-    const auto group = [&](const char* name) {
+    const auto group = [&](Group name) {
         std::vector<double> numbers;
         for (const int id : program.nodes_of(name)) numbers.push_back(value[id]);
         return numbers;
     };
     const bool own_speeds = !program.speeds.empty();
-    const std::vector<double> rates = own_speeds ? group("rate") : state.qdot;
-    const std::vector<double> accelerations = own_speeds ? group("second_rate") : state.qddot;
+    const std::vector<double> rates = own_speeds ? group(Group::rate) : state.qdot;
+    const std::vector<double> accelerations = own_speeds ? group(Group::second_rate) : state.qddot;
     result["rates"] = by_coordinate(program, rates.data());
     result["accelerations"] = by_coordinate(program, accelerations.data());
-    result["speeds"] = named_values(program, value, "speed", result["rates"]);
-    result["speed_rates"] = named_values(program, value, "speed_rate", result["accelerations"]);
+    result["speeds"] = named_values(program, value, Group::speed, result["rates"]);
+    result["speed_rates"] = named_values(program, value, Group::speed_rate, result["accelerations"]);
     result["multipliers"] = Json::object();
     for (const Root& root : program.roots)
-        if (root.group == "multiplier") result["multipliers"][root.name] = value[root.node];
+        if (root.group == Group::multiplier) result["multipliers"][root.name] = value[root.node];
     for (const Mechanism::Unilateral& contact : d.mechanism.unilateral)
         if (!result["multipliers"].contains(contact.gap.multiplier.get_name()))
             result["multipliers"][contact.gap.multiplier.get_name()] = 0.0;  // open
-    result["kinetic"] = single("kinetic");
-    result["potential"] = single("potential");
-    result["energy"] = single("energy");
+    result["kinetic"] = single(Group::kinetic);
+    result["potential"] = single(Group::potential);
+    result["energy"] = single(Group::energy);
     result["residuals"] = Json::object();
-    const std::vector<int> position = program.nodes_of("position"), velocity = program.nodes_of("velocity");
+    const std::vector<int> position = program.nodes_of(Group::position), velocity = program.nodes_of(Group::velocity);
     for (std::size_t k = 0; k < position.size(); ++k)
         result["residuals"][d.mechanism.constraints[k].name] = {value[position[k]], value[velocity[k]]};
     if (!d.mechanism.unilateral.empty()) {
@@ -106,7 +106,7 @@ int eval(const Request& request) {
     if (!moved.empty()) result["adjusted"] = moved;
     result["outputs"] = Json::object();
     for (const Root& root : program.roots)
-        if (root.group == "output") result["outputs"][root.name] = value[root.node];
+        if (root.group == Group::output) result["outputs"][root.name] = value[root.node];
     std::vector<JointLoad> joint_loads;
     if (request.reactions) {
         result["reactions"] = reactions_of(d.mechanism, result["outputs"]);
@@ -132,7 +132,7 @@ int eval(const Request& request) {
     for (const auto& [name, multiplier] : result["multipliers"].items())
         fmt::print("{:<{}}{:>24.16g}\n", name, width, multiplier.get<double>());
     for (const std::string& line : moved) fmt::print("adjusted {}\n", line);
-    fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single("kinetic"), single("potential"), single("energy"));
+    fmt::print("\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", single(Group::kinetic), single(Group::potential), single(Group::energy));
     for (const auto& [name, output] : result["outputs"].items()) fmt::print("{} = {:.16g}\n", name, output.get<double>());
     if (!joint_loads.empty()) fmt::print("\nJoints exert on their children, along the joint's axes:\n");
     for (const JointLoad& load : joint_loads)

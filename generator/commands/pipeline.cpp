@@ -166,7 +166,7 @@ std::optional<std::string> failure_at(const Derived& d, const State<double>& sta
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
                            *combination);
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
-    return not_finite(program, state, program.singular ? "forcing" : "acceleration");
+    return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
 }
 
 Overrides overrides_of(const Request& request) {

@@ -67,7 +67,7 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, cons
     text += ",energy";
     for (const Part& output : d.mechanism.outputs) text += "," + output.label;
     for (const Root& root : modes({}).program.roots)
-        if (root.group == "speed") text += "," + root.name;
+        if (root.group == Group::speed) text += "," + root.name;
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
         for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"}) text += fmt::format(",{}.{}", reactions->joints[k], part);
     text += "\n";

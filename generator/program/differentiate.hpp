@@ -4,7 +4,7 @@
 /// The Jacobian of the right-hand side, ∂(q', u')/∂(q, u), as further roots of the same program.
 ///
 ///     const std::optional<Differentiated> d = differentiated(program, {.parameters = true});
-///     d->program.nodes_of("jacobian");            // (n + s)², row by row, zeros included
+///     d->program.nodes_of(Group::jacobian);            // (n + s)², row by row, zeros included
 ///
 /// u' solves K x = b with x = (u', −λ), K = [M Aᵀ; A 0], b = (f, γ). Its derivative by y need not go through the
 /// factorization: with R(y, x) = b − K x and x held,
@@ -16,8 +16,8 @@
 /// is the same. Of these two, in several orders of elimination, and of the derivative straight through the solved accelerations the
 /// one with the fewest operations is taken.
 ///
-/// Groups of roots: "jacobian", (n + s) × (n + s); with `parameters` "parameter_jacobian", (n + s) × p, by the parameters that a
-/// caller sets, as they stand before `prepare`; with `power` "power_gradient", n + s: of dE/dt as a function of the state.
+/// Groups of roots: Group::jacobian, (n + s) × (n + s); with `parameters` Group::parameter_jacobian, (n + s) × p, by the parameters
+/// that a caller sets, as they stand before `prepare`; with `power` Group::power_gradient, n + s: of dE/dt as a function of the state.
 
 #include <optional>
 #include <string>
