@@ -13,12 +13,12 @@ System system_of(const Equations& e, const Mechanism& m, const std::vector<int>&
     s.program = lower(m, e, none);
     s.n = m.size();
     s.speeds = e.size();
-    s.mass = s.program.nodes_of("mass");
-    s.forcing = s.program.nodes_of("forcing");
-    s.gamma = s.program.nodes_of("gamma");
-    s.rates = s.program.nodes_of("rate");
-    s.second = s.program.nodes_of("second_rate");
-    const std::vector<int> kept = e.kept(m), row = s.program.nodes_of(s.is_plain() ? "row" : "speed_row");
+    s.mass = s.program.nodes_of(Group::mass);
+    s.forcing = s.program.nodes_of(Group::forcing);
+    s.gamma = s.program.nodes_of(Group::gamma);
+    s.rates = s.program.nodes_of(Group::rate);
+    s.second = s.program.nodes_of(Group::second_rate);
+    const std::vector<int> kept = e.kept(m), row = s.program.nodes_of(s.is_plain() ? Group::row : Group::speed_row);
     for (const int k : kept) {
         const auto begin = row.begin() + static_cast<std::ptrdiff_t>(k) * s.speeds;
         s.A.emplace_back(begin, begin + s.speeds);

@@ -101,7 +101,7 @@ private:
             result_.problem = e.what();
         }
         const std::vector<double> value = interpret(program, result_.start);
-        const std::vector<int> position = program.nodes_of("position"), velocity = program.nodes_of("velocity");
+        const std::vector<int> position = program.nodes_of(Group::position), velocity = program.nodes_of(Group::velocity);
         for (std::size_t k = 0; k < position.size(); ++k)
             result_.constraints[k].residual = {value[position[k]], value[velocity[k]]};
     }
@@ -304,7 +304,7 @@ private:
         const auto size = [&](const State<double>& state) {
             const std::vector<double> value = interpret(program, state);
             double sum = 0;
-            for (const int id : program.nodes_of("row")) sum += std::abs(value[id]);
+            for (const int id : program.nodes_of(Group::row)) sum += std::abs(value[id]);
             return sum;
         };
         for (State<double> state : states_) {

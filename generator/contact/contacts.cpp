@@ -44,7 +44,7 @@ Program view_of(const Mechanism& mechanism) {
     energy.power = 0;  // it holds multipliers
     Program program = lower(closed, routh(closed), energy);
     const auto is_wanted = [](const Root& root) {
-        for (const char* group : {"mass", "forcing", "row", "gamma", "position", "velocity"})
+        for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position, Group::velocity})
             if (root.group == group) return true;
         return false;
     };
@@ -61,20 +61,20 @@ ContactView::ContactView(const Mechanism& mechanism)
 
 Situation ContactView::at(const State<double>& state) const {
     const std::vector<double> value = interpret(program_, state);
-    const auto of = [&](const char* group) {
+    const auto of = [&](Group group) {
         const std::vector<int> nodes = program_.nodes_of(group);
         Eigen::VectorXd result(static_cast<Eigen::Index>(nodes.size()));
         for (std::size_t i = 0; i < nodes.size(); ++i) result[static_cast<Eigen::Index>(i)] = value[nodes[i]];
         return result;
     };
-    Situation here{.M = Eigen::MatrixXd(n_, n_), .f = of("forcing"), .bilateral = {}, .contacts = {}};
-    const Eigen::VectorXd mass = of("mass"), row = of("row"), u = Eigen::Map<const Eigen::VectorXd>(state.qdot.data(), n_);
+    Situation here{.M = Eigen::MatrixXd(n_, n_), .f = of(Group::forcing), .bilateral = {}, .contacts = {}};
+    const Eigen::VectorXd mass = of(Group::mass), row = of(Group::row), u = Eigen::Map<const Eigen::VectorXd>(state.qdot.data(), n_);
     for (Eigen::Index i = 0, k = 0; i < n_; ++i)
         for (Eigen::Index j = 0; j <= i; ++j, ++k) here.M(i, j) = here.M(j, i) = mass[k];
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Index contacts = static_cast<Eigen::Index>(names_.size()), all = bilateral_ + contacts;
-    Situation::Rows rows{.rows = Eigen::Map<const Rows>(row.data(), all, n_), .value = of("position"), .drift = {}, .acceleration = of("gamma")};
-    rows.drift = of("velocity") - rows.rows * u;
+    Situation::Rows rows{.rows = Eigen::Map<const Rows>(row.data(), all, n_), .value = of(Group::position), .drift = {}, .acceleration = of(Group::gamma)};
+    rows.drift = of(Group::velocity) - rows.rows * u;
     std::vector<int> which(static_cast<std::size_t>(all));
     std::iota(which.begin(), which.end(), 0);
     here.bilateral = selected(rows, {which.begin(), which.begin() + bilateral_});

@@ -49,9 +49,9 @@ public:
         value_ = interpret(program_, result.start.state());
         find_contacts(result);
         find_broken(result);
-        const Eigen::Index n = m_.size(), m = rows("velocity"), k = static_cast<Eigen::Index>(result.contacts.size());
+        const Eigen::Index n = m_.size(), m = rows(Group::velocity), k = static_cast<Eigen::Index>(result.contacts.size());
         Eigen::MatrixXd M(n, n), A(m, n), G(k, n);
-        const std::vector<int> mass = program_.nodes_of("mass"), row = program_.nodes_of("row");
+        const std::vector<int> mass = program_.nodes_of(Group::mass), row = program_.nodes_of(Group::row);
         for (Eigen::Index i = 0, next = 0; i < n; ++i)
             for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value_[mass[next++]];
         for (Eigen::Index c = 0; c < m; ++c)
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    Eigen::Index rows(const char* group) const { return static_cast<Eigen::Index>(program_.nodes_of(group).size()); }
+    Eigen::Index rows(Group group) const { return static_cast<Eigen::Index>(program_.nodes_of(group).size()); }
     double wanted(Eigen::Index i) const { return value_[nodes_[i]]; }
     /// Where the values of a unilateral constraint begin: gap, drift, restitution, row.
     Eigen::Index first_of(std::size_t u) const {
@@ -102,7 +102,7 @@ private:
     }
 
     void find_broken(Impact& result) const {
-        const std::vector<int> velocity = program_.nodes_of("velocity");
+        const std::vector<int> velocity = program_.nodes_of(Group::velocity);
         for (std::size_t k = 0; k < velocity.size(); ++k)
             if (std::abs(value_[velocity[k]]) > closed * size_of_terms(program_, velocity[k], value_))
                 result.imposed.push_back(m_.constraints[k].name);

@@ -26,7 +26,7 @@ std::vector<Statement> borne(const Derived& d) {
             for (const Mechanism::Constraint& c : *list) find(name, c);
         for (const Mechanism::Unilateral& contact : d.mechanism.unilateral) find(name, contact.gap);
     }
-    const std::vector<int> force = reactions.program.nodes_of("force"), moment = reactions.program.nodes_of("moment");
+    const std::vector<int> force = reactions.program.nodes_of(Group::force), moment = reactions.program.nodes_of(Group::moment);
     std::vector<Statement> result;
     for (std::size_t k = 0; k < reactions.joints.size(); ++k)
         for (std::size_t i = 0; i < 6; ++i) {

@@ -64,12 +64,17 @@ void refuse_contradiction(const Mechanism& m) {
     }
 }
 
-/// R_<constraint>_<coordinate> as outputs.
-void add_reactions(Mechanism& m) {
+/// The share of each constraint along each coordinate, λ ∂f/∂q, as outputs R_<constraint>_<coordinate>.
+std::vector<ReactionOutput> add_reactions(Mechanism& m) {
+    std::vector<ReactionOutput> result;
     for (const Mechanism::Constraint& c : m.constraints)
-        for (int i = 0; i < m.size(); ++i)
-            if (!c.row[i].is_zero())
-                m.outputs.push_back({fmt::format("R_{}_{}", c.name, m.q[i].get_name()), m.z->name(c.row[i] * c.multiplier)});
+        for (int i = 0; i < m.size(); ++i) {
+            if (c.row[i].is_zero()) continue;
+            const std::string coordinate = m.q[i].get_name();
+            result.push_back({m.outputs.size(), c.name, coordinate});
+            m.outputs.push_back({fmt::format("R_{}_{}", c.name, coordinate), m.z->name(c.row[i] * c.multiplier)});
+        }
+    return result;
 }
 
 /// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else needs to. A joint that
@@ -96,7 +101,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
         if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k])) d.warnings.push_back(*std::move(warning));
     d.mechanism = without_constraints(std::move(d.mechanism), redundant);
     refuse_contradiction(d.mechanism);
-    if (options.reactions) add_reactions(d.mechanism);
+    if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(d.mechanism)) fail(d.scene, {*mistake});
     std::optional<Equations> at_once;
     if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
@@ -113,6 +118,7 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
     Derived again{{.scene = d.scene, .mechanism = std::move(mechanism), .warnings = d.warnings}};
     again.equations = equations_by(by, again.mechanism);
     again.by = d.by;
+    again.reaction_outputs = d.reaction_outputs;
     again.seconds = process_seconds() - start;
     return again;
 }
@@ -143,7 +149,7 @@ std::optional<std::string> failure_at(const Derived& d, const State<double>& sta
         return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
                            *combination);
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
-    return not_finite(program, state, program.singular ? "forcing" : "acceleration");
+    return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
 }
 
 }  // namespace alembert

@@ -24,11 +24,18 @@ struct DeriveOptions {
     Overrides at = {};          ///< values at which the bodies are checked
 };
 
+/// Which output of the mechanism is the share of a constraint along a coordinate.
+struct ReactionOutput {
+    std::size_t output;
+    std::string constraint, coordinate;
+};
+
 /// A scene with its mechanism and equations. Redundant constraints are left out of the mechanism, and a warning names them.
 struct Derived : Prepared {
     Equations equations;
     std::string by = {};  ///< the formalism that was asked for; empty: the program chose
     double seconds = 0;   ///< processor time
+    std::vector<ReactionOutput> reaction_outputs = {};  ///< where they were asked for
 };
 
 /// Builds and derives. To be run, a large tree of joints gets the recursive equations at once, which are the fastest there. Throws

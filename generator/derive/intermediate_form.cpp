@@ -121,12 +121,12 @@ private:
 }  // namespace
 
 IntermediateForm intermediate_form(const Program& program, const Mechanism& m, const Equations& e) {
-    const std::vector<int> mass = program.nodes_of("mass"), forcing = program.nodes_of("forcing");
-    const int kinetic = program.nodes_of("kinetic")[0], potential = program.nodes_of("potential")[0];
+    const std::vector<int> mass = program.nodes_of(Group::mass), forcing = program.nodes_of(Group::forcing);
+    const int kinetic = program.nodes_of(Group::kinetic)[0], potential = program.nodes_of(Group::potential)[0];
     std::vector<int> roots = mass;
     roots.insert(roots.end(), forcing.begin(), forcing.end());
     const bool own_speeds = !program.speeds.empty();
-    const std::vector<int> rows = program.nodes_of(own_speeds ? "speed_row" : "row"), h = program.nodes_of("rate");
+    const std::vector<int> rows = program.nodes_of(own_speeds ? Group::speed_row : Group::row), h = program.nodes_of(Group::rate);
     roots.insert(roots.end(), rows.begin(), rows.end());
     roots.insert(roots.end(), h.begin(), h.end());
     roots.push_back(kinetic);

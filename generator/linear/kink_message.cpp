@@ -9,7 +9,7 @@
 #include "exact/expression_of.hpp"
 #include "lower/lower.hpp"
 #include "notation/readable.hpp"
-#include "report/text.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -29,27 +29,27 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
         for (int order = 0; order < 3; ++order)
             given.emplace_back(m.inputs[i].derivative[order],
                                all.variable({Variable::Kind::unknown, 3 * static_cast<int>(i) + order}));
-    std::vector<std::pair<std::string, ex>> wanted;
+    std::vector<std::pair<Group, ex>> wanted;
     for (int i = 0; i < s; ++i) {
-        for (int j = 0; j <= i; ++j) wanted.emplace_back("mass", e.M(i, j));
-        wanted.emplace_back("forcing", e.forcing(i));
+        for (int j = 0; j <= i; ++j) wanted.emplace_back(Group::mass, e.M(i, j));
+        wanted.emplace_back(Group::forcing, e.forcing(i));
     }
     for (int k = 0; k < kept; ++k) {
-        for (const ex& entry : e.A[k]) wanted.emplace_back("row", entry);
-        wanted.emplace_back("gamma", e.gamma[k]);
+        for (const ex& entry : e.A[k]) wanted.emplace_back(Group::row, entry);
+        wanted.emplace_back(Group::gamma, e.gamma[k]);
     }
     const auto rate_of = [&](int i) { return e.h.empty() ? ex(m.qdot[i]) : e.h[i]; };
-    for (int i = 0; i < n; ++i) wanted.emplace_back("rate", rate_of(i));
+    for (int i = 0; i < n; ++i) wanted.emplace_back(Group::rate, rate_of(i));
     for (const Mechanism::Constraint& c : m.constraints)
         if (c.position) {
-            wanted.emplace_back("position", *c.position);
+            wanted.emplace_back(Group::position, *c.position);
             ++holonomic;
         }
     for (const int k : e.kept(m)) {
         const Mechanism::Constraint& c = m.constraints[k];
         GiNaC::exvector terms{c.drift};
         for (int i = 0; i < n; ++i) terms.push_back(c.row[i] * rate_of(i));
-        wanted.emplace_back("velocity", m.z->name(GiNaC::add(std::move(terms))));
+        wanted.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
     }
     std::vector<ex> values;
     for (const auto& [group, value] : wanted) values.push_back(value);
@@ -58,10 +58,10 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
     std::vector<ex> input_symbols;
     for (const Mechanism::Input& input : m.inputs)
         input_symbols.insert(input_symbols.end(), input.derivative.begin(), input.derivative.end());
-    for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({"input", "", id});
+    for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({Group::input, "", id});
     program = all.canonical();
-    for (const auto& [group, list] : {std::pair{"mass", &mass}, {"forcing", &forcing}, {"row", &row}, {"gamma", &gamma}, {"rate", &rate},
-                                      {"position", &position}, {"velocity", &velocity}, {"input", &input_values}})
+    for (const auto& [group, list] : {std::pair{Group::mass, &mass}, {Group::forcing, &forcing}, {Group::row, &row}, {Group::gamma, &gamma}, {Group::rate, &rate},
+                                      {Group::position, &position}, {Group::velocity, &velocity}, {Group::input, &input_values}})
         *list = program.nodes_of(group);
     for (int id = 0; id < program.size(); ++id)
         if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)

@@ -8,13 +8,14 @@
 ///
 /// Chains are counted in cycles (readiness.hpp). A processor overlaps part of a chain with the next call, so that both count.
 
+#include "program/processor.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
 struct Cost {
     int operations = 0, functions = 0, chain = 0;  ///< functions are among the operations
-    double time() const { return 0.36 * operations + 3 * functions + 0.65 * chain; }  ///< cycles; fitted to tests/bench/rhs.sh
+    double time() const { return processor::time_of(operations, functions, chain); }  ///< cycles
 };
 
 Cost cost_of(const Program& program);

@@ -27,18 +27,14 @@ struct System {
 };
 
 System system_of(Program& p) {
-    System s{.K = p.nodes_of("mass"), .b = p.nodes_of("forcing")};
+    System s{.K = p.nodes_of(Group::mass), .b = p.nodes_of(Group::forcing)};
     s.speeds = s.size();
-    const std::vector<int> rows = p.nodes_of(p.speeds.empty() ? "row" : "speed_row");
-    int kept = 0;
-    for (const Root& root : std::vector<Root>(p.roots)) {
-        if (root.group != "gamma") continue;
-        const int c = std::stoi(root.name.substr(5));  // "gamma2": of the third constraint
+    const std::vector<int> rows = p.nodes_of(p.speeds.empty() ? Group::row : Group::speed_row), gamma = p.nodes_of(Group::gamma);
+    for (int k = 0; const int c : p.kept_constraints()) {
         for (int i = 0; i < s.speeds; ++i) s.K.push_back(rows[static_cast<std::size_t>(c * s.speeds + i)]);
-        for (int j = 0; j <= kept; ++j) s.K.push_back(p.number(0));
-        s.b.push_back(root.node);
-        ++kept;
+        s.K.insert(s.K.end(), static_cast<std::size_t>(++k), p.number(0));
     }
+    s.b.insert(s.b.end(), gamma.begin(), gamma.end());
     return s;
 }
 
@@ -148,7 +144,7 @@ public:
     std::optional<Matrix> direct(const std::vector<int>& inputs, Elimination order) {
         std::optional<Matrix> result = rates(inputs, order);
         if (!result) return result;
-        const auto below = of(p_.nodes_of("acceleration"), inputs, order);
+        const auto below = of(p_.nodes_of(Group::acceleration), inputs, order);
         if (!below) return std::nullopt;
         result->insert(result->end(), below->begin(), below->end());
         return result;
@@ -156,7 +152,7 @@ public:
 
     /// d(dE/dt)/d state, given the Jacobian: the power is a function of state, u' and multipliers.
     std::optional<std::vector<int>> power_gradient(const Matrix& jacobian) {
-        const std::vector<int> power = p_.nodes_of("power"), acceleration = p_.nodes_of("acceleration");
+        const std::vector<int> power = p_.nodes_of(Group::power), acceleration = p_.nodes_of(Group::acceleration);
         std::vector<int> inputs = state_;
         std::map<int, int> row_of;  // node: row of the Jacobian that holds its derivative
         for (int i = 0; i < s_; ++i) {
@@ -193,7 +189,7 @@ public:
         return p_.count(nodes);
     }
 
-    void keep(const std::string& group, const std::string& letter, const Matrix& m) {
+    void keep(Group group, const std::string& letter, const Matrix& m) {
         for (std::size_t i = 0; i < m.size(); ++i)
             for (std::size_t j = 0; j < m[i].size(); ++j) p_.roots.push_back({group, fmt::format("{}{}_{}", letter, i, j), m[i][j]});
     }
@@ -206,7 +202,7 @@ private:
     /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing where numbers show that T has another M.
     std::optional<std::vector<int>> inertia_by_energy(const System& system, const std::vector<int>& z) {
         const int epsilon = p_.variable({Variable::Kind::unknown, first_unknown_ + system.size()});
-        const auto momenta = of(p_.nodes_of("kinetic"), speeds(), Elimination::reverse);
+        const auto momenta = of(p_.nodes_of(Group::kinetic), speeds(), Elimination::reverse);
         if (!momenta) return std::nullopt;
         std::map<int, int> moved;
         for (std::size_t i = 0; i < z.size(); ++i)
@@ -264,7 +260,7 @@ private:
 
     /// ∂q'/∂inputs.
     std::optional<Matrix> rates(const std::vector<int>& inputs, Elimination order) {
-        if (!p_.speeds.empty()) return of(p_.nodes_of("rate"), inputs, order);
+        if (!p_.speeds.empty()) return of(p_.nodes_of(Group::rate), inputs, order);
         Matrix result(static_cast<std::size_t>(n_), std::vector<int>(inputs.size(), p_.number(0)));
         for (int i = 0; i < n_; ++i)
             for (std::size_t j = 0; j < inputs.size(); ++j)
@@ -302,7 +298,7 @@ std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const 
 }  // namespace
 
 std::optional<Differentiated> differentiated(const Program& program, const DerivativeWishes& wishes) {
-    if (program.singular || program.nodes_of("mass").empty()) return std::nullopt;
+    if (program.singular || program.nodes_of(Group::mass).empty()) return std::nullopt;
     const Route* best = nullptr;
     Operations fewest;
     const bool is_large = program.count(program.right_hand_side()).total() > few_operations;
@@ -318,16 +314,16 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
 
     Differentiation chosen(program, wishes.budget);
     const Matrix jacobian = *jacobian_by(*best, chosen, chosen.state());
-    chosen.keep("jacobian", "J", jacobian);
+    chosen.keep(Group::jacobian, "J", jacobian);
     if (wishes.parameters && !program.parameters.empty()) {
         const auto by_parameters = jacobian_by(*best, chosen, chosen.parameters());
         if (!by_parameters) return std::nullopt;
-        chosen.keep("parameter_jacobian", "P", *by_parameters);
+        chosen.keep(Group::parameter_jacobian, "P", *by_parameters);
     }
     if (wishes.power) {
         const auto gradient = chosen.power_gradient(jacobian);
         if (!gradient) return std::nullopt;
-        chosen.keep("power_gradient", "W", {*gradient});
+        chosen.keep(Group::power_gradient, "W", {*gradient});
     }
     return Differentiated{.program = std::move(chosen).finished(), .operations = fewest, .route = best->name};
 }

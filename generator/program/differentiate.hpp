@@ -4,7 +4,7 @@
 /// The Jacobian of the right-hand side, ∂(q', u')/∂(q, u), as further roots of the same program.
 ///
 ///     const std::optional<Differentiated> d = differentiated(program, {.parameters = true});
-///     d->program.nodes_of("jacobian");            // (n + s)², row by row, zeros included
+///     d->program.nodes_of(Group::jacobian);            // (n + s)², row by row, zeros included
 ///
 /// u' solves K x = b with x = (u', −λ), K = [M Aᵀ; A 0], b = (f, γ). Its derivative by y need not go through the
 /// factorization: with R(y, x) = b − K x and x held,
@@ -19,8 +19,8 @@
 /// Where the right-hand side has a kink, the entries are those of the side on which the state lies; on the kink itself abs, min
 /// and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has 0, and sqrt at 0 infinity.
 ///
-/// Groups of roots: "jacobian", (n + s) × (n + s); with `parameters` "parameter_jacobian", (n + s) × p, by the parameters that a
-/// caller sets, as they stand before `prepare`; with `power` "power_gradient", n + s: of dE/dt as a function of the state.
+/// Groups of roots: Group::jacobian, (n + s) × (n + s); with `parameters` Group::parameter_jacobian, (n + s) × p, by the parameters
+/// that a caller sets, as they stand before `prepare`; with `power` Group::power_gradient, n + s: of dE/dt as a function of the state.
 
 #include <optional>
 #include <string>

@@ -260,8 +260,8 @@ std::vector<int> Program::needed(std::span<const int> roots) const {
 }
 
 std::vector<int> Program::right_hand_side() const {
-    std::vector<int> nodes = nodes_of("acceleration");
-    const std::vector<int> rates = nodes_of("rate");
+    std::vector<int> nodes = nodes_of(Group::acceleration);
+    const std::vector<int> rates = nodes_of(Group::rate);
     nodes.insert(nodes.end(), rates.begin(), rates.end());
     return nodes;
 }
@@ -274,6 +274,7 @@ Program Program::shell() const {
     result.coordinates = coordinates;
     result.speeds = speeds;
     result.formulation = formulation;
+    result.is_textbook = is_textbook;
     result.singular = singular;
     return result;
 }
@@ -302,16 +303,24 @@ Program Program::canonical() const {
             }
             stack.pop_back();
         }
-        result.roots.push_back({root.group, root.name, image[root.node]});
+        Root& copy = result.roots.emplace_back(root);
+        copy.node = image[root.node];
     }
     result.set_sources({0});
     return result;
 }
 
-std::vector<int> Program::nodes_of(const std::string& group) const {
+std::vector<int> Program::nodes_of(Group group) const {
     std::vector<int> result;
     for (const Root& root : roots)
         if (root.group == group) result.push_back(root.node);
+    return result;
+}
+
+std::vector<int> Program::kept_constraints() const {
+    std::vector<int> result;
+    for (const Root& root : roots)
+        if (root.group == Group::gamma) result.push_back(root.constraint);
     return result;
 }
 

@@ -6,7 +6,7 @@
 ///     Program program;
 ///     const int x = program.variable({Variable::Kind::coordinate, 0});
 ///     const int y = program.sum(0, {{2, x}, {-1, program.call(Op::sin, {x})}});      // 2x − sin x
-///     program.roots.push_back({"outputs", "y", y});
+///     program.roots.push_back({Group::output, "y", y});
 ///
 /// Rules that make the graph the same in every run, whatever order the terms came in:
 ///  - terms and factors are ordered by content (`before`), never by when they were made;
@@ -66,16 +66,46 @@ struct Node {
     bool is_scaled() const { return op == Op::sum && args.size() == 1 && cln::zerop(number); }
 };
 
-/// A coordinate or a parameter as people know it.
+/// A coordinate, a speed or a parameter as people know it.
 struct Quantity {
     std::string name, unit;
     double value = 0;  ///< of a parameter
+    int rate_of = -1;  ///< of a speed that is the rate of a coordinate: which
 };
 
-/// A value that somebody wants, by group and name: ("mass", "M10").
+/// What a root is. The roots of a group stand in the order of their entries, matrices row by row.
+enum class Group : unsigned char {
+    // M u' = f + Aᵀλ with A u' = γ; u = q' where the program has no speeds of its own.
+    mass,          ///< M, its lower triangle
+    forcing,       ///< f
+    acceleration,  ///< u'
+    rate,          ///< q', where the speeds are not the rates
+    second_rate,   ///< q'', likewise
+    row,           ///< A in q', n for each constraint
+    speed_row,     ///< A in speeds, s for each; zeros for constraints that the speeds have eliminated
+    gamma,         ///< γ, of each constraint that has a multiplier in the equations: Root::constraint
+    position,      ///< f(q, t) of each holonomic constraint, 0 of others
+    velocity,      ///< A q' + b of each constraint
+    multiplier,    ///< λ
+    projected,     ///< the state after one step of Newton's method to the constraints
+    pivot,         ///< what this step divides by
+    speed,         ///< the scene's generalized speeds, in the state or in rates
+    speed_rate,
+    form_row,      ///< of a speed as a linear form in q', n for each
+    kinetic, potential, energy, power, jacobi,
+    output, event,
+    load,                                          ///< inverse dynamics: M q'' − f
+    force, moment,                                 ///< of joints, three components for each
+    input,                                         ///< prescribed motions and their derivatives
+    jacobian, parameter_jacobian, power_gradient,  ///< differentiate.hpp
+};
+
+/// A value that somebody wants.
 struct Root {
-    std::string group, name;
+    Group group;
+    std::string name;  ///< for people and for identifiers of emitted code; decides nothing
     int node;
+    int constraint = -1;  ///< of γ: the position of its constraint
 };
 
 struct Operations {
@@ -108,8 +138,10 @@ public:
 
     /// All nodes that `roots` need, arguments first.
     std::vector<int> needed(std::span<const int> roots) const;
-    std::vector<int> nodes_of(const std::string& group) const;
-    /// What a step of an integration evaluates: "acceleration", and "rate" where the speeds are not the rates.
+    std::vector<int> nodes_of(Group group) const;
+    /// The constraints that have multipliers in the equations, in the order of γ.
+    std::vector<int> kept_constraints() const;
+    /// What a step of an integration evaluates: the accelerations, and the rates where the speeds are not the rates.
     std::vector<int> right_hand_side() const;
 
     /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
@@ -132,6 +164,7 @@ public:
     std::vector<Quantity> parameters, coordinates;     ///< what the variables' indices mean
     std::vector<Quantity> speeds;                      ///< of the state beside the coordinates; empty: their rates
     std::string formulation;                           ///< formalism and form, for people
+    bool is_textbook = false;  ///< the equations are in their readable form; the order of terms is the book's
     bool singular = false;     ///< no state makes the mass matrix regular; the accelerations are missing
 
 private:

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "program/processor.hpp"
+
 namespace alembert {
 
 namespace {
 
-constexpr int step = 4, division = 14, function = 40;
+using processor::division, processor::function, processor::step;
 
 bool is_product(const Node& node) { return node.op == Op::product && !node.is_reciprocal(); }
 
@@ -15,7 +17,7 @@ bool is_product(const Node& node) { return node.op == Op::product && !node.is_re
 
 Readiness::Readiness(const Program& program, std::span<const int> roots)
     : program_(program),
-      is_textbook_(program.formulation.ends_with("textbook form")),
+      is_textbook_(program.is_textbook),
       uses_(static_cast<std::size_t>(program.size()), 0),
       ready_(uses_.size(), 0) {
     const std::vector<int> needed = program.needed(roots);

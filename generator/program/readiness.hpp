@@ -7,8 +7,7 @@
 ///     ready[node];                       // with as many units as one likes
 ///     ready.order(node);                 // of a sum's or a product's arguments: what is late comes last
 ///
-/// Cycles of a present processor (Fog, Instruction tables): 4 for a sum, a product or both in one (fused), 14 for a division, 40
-/// for sine and cosine. A compiler keeps the order of a sum; the textbook's is kept, too, since it is there to be read.
+/// Cycles are those of processor.hpp. A compiler keeps the order of a sum; the textbook's is kept, too, since it is there to be read.
 
 #include <span>
 #include <vector>

@@ -35,28 +35,26 @@ class Building {
 public:
     Building(const Program& program, bool with_work) {
         result_.program = program;
-        if (with_work) power_ = program.nodes_of("power").at(0);
+        if (with_work) power_ = program.nodes_of(Group::power).at(0);
     }
 
     Recurrences direct() {
         begin(result_.program.right_hand_side());
-        for (const int id : p().nodes_of("acceleration")) result_.accelerations.push_back(node_of(form(id)));
+        for (const int id : p().nodes_of(Group::acceleration)) result_.accelerations.push_back(node_of(form(id)));
         return finished();
     }
 
     Recurrences implicit() {
-        const std::vector<int> mass = p().nodes_of("mass"), forcing = p().nodes_of("forcing"), gamma = p().nodes_of("gamma");
+        const std::vector<int> mass = p().nodes_of(Group::mass), forcing = p().nodes_of(Group::forcing), gamma = p().nodes_of(Group::gamma);
         const int s = static_cast<int>(forcing.size()), m = static_cast<int>(gamma.size());
         std::vector<int> lower = mass, right = forcing;
-        const std::vector<int> rows = p().nodes_of(p().speeds.empty() ? "row" : "speed_row");
-        for (int k = 0; const Root& root : p().roots) {
-            if (root.group != "gamma") continue;
-            const int c = std::stoi(root.name.substr(5));  // "gamma3": of constraint 3
+        const std::vector<int> rows = p().nodes_of(p().speeds.empty() ? Group::row : Group::speed_row), kept = p().kept_constraints();
+        for (int k = 0; const int c : kept) {
             for (int i = 0; i < s; ++i) lower.push_back(rows.at(c * s + i));
             lower.insert(lower.end(), ++k, p().number(0));
-            right.push_back(root.node);
         }
-        std::vector<int> needed = p().nodes_of("rate");
+        right.insert(right.end(), gamma.begin(), gamma.end());
+        std::vector<int> needed = p().nodes_of(Group::rate);
         needed.insert(needed.end(), lower.begin(), lower.end());
         needed.insert(needed.end(), right.begin(), right.end());
         begin(std::move(needed));
@@ -72,11 +70,9 @@ public:
         for (int i = 0; i < s + m; ++i) add({.kind = Kind::unknown, .index = i});
         result_.accelerations.assign(result_.unknowns.begin(), result_.unknowns.begin() + s);
         // What else needs the solution finds it by the nodes that the Program has for it.
-        for (int i = 0; const int id : p().nodes_of("acceleration")) remember(id, result_.unknowns[i++], 1);
-        const std::vector<int> multipliers = p().nodes_of("multiplier");
-        for (int k = 0; const Root& root : p().roots)
-            if (root.group == "gamma")
-                remember(multipliers.at(std::stoi(root.name.substr(5))), result_.unknowns[s + k++], -1);
+        for (int i = 0; const int id : p().nodes_of(Group::acceleration)) remember(id, result_.unknowns[i++], 1);
+        const std::vector<int> multipliers = p().nodes_of(Group::multiplier);
+        for (int k = s; const int c : kept) remember(multipliers.at(c), result_.unknowns[k++], -1);
         return finished();
     }
 
@@ -111,7 +107,7 @@ private:
     }
 
     Recurrences finished() {
-        for (const int id : p().nodes_of("rate")) result_.coordinate_rates.push_back(node_of(form(id)));
+        for (const int id : p().nodes_of(Group::rate)) result_.coordinate_rates.push_back(node_of(form(id)));
         for (std::size_t i = 0; i < result_.accelerations.size(); ++i)
             given_[{Variable::Kind::acceleration, static_cast<int>(i)}] = result_.accelerations[i];
         if (power_ >= 0) result_.work = node_of(form(power_));
@@ -471,7 +467,7 @@ double Recurrences::products() const {
 
 Recurrences recurrences(const Program& program, bool with_work) {
     Recurrences direct = Building(program, with_work).direct();
-    if (program.nodes_of("mass").empty() || program.nodes_of("forcing").empty()) return direct;
+    if (program.nodes_of(Group::mass).empty() || program.nodes_of(Group::forcing).empty()) return direct;
     Recurrences implicit = Building(program, with_work).implicit();
     return implicit.products() < direct.products() ? implicit : direct;
 }

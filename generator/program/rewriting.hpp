@@ -52,7 +52,10 @@ public:
             image_[id] = rebuilt(id);
         }
         made_.set_sources({0});
-        for (const Root& root : old_.roots) made_.roots.push_back({root.group, root.name, image_[root.node]});
+        for (const Root& root : old_.roots) {
+            made_.roots.push_back(root);
+            made_.roots.back().node = image_[root.node];
+        }
         return std::move(made_);
     }
 

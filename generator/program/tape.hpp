@@ -3,7 +3,7 @@
 
 /// A Program as a list of instructions over any Real, for evaluation again and again without a compiler.
 ///
-///     Tape<Quad> rhs(program, program.nodes_of("acceleration"), parameters);
+///     Tape<Quad> rhs(program, program.nodes_of(Group::acceleration), parameters);
 ///     rhs(t, q, u, out);                                   // out: a value for each of the nodes wanted
 ///
 /// What depends on parameters alone is computed once; constants are exact rationals until they become a Real. It is

@@ -148,10 +148,10 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
         }
         std::array<int, 3> d;
         for (std::size_t k = 0; k < 3; ++k) d[k] = lowering(way[k]);
-        for (std::size_t k = 0; k < 3; ++k) program.roots.push_back({"force", arc.name, R[k]});
+        for (std::size_t k = 0; k < 3; ++k) program.roots.push_back({Group::force, arc.name, R[k]});
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            program.roots.push_back({"moment", arc.name, program.sum(0, {{1, R[3 + k]}, {-1, program.product(1, {{d[a], 1}, {R[b], 1}})}, {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
+            program.roots.push_back({Group::moment, arc.name, program.sum(0, {{1, R[3 + k]}, {-1, program.product(1, {{d[a], 1}, {R[b], 1}})}, {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
         }
     }
     result.program = program.canonical();
@@ -161,25 +161,25 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
 std::vector<JointLoad> JointReactions::at(const Program& solved, const State<double>& state) const {
     State<double> whole = state;
     std::vector<double> value = interpret(solved, whole);
-    const auto group = [&](const char* name) {
+    const auto group = [&](Group name) {
         std::vector<double> numbers;
         for (const int id : solved.nodes_of(name)) numbers.push_back(value[id]);
         return numbers;
     };
-    whole.qddot = group("acceleration");
+    whole.qddot = group(Group::acceleration);
     if (!solved.speeds.empty()) {
         value = interpret(solved, whole);
-        whole.qdot = group("rate");
-        whole.qddot = group("second_rate");
+        whole.qdot = group(Group::rate);
+        whole.qddot = group(Group::second_rate);
     }
     whole.unknown.assign(multipliers.size(), 0);
     for (const Root& root : solved.roots) {
-        if (root.group != "multiplier") continue;
+        if (root.group != Group::multiplier) continue;
         const auto found = std::lower_bound(multipliers.begin(), multipliers.end(), root.name);
         if (found != multipliers.end() && *found == root.name) whole.unknown[static_cast<std::size_t>(found - multipliers.begin())] = value[root.node];
     }
     const std::vector<double> here = interpret(program, whole);
-    const std::vector<int> force = program.nodes_of("force"), moment = program.nodes_of("moment");
+    const std::vector<int> force = program.nodes_of(Group::force), moment = program.nodes_of(Group::moment);
     std::vector<JointLoad> result;
     for (std::size_t k = 0; k < joints.size(); ++k) result.push_back({joints[k], three(here, force, k), three(here, moment, k)});
     return result;

@@ -54,10 +54,11 @@ Program canonical_form(const Derived& d) {
     program.name += "_canonical";
     program.formulation = "momenta and forces as outputs; what else the file has is zero";
     const std::vector<int> nodes = lower_expressions(program, m, wanted);
-    for (std::size_t k = 0; k < nodes.size(); ++k) program.roots.push_back({"output", names[k], nodes[k]});
+    for (std::size_t k = 0; k < nodes.size(); ++k) program.roots.push_back({Group::output, names[k], nodes[k]});
     const int zero = program.number(0);
-    for (const auto& [group, count] : {std::pair{"mass", n * (n + 1) / 2}, {"forcing", n}, {"acceleration", n}, {"kinetic", 1}, {"potential", 1}, {"energy", 1}, {"power", 1}, {"jacobi", 1}})
-        for (int k = 0; k < count; ++k) program.roots.push_back({group, fmt::format("{}{}", group, k), zero});
+    for (const auto& [group, count] : {std::pair{Group::mass, n * (n + 1) / 2}, {Group::forcing, n}, {Group::acceleration, n}, {Group::kinetic, 1},
+                                       {Group::potential, 1}, {Group::energy, 1}, {Group::power, 1}, {Group::jacobi, 1}})
+        for (int k = 0; k < count; ++k) program.roots.push_back({group, "", zero});
     return program.canonical();
 }
 

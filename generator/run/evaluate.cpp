@@ -18,14 +18,14 @@ namespace {
 
 constexpr double closed_gap = 1e-9;  // · max(1, |q|), as much as the initial values of a constraint may be off
 
-Evaluation::Named named_values(const Program& program, const std::vector<double>& value, const char* group) {
+Evaluation::Named named_values(const Program& program, const std::vector<double>& value, Group group) {
     Evaluation::Named result;
     for (const Root& root : program.roots)
         if (root.group == group) result.emplace_back(root.name, value[root.node]);
     return result;
 }
 
-std::vector<double> values_of(const Program& program, const std::vector<double>& value, const char* group) {
+std::vector<double> values_of(const Program& program, const std::vector<double>& value, Group group) {
     std::vector<double> result;
     for (const int id : program.nodes_of(group)) result.push_back(value[id]);
     return result;
@@ -33,7 +33,7 @@ std::vector<double> values_of(const Program& program, const std::vector<double>&
 
 /// The accelerations at a state, or the reason why there are none.
 std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
-    std::vector<double> result = values_of(program, interpret(program, state), "acceleration");
+    std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
     if (massless_combination(program, state) || !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", state.t,
                                            failure_at(d, state).value_or("the numbers overflow")),
@@ -51,15 +51,6 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     return closed;
 }
 
-std::vector<Evaluation::Reaction> reactions_of(const Mechanism& m, const Evaluation::Named& outputs) {
-    std::vector<Evaluation::Reaction> result;
-    for (const Mechanism::Constraint& c : m.constraints)
-        for (const GiNaC::symbol& q : m.q)
-            for (const auto& [name, value] : outputs)
-                if (name == fmt::format("R_{}_{}", c.name, q.get_name())) result.push_back({c.name, q.get_name(), value});
-    return result;
-}
-
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
@@ -75,30 +66,30 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     const Program program = lowered(e).program;
     state.qddot = accelerations_at(e, program, state);
     const std::vector<double> value = interpret(program, state);  // outputs may hold accelerations
-    const auto single = [&](const char* group) { return value[program.nodes_of(group)[0]]; };
+    const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
 
     e.time = state.t;
     e.q = state.q;
     for (const Quantity& q : program.coordinates) e.coordinates.push_back(q.name);
     const bool own_speeds = !program.speeds.empty();
-    e.rates = own_speeds ? values_of(program, value, "rate") : state.qdot;
-    e.accelerations = own_speeds ? values_of(program, value, "second_rate") : state.qddot;
-    e.speeds = named_values(program, value, "speed");
-    e.speed_rates = named_values(program, value, "speed_rate");
-    e.multipliers = named_values(program, value, "multiplier");
+    e.rates = own_speeds ? values_of(program, value, Group::rate) : state.qdot;
+    e.accelerations = own_speeds ? values_of(program, value, Group::second_rate) : state.qddot;
+    e.speeds = named_values(program, value, Group::speed);
+    e.speed_rates = named_values(program, value, Group::speed_rate);
+    e.multipliers = named_values(program, value, Group::multiplier);
     for (const Mechanism::Unilateral& contact : m.unilateral) {
         const std::string name = contact.gap.multiplier.get_name();
         if (std::none_of(e.multipliers.begin(), e.multipliers.end(), [&](const auto& known) { return known.first == name; }))
             e.multipliers.emplace_back(name, 0.0);  // open
     }
-    e.kinetic = single("kinetic");
-    e.potential = single("potential");
-    e.energy = single("energy");
-    const std::vector<double> position = values_of(program, value, "position"), velocity = values_of(program, value, "velocity");
+    e.kinetic = single(Group::kinetic);
+    e.potential = single(Group::potential);
+    e.energy = single(Group::energy);
+    const std::vector<double> position = values_of(program, value, Group::position), velocity = values_of(program, value, Group::velocity);
     for (std::size_t k = 0; k < position.size(); ++k) e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
-    e.outputs = named_values(program, value, "output");
+    e.outputs = named_values(program, value, Group::output);
     if (options.reactions) {
-        e.reactions = reactions_of(m, e.outputs);
+        for (const ReactionOutput& r : e.reaction_outputs) e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
         if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).at(program, state);
     }
     return e;

@@ -32,7 +32,7 @@ struct Affine {
 
 Affine affine(const Program& program, State<double> state) {
     const auto n = static_cast<Eigen::Index>(state.q.size());
-    const auto vector = [&](const char* group) {
+    const auto vector = [&](Group group) {
         const std::vector<double> value = interpret(program, state);
         const std::vector<int> nodes = program.nodes_of(group);
         Eigen::VectorXd v(static_cast<Eigen::Index>(nodes.size()));
@@ -40,13 +40,13 @@ Affine affine(const Program& program, State<double> state) {
         return v;
     };
     state.qddot.assign(state.q.size(), 0);
-    Affine result{.M = Eigen::MatrixXd(n, n), .A = {}, .minus_f = vector("load"), .gamma = vector("gamma")};
-    const Eigen::VectorXd rows = vector("row");
+    Affine result{.M = Eigen::MatrixXd(n, n), .A = {}, .minus_f = vector(Group::load), .gamma = vector(Group::gamma)};
+    const Eigen::VectorXd rows = vector(Group::row);
     result.A = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(rows.data(), result.gamma.size(), n);
     for (Eigen::Index j = 0; j < n; ++j) {
         std::fill(state.qddot.begin(), state.qddot.end(), 0);
         state.qddot[static_cast<std::size_t>(j)] = 1;
-        result.M.col(j) = vector("load") - result.minus_f;
+        result.M.col(j) = vector(Group::load) - result.minus_f;
     }
     return result;
 }

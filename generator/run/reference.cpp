@@ -68,12 +68,12 @@ private:
 };
 
 /// Nodes of a group with the derivatives of `rows`; of positions, those of holonomic constraints alone.
-Settling::Rows rows_of(const Program& p, const Mechanism& m, const char* group, const char* rows) {
+Settling::Rows rows_of(const Program& p, const Mechanism& m, Group group, Group rows) {
     Settling::Rows result;
     const std::vector<int> misfit = p.nodes_of(group), derivative = p.nodes_of(rows);
     const auto n = m.q.size();
     for (std::size_t k = 0; k < misfit.size(); ++k) {
-        if (group[0] == 'p' && !m.constraints[k].position) continue;
+        if (group == Group::position && !m.constraints[k].position) continue;
         result.misfit.push_back(misfit[k]);
         for (std::size_t j = 0; j < n; ++j) result.derivative.push_back(derivative[k * n + j]);
     }
@@ -115,13 +115,13 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     const std::vector<int> q_free = places(m.q_is_guess), u_free = places(m.qdot_is_guess);
     for (const int i : q_free) q[static_cast<std::size_t>(i)] = static_cast<Quad>(doubles.q[static_cast<std::size_t>(i)]);
     const Settling settle(m, constraints, start);
-    settle(rows_of(constraints, m, "position", "row"), q, u, q, q_free);
+    settle(rows_of(constraints, m, Group::position, Group::row), q, u, q, q_free);
     if (speeds_given || !u_free.empty() || !m.constraints.empty()) {
         for (std::size_t i = 0; i < u.size(); ++i)
             if (speeds_given || (i < m.qdot_is_guess.size() && m.qdot_is_guess[i])) u[i] = static_cast<Quad>(doubles.qdot[i]);
-        Settling::Rows rows = rows_of(constraints, m, "velocity", "row");
+        Settling::Rows rows = rows_of(constraints, m, Group::velocity, Group::row);
         if (speeds_given) {
-            const Settling::Rows forms = rows_of(constraints, m, "speed", "form_row");
+            const Settling::Rows forms = rows_of(constraints, m, Group::speed, Group::form_row);
             rows.misfit.insert(rows.misfit.end(), forms.misfit.begin(), forms.misfit.end());
             rows.derivative.insert(rows.derivative.end(), forms.derivative.begin(), forms.derivative.end());
             rows.target.insert(rows.target.end(), speeds.begin(), speeds.end());
@@ -148,8 +148,8 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
 std::optional<Reference> reference(const Program& program, const QuadStart& start, const ReferenceOptions& options) {
     const std::size_t n = program.coordinates.size();
     const bool own_speeds = !program.speeds.empty();
-    std::vector<int> wanted = program.nodes_of("rate");
-    const std::vector<int> accelerations = program.nodes_of("acceleration");
+    std::vector<int> wanted = program.nodes_of(Group::rate);
+    const std::vector<int> accelerations = program.nodes_of(Group::acceleration);
     wanted.insert(wanted.end(), accelerations.begin(), accelerations.end());
     Tape<Quad> tape(program, wanted, start.parameters);
     double share = 0;  // of the work, before this method

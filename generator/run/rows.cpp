@@ -58,7 +58,7 @@ std::vector<std::string> columns_of(const Mechanism& m, const Program& program, 
     columns.emplace_back("energy");
     for (const Part& output : m.outputs) columns.push_back(output.label);
     for (const Root& root : program.roots)
-        if (root.group == "speed") columns.push_back(root.name);
+        if (root.group == Group::speed) columns.push_back(root.name);
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
         for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"}) columns.push_back(fmt::format("{}.{}", reactions->joints[k], part));
     return columns;

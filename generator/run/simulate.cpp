@@ -206,7 +206,7 @@ private:
 }  // namespace
 
 Run simulate(Scene scene, const RunOptions& wishes) {
-    Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run})};
+    Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
         result.warnings.push_back(fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                               result.scene.file));

@@ -22,7 +22,7 @@ constexpr double allowed = 1e-9;  // of the sum of the sizes of a constraint's t
 class Assembly {
 public:
     Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
-        : start_(start), m_(m), p_(p), rows_(p.nodes_of("row")) {
+        : start_(start), m_(m), p_(p), rows_(p.nodes_of(Group::row)) {
         const auto may_move = [&](const std::string& name, bool guess) {
             return guess && std::none_of(held.begin(), held.end(), [&](const auto& h) { return h.first == name; });
         };
@@ -33,15 +33,15 @@ public:
     }
 
     std::vector<std::string> go(bool rates_must_obey) {
-        settle("position", start_.q, q_free_, "");
+        settle(Group::position, start_.q, q_free_, "");
         if (!start_.speeds.empty()) {
             solve_for_rates();
-            check(p_.nodes_of("velocity"), start_.qdot, false, true);
+            check(p_.nodes_of(Group::velocity), start_.qdot, false, true);
             return std::move(moved_);
         }
         const std::vector<double> given = start_.qdot;
         try {
-            settle("velocity", start_.qdot, u_free_, "'");
+            settle(Group::velocity, start_.qdot, u_free_, "'");
         } catch (const std::runtime_error&) {
             if (rates_must_obey) throw;
             start_.qdot = given;
@@ -52,8 +52,8 @@ public:
 private:
     /// All rates from the initial speeds and the constraints, which are linear in them.
     void solve_for_rates() {
-        std::vector<int> nodes = p_.nodes_of("velocity"), rows = rows_;
-        const std::vector<int> speeds = p_.nodes_of("speed"), forms = p_.nodes_of("form_row");
+        std::vector<int> nodes = p_.nodes_of(Group::velocity), rows = rows_;
+        const std::vector<int> speeds = p_.nodes_of(Group::speed), forms = p_.nodes_of(Group::form_row);
         nodes.insert(nodes.end(), speeds.begin(), speeds.end());
         rows.insert(rows.end(), forms.begin(), forms.end());
         const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(m_.size());
@@ -92,7 +92,7 @@ private:
         }
     }
 
-    void settle(const char* group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
+    void settle(Group group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
         const std::vector<int> nodes = p_.nodes_of(group);
         const std::vector<double> before = x;
         const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(free.size());
@@ -103,7 +103,7 @@ private:
             Eigen::MatrixXd J(m, n);
             for (Eigen::Index k = 0; k < m; ++k) {
                 f[k] = value[nodes[k]];
-                const bool counts = group[0] == 'v' || m_.constraints[k].position;
+                const bool counts = group == Group::velocity || m_.constraints[k].position;
                 for (Eigen::Index j = 0; j < n; ++j) J(k, j) = counts ? value[rows_[k * m_.size() + free[j]]] : 0;
             }
             const double misfit = f.lpNorm<Eigen::Infinity>();
@@ -111,7 +111,7 @@ private:
             former = misfit;
             Eigen::VectorXd step = least_norm(J, f).x;
             // Far away a whole step may throw an angle round the circle.
-            if (const double length = step.lpNorm<Eigen::Infinity>(); group[0] == 'p' && length > 1) step /= length;
+            if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1) step /= length;
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }

@@ -15,7 +15,7 @@ namespace {
 /// Which of the n coordinates (or speeds) have kinetic energy, or all if the constraints do not determine the rates of those that have
 /// none from the rates of the others (their columns of A are dependent).
 std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const std::vector<double>& value) {
-    const std::vector<int> mass = program.nodes_of("mass"), rows = program.nodes_of("row");
+    const std::vector<int> mass = program.nodes_of(Group::mass), rows = program.nodes_of(Group::row);
     std::vector<Eigen::Index> heavy, massless, all;
     for (int i = 0; i < n; ++i) {
         bool any = false;
@@ -35,7 +35,7 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const st
 }  // namespace
 
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
-    const std::vector<int> lower = program.nodes_of("mass");
+    const std::vector<int> lower = program.nodes_of(Group::mass);
     if (lower.empty()) return std::nullopt;  // of a tree, whose joints are resisted one by one
     const std::vector<double> value = interpret(program, state);
     std::vector<std::string> names;
@@ -77,7 +77,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
 }
 
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state, const std::vector<int>& kept) {
-    const std::vector<int> rows = program.nodes_of("row");
+    const std::vector<int> rows = program.nodes_of(Group::row);
     const auto n = static_cast<Eigen::Index>(program.coordinates.size()), m = static_cast<Eigen::Index>(kept.size());
     if (kept.empty() || n == 0) return std::nullopt;
     const std::vector<double> value = interpret(program, state);
@@ -93,7 +93,7 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
     const Eigen::VectorXd among = decomposed.left.rightCols(m - left).cwiseAbs().rowwise().sum();
     std::vector<std::string> constraints;
     for (const Root& root : program.roots)
-        if (root.group == "position") constraints.push_back(root.name);
+        if (root.group == Group::position) constraints.push_back(root.name);
     std::string names;
     int count = 0;
     for (Eigen::Index k = 0; k < m; ++k) {
@@ -106,7 +106,7 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
                        count == 1 ? fmt::format("constraint {} has no row left", names) : fmt::format("the rows of constraints {} become dependent", names), m, left);
 }
 
-std::optional<std::string> not_finite(const Program& program, const State<double>& state, const std::string& group) {
+std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group) {
     const std::vector<double> value = interpret(program, state);
     for (const int id : program.needed(program.nodes_of(group))) {
         if (std::isfinite(value[id])) continue;

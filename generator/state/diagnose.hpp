@@ -24,6 +24,6 @@ std::optional<std::string> massless_combination(const Program& program, const St
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state, const std::vector<int>& kept);
 
 /// The first value that is not finite on the way to `group`, and whose term it is: "a division by zero in spring 1".
-std::optional<std::string> not_finite(const Program& program, const State<double>& state, const std::string& group);
+std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group);
 
 }  // namespace alembert

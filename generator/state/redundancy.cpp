@@ -38,7 +38,7 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size()) return {};
     const Program program = lower_constraints(mechanism);
-    const std::vector<int> rows = program.nodes_of("row");
+    const std::vector<int> rows = program.nodes_of(Group::row);
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()), n = static_cast<Eigen::Index>(mechanism.size());
     // A velocity constraint that follows from a position is the one to drop: it does not say where.
     std::vector<int> order;
@@ -81,7 +81,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
 std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
                               const std::vector<State<double>>& states) {
     const Program program = lower_constraints(mechanism);
-    const std::vector<int> rows = program.nodes_of("row");
+    const std::vector<int> rows = program.nodes_of(Group::row);
     const Eigen::Index n = mechanism.size();
     std::vector<int> kept;
     for (int r = 0; r < static_cast<int>(mechanism.constraints.size()); ++r)
@@ -121,7 +121,7 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
     others.qdot_is_guess.assign(mechanism.q.size(), true);
     others.speeds.clear();
     const Program program = lower_constraints(mechanism), constraints = lower_constraints(others);
-    const std::vector<int> velocity = program.nodes_of("velocity");
+    const std::vector<int> velocity = program.nodes_of(Group::velocity);
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> away(-0.3, 0.3), rate(-1, 1);
     for (int k = 0; k < states; ++k) {

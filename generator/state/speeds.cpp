@@ -54,7 +54,7 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
     if (count + static_cast<int>(left_out.size()) != n) left_out.clear();
 
     const Program program = lower_constraints(m);
-    const std::vector<int> forms = program.nodes_of("form_row"), rows = program.nodes_of("row");
+    const std::vector<int> forms = program.nodes_of(Group::form_row), rows = program.nodes_of(Group::row);
     const auto size = static_cast<Eigen::Index>(n), speeds = static_cast<Eigen::Index>(count);
     std::optional<int> dependent;  // the last such row over all states
     std::mt19937_64 random(1);
