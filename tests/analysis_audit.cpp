@@ -7,13 +7,13 @@
 
 #include <set>
 
-#include "analysis/audit.hpp"
-#include "analysis/integral.hpp"
-#include "analysis/redundancy.hpp"
-#include "analysis/variety.hpp"
+#include "audit/audit.hpp"
+#include "audit/integral.hpp"
+#include "state/redundancy.hpp"
+#include "exact/variety.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
-#include "report/text.hpp"
+#include "notation/text.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

@@ -7,9 +7,9 @@
 #include <map>
 
 #include "alembert/error.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/linearize.hpp"
-#include "analysis/redundancy.hpp"
+#include "state/assemble.hpp"
+#include "linear/linearize.hpp"
+#include "state/redundancy.hpp"
 #include "digits.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/lower.hpp"
@@ -91,26 +91,26 @@ public:
         (which < q_.size() ? state.q[q_[which]] : state.qdot[u_[which - q_.size()]]) += by;
         for (int round = 0; round < 8; ++round) {
             const std::vector<Digits> value = interpret(program_, state);
-            move(state.q, dependent_q_, "position", value);
-            move(state.qdot, dependent_u_, "velocity", value);
+            move(state.q, dependent_q_, Group::position, value);
+            move(state.qdot, dependent_u_, Group::velocity, value);
         }
         const std::vector<Digits> value = interpret(program_, state);
-        for (const char* group : {"position", "velocity"})
+        for (const Group group : {Group::position, Group::velocity})
             for (const int id : program_.nodes_of(group)) REQUIRE(value[id].magnitude() < -50);
         std::vector<Digits> result;
         for (const int i : q_) result.push_back(state.qdot[i]);
-        const std::vector<int> acceleration = program_.nodes_of("acceleration");
+        const std::vector<int> acceleration = program_.nodes_of(Group::acceleration);
         for (const int i : u_) result.push_back(value[acceleration[i]]);
         return result;
     }
 
 private:
-    void move(std::vector<Digits>& x, const std::vector<int>& dependent, const char* group, const std::vector<Digits>& value) const {
-        const std::vector<int> misfit = program_.nodes_of(group), rows = program_.nodes_of("row");
+    void move(std::vector<Digits>& x, const std::vector<int>& dependent, Group group, const std::vector<Digits>& value) const {
+        const std::vector<int> misfit = program_.nodes_of(group), rows = program_.nodes_of(Group::row);
         std::vector<std::vector<Digits>> S;
         std::vector<Digits> b;
         for (std::size_t k = 0; k < misfit.size(); ++k) {
-            if (group[0] == 'p' && !m_.constraints[k].position) continue;
+            if (group == Group::position && !m_.constraints[k].position) continue;
             S.emplace_back();
             for (const int j : dependent) S.back().push_back(value[rows[k * m_.q.size() + static_cast<std::size_t>(j)]]);
             b.push_back(value[misfit[k]]);

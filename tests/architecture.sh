@@ -16,21 +16,31 @@ files() { find "$@" -name '*.?pp' | sort; }
 ginac='#include.*(ginac|cln/)'
 mapfile -t runtime < <(files lib)
 mapfile -t scene < <(files generator/scene)
-mapfile -t below_model < <(files generator/scene generator/symbolic)
-mapfile -t emit < <(files generator/emit)
+mapfile -t graph < <(files generator/program generator/emit)
 mapfile -t generator < <(files generator | grep -v -e '^generator/commands' -e '^generator/main.cpp')
 mapfile -t not_reader < <(files lib generator | grep -v '^generator/scene/')
 mapfile -t not_module < <(files lib generator | grep -v '^lib/alembert/module.cpp')
-mapfile -t formalism < <(files generator/formalism generator/model)
 
-forbid 'the runtime includes the generator' '#include "(scene|symbolic|model|formalism|lower|emit|analysis|report|commands|urdf)/' "${runtime[@]}"
+# The rooms of generator/rooms.txt: each includes only itself, what stands before it, and the runtime.
+mapfile -t rooms < <(sed -e '/^#/d' -e '/^$/d' -e 's/ .*//' generator/rooms.txt)
+every=$(IFS='|'; echo "${rooms[*]}")
+later=$every
+for room in "${rooms[@]}"; do
+    later=${later#"$room"}
+    later=${later#|}
+    [ -d "generator/$room" ] || { echo "generator/rooms.txt names the room '$room', which does not exist"; failed=1; continue; }
+    [ -z "$later" ] && continue
+    mapfile -t inside < <(files "generator/$room")
+    forbid "the room $room includes a later one" "#include \"($later)/" "${inside[@]}"
+done
+for folder in generator/*/; do
+    [[ " ${rooms[*]} peers " == *" $(basename "$folder") "* ]] || { echo "$folder is not in generator/rooms.txt"; failed=1; }
+done
+
+forbid 'the runtime includes the generator' "#include \"($every)/" "${runtime[@]}"
 forbid 'the runtime includes GPL libraries' "$ginac" "${runtime[@]}"
 forbid 'GiNaC in the scene layer' "$ginac" "${scene[@]}"
-forbid 'a lower layer includes a higher one' '#include "(model|formalism|lower|emit|analysis|commands)/' "${below_model[@]}"
-forbid 'model or formalism includes what comes later' '#include "(lower|emit|analysis|commands)/' "${formalism[@]}"
-forbid 'GiNaC beyond lower' '#include.*ginac' "${emit[@]}" generator/lower/program.hpp generator/lower/program.cpp \
-    generator/lower/solve.cpp generator/lower/solve.hpp generator/lower/share.cpp generator/lower/share.hpp \
-    generator/lower/interpret.hpp
+forbid 'GiNaC in the rooms program and emit' '#include.*(ginac|"(symbolic|notation|model|formalism|lower)/)' "${graph[@]}"
 forbid 'commands are used below the commands' '#include "commands/' "${generator[@]}"
 forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "analysis/check.hpp"
-#include "analysis/redundancy.hpp"
+#include "check/check.hpp"
+#include "state/redundancy.hpp"
 #include "formalism/routh.hpp"
-#include "report/derivation.hpp"
-#include "report/text.hpp"
+#include "derive/derivation.hpp"
+#include "notation/text.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 

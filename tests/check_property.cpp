@@ -9,7 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 
-#include "analysis/check.hpp"
+#include "check/check.hpp"
 #include "formalism/routh.hpp"
 #include "oracle.hpp"
 #include "rewritings.hpp"

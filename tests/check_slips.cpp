@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "analysis/check.hpp"
+#include "check/check.hpp"
 #include "formalism/routh.hpp"
 #include "oracle.hpp"
 #include "rewritings.hpp"

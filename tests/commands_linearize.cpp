@@ -171,3 +171,49 @@ y = "n*x"
     CHECK(matrix(pendulum["matrices"]["K"])(0, 0) == doctest::Approx(2 * 9.81));
     CHECK_FALSE(json_of({"linearize", bicycle, "--at", "kick=0", "--json"}).contains("symbolic"));
 }
+
+TEST_CASE("linearize: a kink at the state exits with 3 and names the function, and beside it the scene is linearized") {
+    const std::string text = "[parameters]\nk = 2\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
+                             "[[force]]\nat = \"P\"\nvector = [\"k*(1 - abs(x)) - k*max(1 - 2*abs(x), 0)\", 0]\n";
+    const std::string scene = temporary("kink.toml", text);
+    const auto result = run({"linearize", scene, "--json"});
+    CHECK(result.exit == 3);
+    CHECK(result.out.empty());
+    CHECK(result.err.find("abs(x)") != std::string::npos);
+    const Json beside = json_of({"linearize", scene, "--at", "x=-1", "--json"});
+    CHECK(beside["matrices"]["A"][1][0] == 2);
+    const std::string drag = temporary("drag.toml", "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
+                                                    "[[force]]\nat = \"P\"\nvector = [\"-x'*sqrt(x'^2+y'^2)-4*x\", \"-y\"]\n");
+    const Json near = json_of({"linearize", drag, "--json"});
+    CHECK(near["matrices"]["K"] == Json::parse("[[4.0, 0.0], [0.0, 1.0]]"));
+    CHECK(near["matrices"]["C"] == Json::parse("[[0.0, 0.0], [0.0, 0.0]]"));
+}
+
+// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards and returns from a bounce.
+TEST_CASE("linearize: a contact that presses is a constraint, and one that touches without a force is refused") {
+    const auto scene = [](const std::string& weight) {
+        return temporary("floor" + weight + ".toml",
+                         "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n[[force]]\n"
+                         "at = \"P\"\nvector = [\"-4*x\", \"-3*y - " + weight + "\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n"
+                         "restitution = 0.5\n");
+    };
+    CHECK(json_of({"linearize", scene("1"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-4.0, 0.0]]"));
+    const auto open = run({"linearize", scene("-3"), "--at", "y=1", "--json"});  // above the floor: y'' = -3 y + 3
+    CHECK(open.exit == 0);
+    CHECK(Json::parse(open.out)["matrices"]["A"][3][1] == -3);
+    const auto touching = run({"linearize", scene("0"), "--json"});
+    CHECK(touching.exit == 3);
+    CHECK(touching.err.find("contact floor touches at this state without a force") != std::string::npos);
+}
+
+// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force takes part in the slope, and |y| = x² has no kink on the curve.
+TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, and not where it runs along it") {
+    const auto bead = [](const std::string& name, const std::string& force) {
+        return temporary(name + ".toml", "[coordinates]\nx = 0\ny = { guess = 0 }\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
+                                         "[[force]]\nat = \"P\"\nvector = [\"" + force + "\", \"-1\"]\n[[constraint]]\nname = \"curve\"\n"
+                                         "holonomic = \"y - x^2\"\n");
+    };
+    CHECK(json_of({"linearize", bead("along", "-abs(y)"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-2.0, 0.0]]"));
+    CHECK(run({"linearize", bead("across", "-abs(x)")}).err.find("the slope -3 in x where x grows, and -1 where it falls") != std::string::npos);
+    CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
+}

@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-#include "lower/interpret.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert::test {
 

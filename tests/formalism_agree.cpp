@@ -4,13 +4,13 @@
 #include <doctest/doctest.h>
 
 
-#include "analysis/agree.hpp"
+#include "agree/agree.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
-#include "lower/modular.hpp"
-#include "lower/prime_polynomial.hpp"
+#include "program/modular.hpp"
+#include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -44,13 +44,13 @@ void check_numerically(const Mechanism& m, const Equations& a, const Equations& 
                                        .qdot = {at.qdot.begin(), at.qdot.end()},
                                        .qddot = {}};
         const auto x = interpret(first, state), y = interpret(second, state);
-        const auto group = [](const Program& p, const std::vector<long double>& value, const char* name) {
+        const auto group = [](const Program& p, const std::vector<long double>& value, Group name) {
             std::vector<long double> result;
             for (const int id : p.nodes_of(name)) result.push_back(value[id]);
             return result;
         };
-        const auto u = group(first, x, "acceleration"), lambda = group(first, x, "multiplier");
-        const auto M = group(second, y, "mass"), f = group(second, y, "forcing"), A = group(second, y, "row");
+        const auto u = group(first, x, Group::acceleration), lambda = group(first, x, Group::multiplier);
+        const auto M = group(second, y, Group::mass), f = group(second, y, Group::forcing), A = group(second, y, Group::row);
         if (u.empty() || !std::all_of(u.begin(), u.end(), [](long double v) { return std::isfinite(v); })) continue;
         ++compared;
         const std::size_t n = u.size();
@@ -85,7 +85,7 @@ void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b)
     const unsigned seed = 19851985;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
-    const auto group = [](const Program& p, const std::vector<long double>& value, const char* name) {
+    const auto group = [](const Program& p, const std::vector<long double>& value, Group name) {
         std::vector<long double> result;
         for (const int id : p.nodes_of(name)) result.push_back(value[id]);
         return result;
@@ -100,8 +100,8 @@ void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b)
                                  .qddot = {}};
         State<long double> plain = state;
         auto y = interpret(second, state);
-        plain.qdot = group(second, y, "rate");
-        state.qddot = group(second, y, "acceleration");
+        plain.qdot = group(second, y, Group::rate);
+        state.qddot = group(second, y, Group::acceleration);
         y = interpret(second, state);
         const auto x = interpret(first, plain);
         const auto compare = [&](const std::vector<long double>& right, const std::vector<long double>& found) {
@@ -115,12 +115,12 @@ void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b)
             ++compared;
             CHECK(worst <= 1e-11L * largest);
         };
-        compare(group(first, x, "acceleration"), group(second, y, "second_rate"));
-        compare(group(first, x, "multiplier"), group(second, y, "multiplier"));
+        compare(group(first, x, Group::acceleration), group(second, y, Group::second_rate));
+        compare(group(first, x, Group::multiplier), group(second, y, Group::multiplier));
         long double fastest = 1;
         for (const long double rate : plain.qdot) fastest = std::max(fastest, std::abs(rate));
         for (const Equations::Eliminated& gone : b.eliminated)
-            if (std::isfinite(fastest)) CHECK(std::abs(y[second.nodes_of("velocity")[gone.constraint]]) <= 1e-12L * fastest);
+            if (std::isfinite(fastest)) CHECK(std::abs(y[second.nodes_of(Group::velocity)[gone.constraint]]) <= 1e-12L * fastest);
     }
     CHECK(compared > 0);
 }

@@ -8,14 +8,14 @@
 #include <random>
 #include <sstream>
 
-#include "analysis/agree.hpp"
+#include "agree/agree.hpp"
 #include "emit/emit.hpp"
 #include "formalism/joint_tree.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
-#include "lower/flatten.hpp"
-#include "lower/modular.hpp"
+#include "program/flatten.hpp"
+#include "program/modular.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -43,10 +43,10 @@ void check_exactly(const Mechanism& m) {
     const Equations e = recursive(m);
     const Program expected = lower(m, lagrange(m), energy_of(m));
     REQUIRE(e.tree);
-    const std::vector<int> a = expected.nodes_of("acceleration");
+    const std::vector<int> a = expected.nodes_of(Group::acceleration);
     for (const Program& program : programs(m, e)) {
         CAPTURE(program.formulation);
-        const std::vector<int> b = program.nodes_of("acceleration");
+        const std::vector<int> b = program.nodes_of(Group::acceleration);
         REQUIRE(a.size() == b.size());
         for (const std::uint64_t seed : {1U, 2U, 3U}) {
             const auto x = evaluate_mod(expected, {.seed = seed}, a), y = evaluate_mod(program, {.seed = seed}, b);
@@ -254,7 +254,7 @@ TEST_CASE("recursive: oblique, universal, cylindrical and sliding joints and a p
         const auto accelerations = [&](const Program& program) {
             const std::vector<long double> value = interpret(program, state);
             std::vector<long double> result;
-            for (const int node : program.nodes_of("acceleration")) result.push_back(value[node]);
+            for (const int node : program.nodes_of(Group::acceleration)) result.push_back(value[node]);
             return result;
         };
         const std::vector<long double> a = accelerations(expected);
@@ -308,7 +308,7 @@ TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhe
         for (const Program& program : programs(m, recursive(m), expected.size() <= 16)) {
             CAPTURE(program.formulation);
             const std::vector<double> value = interpret(program, state);
-            const std::vector<int> nodes = program.nodes_of("acceleration");
+            const std::vector<int> nodes = program.nodes_of(Group::acceleration);
             for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(value[nodes[i]] - expected[i]) < 1e-12 * largest);
             ++compared;
         }
@@ -335,9 +335,9 @@ TEST_CASE("recursive: without the mass matrix, the same accelerations") {
     for (const std::string& text : {chain(5), tree_in_space(6)}) {
         const Mechanism m = from_text(text);
         const Program expected = lower(m, lagrange(m), energy_of(m)), found = choose(m, recursive_without_matrix(m)).program;
-        CHECK(found.nodes_of("mass").empty());
+        CHECK(found.nodes_of(Group::mass).empty());
         CHECK(emit(found).text.find("void mass_forcing") == std::string::npos);
-        const std::vector<int> a = expected.nodes_of("acceleration"), b = found.nodes_of("acceleration");
+        const std::vector<int> a = expected.nodes_of(Group::acceleration), b = found.nodes_of(Group::acceleration);
         REQUIRE(a.size() == b.size());
         const auto x = evaluate_mod(expected, {.seed = 5}, a), y = evaluate_mod(found, {.seed = 5}, b);
         REQUIRE(x);

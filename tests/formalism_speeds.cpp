@@ -6,8 +6,8 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/rhs.hpp"
-#include "analysis/agree.hpp"
-#include "analysis/speeds.hpp"
+#include "agree/agree.hpp"
+#include "state/speeds.hpp"
 #include "emit/emit.hpp"
 #include "formalism/cancel.hpp"
 #include "formalism/kane.hpp"
@@ -16,8 +16,8 @@
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "model/energy.hpp"
-#include "report/derivation.hpp"
-#include "report/text.hpp"
+#include "derive/derivation.hpp"
+#include "notation/text.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -191,12 +191,12 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
             State<double> state = test::random_state(start, random);
             state.qdot.resize(s);
             std::vector<double> value = interpret(program, state), y = state.q, rate(n + s);
-            for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+            for (const int id : program.nodes_of(Group::acceleration)) state.qddot.push_back(value[id]);
             value = interpret(program, state);
             y.insert(y.end(), state.qdot.begin(), state.qdot.end());
             rhs(state.t, y.data(), rate.data());
             std::vector<double> found = rate, expected, position(c), velocity(c), rows(c * (n + s)), lambda(c), mass(s * s), forcing(s);
-            const auto expect = [&](const char* group) {
+            const auto expect = [&](Group group) {
                 for (const int id : program.nodes_of(group)) expected.push_back(value[id]);
             };
             const auto take = [&](const std::vector<double>& numbers) { found.insert(found.end(), numbers.begin(), numbers.end()); };
@@ -205,10 +205,12 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
             module.table().constraints_at(state.t, y.data(), par.data(), position.data(), velocity.data(), rows.data());
             module.table().multipliers_at(state.t, y.data(), par.data(), lambda.data());
             module.table().mass_forcing(state.t, y.data(), par.data(), mass.data(), forcing.data());
-            std::vector<double> outputs(program.nodes_of("output").size() + m.speeds.size());
+            std::vector<double> outputs(program.nodes_of(Group::output).size() + m.speeds.size());
             module.table().outputs_at(state.t, y.data(), rate.data(), par.data(), outputs.data());
             for (const auto* numbers : {&position, &velocity, &rows, &lambda, &forcing, &outputs}) take(*numbers);
-            for (const char* group : {"position", "velocity", "row", "speed_row", "multiplier", "forcing", "output", "speed"}) expect(group);
+            for (const Group group : {Group::position, Group::velocity, Group::row, Group::speed_row, Group::multiplier, Group::forcing,
+                                      Group::output, Group::speed})
+                expect(group);
             REQUIRE(found.size() == expected.size());
             double size = 1;
             for (const double x : expected) size = std::max(size, std::abs(x));

@@ -97,13 +97,13 @@ void check_energy(const Module& module, const Program& program, State<double> st
     module.table().energy(state.t, y.data(), rate.data(), par.data(), found.data(), found.data() + 4);
     module.table().mass_forcing(state.t, y.data(), par.data(), found.data() + 5, found.data() + 5 + n * n);
     std::vector<double> expected;
-    for (const char* group : {"kinetic", "potential", "energy", "power", "jacobi"})
+    for (const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power, Group::jacobi})
         expected.push_back(value[program.nodes_of(group)[0]]);
-    const std::vector<int> mass = program.nodes_of("mass");
+    const std::vector<int> mass = program.nodes_of(Group::mass);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
             expected.push_back(value[mass[std::max(i, j) * (std::max(i, j) + 1) / 2 + std::min(i, j)]]);
-    for (const int id : program.nodes_of("forcing")) expected.push_back(value[id]);
+    for (const int id : program.nodes_of(Group::forcing)) expected.push_back(value[id]);
     double size = 1;  // sums of terms of about this size
     for (const double x : expected) size = std::max(size, std::abs(x));
     // The power may hold multipliers: they come with the accelerations from one solve, whose errors are in proportion to
@@ -138,7 +138,7 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         const auto accelerations = [](const State<double>& at, const Program& p) {
             const std::vector<double> value = interpret(p, at);
             std::vector<double> a;
-            for (const int id : p.nodes_of("acceleration")) a.push_back(value[id]);
+            for (const int id : p.nodes_of(Group::acceleration)) a.push_back(value[id]);
             return a;
         };
         const std::vector<double> a = accelerations(state, program), b = accelerations(state, other);
@@ -163,7 +163,7 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         largest *= harder;  // where a rounding of the state alone moves them more, no more can be asked
         check_energy(module, program, state, y, rate);
         std::vector<double> multipliers;
-        for (const int id : program.nodes_of("multiplier")) multipliers.push_back(interpret(program, state)[id]);
+        for (const int id : program.nodes_of(Group::multiplier)) multipliers.push_back(interpret(program, state)[id]);
         for (int i = 0; i < n; ++i) {
             emitted_error = std::max(emitted_error, std::abs(rate[n + i] - a[i]) / largest);
             form_error = std::max(form_error, std::abs(b[i] - a[i]) / largest);
@@ -192,7 +192,7 @@ TEST_CASE("generator: every node of a program says whose term it is") {
         const Program program = choose(mechanism, routh(mechanism)).program;
         for (int id = 0; id < program.size(); ++id) CHECK_FALSE(program[id].sources.empty());
         int named = 0;  // more than "the scene"
-        for (const int id : program.needed(program.nodes_of("forcing"))) named += program[id].sources[0] != 0 ? 1 : 0;
+        for (const int id : program.needed(program.nodes_of(Group::forcing))) named += program[id].sources[0] != 0 ? 1 : 0;
         CHECK(named > 0);
     }
 }

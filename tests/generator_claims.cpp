@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
@@ -55,11 +55,11 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
         }
         state = start.state();
         std::vector<double> value = interpret(program, state);
-        for (const int id : program.nodes_of("acceleration")) state.qddot.push_back(value[id]);
+        for (const int id : program.nodes_of(Group::acceleration)) state.qddot.push_back(value[id]);
         value = interpret(program, state);
         std::size_t claim = 0;
         for (const Root& root : program.roots) {
-            if (root.group != "output" || !root.name.starts_with("claim")) continue;
+            if (root.group != Group::output || !root.name.starts_with("claim")) continue;
             const Node* node = &program[root.node];
             while (node->is_scaled()) node = &program[node->args[0]];
             double size = 0;

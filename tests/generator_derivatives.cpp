@@ -11,8 +11,8 @@
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
-#include "lower/differentiate.hpp"
-#include "lower/partials.hpp"
+#include "program/differentiate.hpp"
+#include "program/partials.hpp"
 #include "scenes.hpp"
 #include "symbolic/symbols.hpp"
 
@@ -35,11 +35,11 @@ std::vector<Dual> along(const Program& p, const State<double>& s, bool parameter
     (parameter ? at.parameters[j] : j < s.q.size() ? at.q[j] : at.qdot[j - s.q.size()]).d = 1;
     std::vector<Dual> rates, value = interpret(p, at);
     if (p.speeds.empty()) rates = at.qdot;
-    for (const int id : p.nodes_of("rate")) rates.push_back(value[static_cast<std::size_t>(id)]);
-    for (const int id : p.nodes_of("acceleration")) rates.push_back(value[static_cast<std::size_t>(id)]);
+    for (const int id : p.nodes_of(Group::rate)) rates.push_back(value[static_cast<std::size_t>(id)]);
+    for (const int id : p.nodes_of(Group::acceleration)) rates.push_back(value[static_cast<std::size_t>(id)]);
     at.qddot.assign(rates.begin() + static_cast<std::ptrdiff_t>(s.q.size()), rates.end());
     value = interpret(p, at);
-    rates.push_back(value[static_cast<std::size_t>(p.nodes_of("power")[0])]);
+    rates.push_back(value[static_cast<std::size_t>(p.nodes_of(Group::power)[0])]);
     return rates;
 }
 
@@ -49,11 +49,11 @@ double misfit(const Program& program, const Differentiated& d, const State<doubl
     const std::vector<double> y = flat(s);
     State<double> at = s;
     std::vector<double> value = interpret(d.program, at);
-    for (const int id : d.program.nodes_of("acceleration")) at.qddot.push_back(value[static_cast<std::size_t>(id)]);
+    for (const int id : d.program.nodes_of(Group::acceleration)) at.qddot.push_back(value[static_cast<std::size_t>(id)]);
     value = interpret(d.program, at);
     double worst = 0;
-    const auto compare = [&](const char* group, const char* last, bool parameter, std::size_t columns) {
-        const std::vector<int> nodes = d.program.nodes_of(group), tail = d.program.nodes_of(last);
+    const auto compare = [&](Group group, std::optional<Group> last, bool parameter, std::size_t columns) {
+        const std::vector<int> nodes = d.program.nodes_of(group), tail = last ? d.program.nodes_of(*last) : std::vector<int>();
         double difference = 0, largest = 1e-3;
         for (std::size_t j = 0; j < columns; ++j) {
             const std::vector<Dual> exact = along(program, s, parameter, j);
@@ -66,8 +66,8 @@ double misfit(const Program& program, const Differentiated& d, const State<doubl
         }
         worst = std::max(worst, difference / largest);
     };
-    compare("jacobian", "power_gradient", false, y.size());
-    if (!d.program.nodes_of("parameter_jacobian").empty()) compare("parameter_jacobian", "", true, s.parameters.size());
+    compare(Group::jacobian, Group::power_gradient, false, y.size());
+    if (!d.program.nodes_of(Group::parameter_jacobian).empty()) compare(Group::parameter_jacobian, std::nullopt, true, s.parameters.size());
     return worst;
 }
 
@@ -169,7 +169,7 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
         State<double> s = state_of(start_of(m), m, equations);
         for (double& u : s.qdot) u += 0.3;
         std::vector<double> y = flat(s), value = interpret(d->program, s);
-        for (const int id : d->program.nodes_of("acceleration")) s.qddot.push_back(value[static_cast<std::size_t>(id)]);
+        for (const int id : d->program.nodes_of(Group::acceleration)) s.qddot.push_back(value[static_cast<std::size_t>(id)]);
         value = interpret(d->program, s);
         const std::size_t n = y.size();
         const Rhs driven = make_rhs(module, s.parameters, Work::integrated);
@@ -177,8 +177,8 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
         std::vector<double> J((n + 1) * (n + 1), NAN);
         y.push_back(0);
         driven.jacobian(driven.context.get(), s.t, y.data(), J.data());
-        std::vector<int> nodes = d->program.nodes_of("jacobian");
-        const std::vector<int> last = d->program.nodes_of("power_gradient");
+        std::vector<int> nodes = d->program.nodes_of(Group::jacobian);
+        const std::vector<int> last = d->program.nodes_of(Group::power_gradient);
         nodes.insert(nodes.end(), last.begin(), last.end());
         double largest = 1;
         for (const int id : nodes) largest = std::max(largest, std::abs(value[static_cast<std::size_t>(id)]));
@@ -189,7 +189,7 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
         const std::vector<double> par = prepared(module, s.parameters);
         std::vector<double> entries(static_cast<std::size_t>(module.derivatives()->parameter_entries));
         module.derivatives()->parameter_jacobian(s.t, y.data(), par.data(), entries.data());
-        const std::vector<int> by_parameters = d->program.nodes_of("parameter_jacobian");
+        const std::vector<int> by_parameters = d->program.nodes_of(Group::parameter_jacobian);
         for (std::size_t k = 0; k < entries.size(); ++k) {
             const int at = module.derivatives()->parameter_rows[k] * static_cast<int>(s.parameters.size()) +
                            module.derivatives()->parameter_columns[k];

@@ -71,7 +71,7 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
             continue;
         }
         const Program program = lower_inverse(m);
-        const std::vector<int> loads = program.nodes_of("load");
+        const std::vector<int> loads = program.nodes_of(Group::load);
         REQUIRE(static_cast<int>(loads.size()) == m.size());
         const std::vector<double> value = interpret(program, state);
         for (std::size_t i = 0; i < loads.size(); ++i) CHECK(std::abs(value[loads[i]] - expected->load[i]) < 1e-11 * expected->size[i]);
@@ -90,7 +90,7 @@ TEST_CASE("inverse: along a tree the operations grow linearly") {
     std::vector<int> operations;
     for (const int n : {8, 16, 32}) {
         const Program program = lower_inverse(build(read_scene(test::source_path("scenes/benchmark/trees/pend" + std::to_string(n) + ".toml"))));
-        operations.push_back(program.count(program.nodes_of("load")).total());
+        operations.push_back(program.count(program.nodes_of(Group::load)).total());
     }
     CHECK(std::abs((operations[2] - operations[1]) - 2 * (operations[1] - operations[0])) < operations[0] / 4);
 }

@@ -37,7 +37,7 @@ std::vector<double> sizes_of(const Program& program, const std::vector<double>& 
     return size;
 }
 
-double largest(const Program& program, const std::vector<double>& size, const char* group) {
+double largest(const Program& program, const std::vector<double>& size, Group group) {
     double result = 0;
     for (const int id : program.nodes_of(group)) result = std::max(result, size[id]);
     return result;
@@ -105,7 +105,7 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
             CHECK(distance(lane_of(mass, lane), expected.mass) <= four_ulp * largest(program, size, "mass"));
             CHECK(distance(lane_of(forcing, lane), expected.forcing) <= four_ulp * largest(program, size, "forcing"));
             const std::vector<double> e = lane_of(energy, lane);
-            for (std::size_t i = 0; const char* group : {"kinetic", "potential", "energy", "power", "jacobi"}) {
+            for (std::size_t i = 0; const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power, Group::jacobi}) {
                 CHECK(std::abs(e[i] - expected.energy[i]) <= four_ulp * std::max(largest(program, size, group), std::abs(expected.energy[i])));
                 ++i;
             }
@@ -166,11 +166,11 @@ TEST_CASE("packs: every function and comparison goes lane by lane, with zeros, i
         outputs.push_back(program.call(op, {x}));
     for (const Op op : {Op::pow, Op::atan2, Op::min, Op::max}) outputs.push_back(program.call(op, {x, y}));
     outputs.push_back(program.product(1, {{x, 1}, {program.power(y, -1), 1}}));
-    for (std::size_t i = 0; i < outputs.size(); ++i) program.roots.push_back({"output", "o" + std::to_string(i), outputs[i]});
+    for (std::size_t i = 0; i < outputs.size(); ++i) program.roots.push_back({Group::output, "o" + std::to_string(i), outputs[i]});
     for (int i = 0; i < 2; ++i) {
-        for (int j = 0; j <= i; ++j) program.roots.push_back({"mass", "M", program.number(i == j ? 1 : 0)});
-        program.roots.push_back({"forcing", "f", program.number(0)});
-        program.roots.push_back({"acceleration", "a", program.number(0)});
+        for (int j = 0; j <= i; ++j) program.roots.push_back({Group::mass, "M", program.number(i == j ? 1 : 0)});
+        program.roots.push_back({Group::forcing, "f", program.number(0)});
+        program.roots.push_back({Group::acceleration, "a", program.number(0)});
     }
     const Module module = load(compile(emit(program, {.batch = true}).text, "functions", {}).object);
 

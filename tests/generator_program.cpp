@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "lower/interpret.hpp"
-#include "lower/share.hpp"
-#include "lower/solve.hpp"
+#include "program/interpret.hpp"
+#include "program/share.hpp"
+#include "program/solve.hpp"
 
 using namespace alembert;
 
@@ -59,15 +59,15 @@ TEST_CASE("program: a·(b·x) takes one multiplication with a·b known beforehan
         Program p;
         const int x = coordinate(p, 0), y = coordinate(p, 1), a = parameter(p, 0), b = parameter(p, 1);
         const int force = p.product(-1, {{b, 2}, {x, 1}, {y, 1}});
-        p.roots = {{"forcing", "f0", force}, {"acceleration", "a0", p.product(1, {{force, 1}, {a, -1}})}};
-        if (is_wanted) p.roots.push_back({"acceleration", "a1", force});
+        p.roots = {{Group::forcing, "f0", force}, {Group::acceleration, "a0", p.product(1, {{force, 1}, {a, -1}})}};
+        if (is_wanted) p.roots.push_back({Group::acceleration, "a1", force});
         CHECK(p.count(p.right_hand_side()).total() == 3);  // b² x y, then by 1/a
 
         const Program result = shared(p);
         CHECK(result.count(result.right_hand_side()).total() == (is_wanted ? 3 : 2));
         const std::vector<double> values = interpret<double>(result, state);
-        CHECK(values[result.nodes_of("forcing")[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4).epsilon(1e-15));
-        CHECK(values[result.nodes_of("acceleration")[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4 / 0.7).epsilon(1e-15));
+        CHECK(values[result.nodes_of(Group::forcing)[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4).epsilon(1e-15));
+        CHECK(values[result.nodes_of(Group::acceleration)[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4 / 0.7).epsilon(1e-15));
     }
 }
 

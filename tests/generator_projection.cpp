@@ -8,7 +8,7 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/project.hpp"
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "emit/emit.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"

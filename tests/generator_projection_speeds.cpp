@@ -12,7 +12,7 @@
 #include "alembert/compile.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/project.hpp"
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "emit/emit.hpp"
 #include "formalism/kane.hpp"
 #include "lower/choose.hpp"

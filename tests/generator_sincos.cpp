@@ -33,11 +33,11 @@ Module solver_of_sines(int n, const std::vector<std::string>& flags = {}) {
         const std::string digit = std::to_string(i);
         program.coordinates.push_back({"q" + digit, "", 0});
         const int q = program.variable({Variable::Kind::coordinate, i});
-        program.roots.push_back({"output", "s" + digit, program.call(Op::sin, {q})});
-        program.roots.push_back({"output", "c" + digit, program.call(Op::cos, {q})});
-        for (int j = 0; j <= i; ++j) program.roots.push_back({"mass", "M" + digit, program.number(i == j ? 1 : 0)});
-        program.roots.push_back({"forcing", "f" + digit, program.number(0)});
-        program.roots.push_back({"acceleration", "a" + digit, program.number(0)});
+        program.roots.push_back({Group::output, "s" + digit, program.call(Op::sin, {q})});
+        program.roots.push_back({Group::output, "c" + digit, program.call(Op::cos, {q})});
+        for (int j = 0; j <= i; ++j) program.roots.push_back({Group::mass, "M" + digit, program.number(i == j ? 1 : 0)});
+        program.roots.push_back({Group::forcing, "f" + digit, program.number(0)});
+        program.roots.push_back({Group::acceleration, "a" + digit, program.number(0)});
     }
     const std::string text = emit(program, {.batch = true}).text;
     return load(compile(text, "sines", {.compiler = {}, .extra_flags = flags, .cache = {}}).object);

@@ -11,11 +11,11 @@
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "alembert/taylor.hpp"
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
-#include "lower/quad.hpp"
+#include "program/quad.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -170,8 +170,8 @@ TEST_CASE("taylor: the derivative of the polynomial is the interpreter's rate at
         const std::vector<double> nodes = interpret(p, there);
         std::vector<double> rate;
         if (p.speeds.empty()) rate = there.qdot;
-        for (const int id : p.nodes_of("rate")) rate.push_back(nodes[static_cast<std::size_t>(id)]);
-        for (const int id : p.nodes_of("acceleration")) rate.push_back(nodes[static_cast<std::size_t>(id)]);
+        for (const int id : p.nodes_of(Group::rate)) rate.push_back(nodes[static_cast<std::size_t>(id)]);
+        for (const int id : p.nodes_of(Group::acceleration)) rate.push_back(nodes[static_cast<std::size_t>(id)]);
         REQUIRE(rate.size() == width);
         double largest = 0, worst = 0, left_out = 0;
         for (std::size_t i = 0; i < width; ++i) {

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "analysis/agree.hpp"
-#include "analysis/assemble.hpp"
+#include "agree/agree.hpp"
+#include "state/assemble.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 Mechanism from_text(const std::string& text) { return build(parse_scene(text, "scene.toml")); }
 
-std::vector<double> group(const Program& program, const State<double>& state, const char* name) {
+std::vector<double> group(const Program& program, const State<double>& state, Group name) {
     const std::vector<double> value = interpret(program, state);
     std::vector<double> result;
     for (const int id : program.nodes_of(name)) result.push_back(value[id]);
@@ -56,10 +56,10 @@ void same_motion(const std::string& joints, const std::string& frames) {
     std::mt19937_64 random(seed);
     for (int i = 0; i < 8; ++i) {
         const State<double> state = test::random_state(start_of(a), random);
-        const std::vector<double> expected = group(r, state, "acceleration");
+        const std::vector<double> expected = group(r, state, Group::acceleration);
         // Rounding times the conditioning of M (below 10³ here).
-        for (const Program* program : {&p, &k, &d, &s, &w}) CHECK(distance(group(*program, state, "acceleration"), expected) < 1e-12);
-        CHECK(distance(group(p, state, "energy"), group(r, state, "energy")) < 1e-13);
+        for (const Program* program : {&p, &k, &d, &s, &w}) CHECK(distance(group(*program, state, Group::acceleration), expected) < 1e-12);
+        CHECK(distance(group(p, state, Group::energy), group(r, state, Group::energy)) < 1e-13);
     }
 }
 
@@ -288,10 +288,10 @@ TEST_CASE("joints: a spherical joint by a quaternion turns the child against the
             State<double> state = test::random_state(start_of(m), random);  // q0, a, b, c, d
             const Eigen::Quaterniond e(state.q[1], state.q[2], state.q[3], state.q[4]);
             const Eigen::Matrix3d R = e.normalized().toRotationMatrix();
-            const std::vector<double> outputs = group(program, state, "output");
+            const std::vector<double> outputs = group(program, state, Group::output);
             for (int r = 0; r < 9; ++r) CHECK(outputs[r] == doctest::Approx(R(r / 3, r % 3)).epsilon(1e-13));
             for (const Program* other : {&k, &s, &w})
-                CHECK(distance(group(*other, state, "acceleration"), group(program, state, "acceleration")) < 1e-12);
+                CHECK(distance(group(*other, state, Group::acceleration), group(program, state, Group::acceleration)) < 1e-12);
         }
     }
 }
@@ -306,7 +306,7 @@ TEST_CASE("joints: a free joint whose quaternion is prescribed moves as the body
     REQUIRE(a.size() == 3);
     std::mt19937_64 random(20040110);
     const State<double> state = test::random_state(start_of(a), random);
-    CHECK(distance(group(lowered(a, lagrange(a)), state, "acceleration"), group(lowered(b, kane(b)), state, "acceleration")) < 1e-12);
+    CHECK(distance(group(lowered(a, lagrange(a)), state, Group::acceleration), group(lowered(b, kane(b)), state, Group::acceleration)) < 1e-12);
 }
 
 TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
@@ -328,7 +328,7 @@ TEST_CASE("joints: a loop's rows lock exactly the other directions, and pull the
         CHECK(m.constraints.size() == c.rows.size());
         const Program program = lower_constraints(m);
         const State<double> state = start_of(m).state();
-        const std::vector<double> A = group(program, state, "row");
+        const std::vector<double> A = group(program, state, Group::row);
         for (std::size_t k = 0; k < c.rows.size(); ++k)
             for (std::size_t i = 0; i < 7; ++i) {
                 // All joints' axes agree at the start: the k-th row is the rate of one coordinate of the free joint.
@@ -345,8 +345,8 @@ TEST_CASE("joints: a four-bar linkage closed by a joint accelerates as the one w
         Start start = start_of(m);
         assemble(start, m, lower_constraints(m), {});
         const Program p = lowered(m, routh(m));
-        lambda = group(p, start.state(), "multiplier");
-        return group(p, start.state(), "acceleration");
+        lambda = group(p, start.state(), Group::multiplier);
+        return group(p, start.state(), Group::acceleration);
     };
     std::vector<double> force, other;
     const std::vector<double> joints = accelerations("scenes/gallery/four_bar_joints.toml", force),
@@ -487,7 +487,7 @@ TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
         const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
         for (const Equations& equations : {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
             CAPTURE(equations.formalism);
-            CHECK(distance(group(lowered(m, equations), start_of(m).state(), "acceleration"), expected) < 1e-12);
+            CHECK(distance(group(lowered(m, equations), start_of(m).state(), Group::acceleration), expected) < 1e-12);
             ++compared;
         }
     }

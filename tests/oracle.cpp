@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "analysis/assemble.hpp"
+#include "state/assemble.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 
@@ -197,7 +197,7 @@ bool project(std::vector<Digits>& x, const std::vector<std::vector<Digits>>& A, 
 }
 
 bool obey(State<Digits>& state, const Program& p, const Mechanism& m) {
-    const auto rows = p.nodes_of("row"), position = p.nodes_of("position"), velocity = p.nodes_of("velocity");
+    const auto rows = p.nodes_of(Group::row), position = p.nodes_of(Group::position), velocity = p.nodes_of(Group::velocity);
     const std::size_t n = m.q.size();
     const auto gather = [&](const std::vector<int>& nodes, bool positions, std::vector<std::vector<Digits>>& A, std::vector<Digits>& off) {
         const std::vector<Digits> value = interpret<Digits>(p, state);
@@ -256,12 +256,12 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             s.unknown.resize(e.lambda.size() + form_nodes.size());
             if (!obey(s, p, m)) continue;
             const std::vector<Digits> value = interpret<Digits>(p, s);
-            const auto take = [&](const char* group, std::vector<Digits>& to) {
+            const auto take = [&](Group group, std::vector<Digits>& to) {
                 const std::vector<int> nodes = p.nodes_of(group);
                 for (std::size_t k = 0; k < nodes.size(); ++k) to[k] = value[nodes[k]];
             };
-            take("acceleration", s.qddot);
-            take("multiplier", s.unknown);
+            take(Group::acceleration, s.qddot);
+            take(Group::multiplier, s.unknown);
             const std::vector<Digits> speeds = interpret<Digits>(forms, s);
             for (std::size_t k = 0; k < form_nodes.size(); ++k) s.unknown[e.lambda.size() + k] = speeds[form_nodes[k]];
             states_.push_back(std::move(s));

@@ -7,8 +7,8 @@
 #include <cctype>
 
 #include "formalism/kane.hpp"
-#include "report/derivation.hpp"
-#include "report/text.hpp"
+#include "derive/derivation.hpp"
+#include "notation/text.hpp"
 
 namespace alembert::test {
 

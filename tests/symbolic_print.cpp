@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "report/latex.hpp"
-#include "report/lettering.hpp"
-#include "report/mathml.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/latex.hpp"
+#include "notation/lettering.hpp"
+#include "notation/mathml.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 #include "symbolic_cases.hpp"
 
 namespace {

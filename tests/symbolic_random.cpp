@@ -3,10 +3,10 @@
 
 #include <random>
 
-#include "report/latex.hpp"
-#include "report/mathml.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/latex.hpp"
+#include "notation/mathml.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 #include "symbolic_cases.hpp"
 
 namespace {

@@ -1,105 +1,47 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/check.hpp"
+#include "report/check.hpp"
 
-#include <fmt/format.h>
-
-#include <iostream>
-
-#include "commands/pipeline.hpp"
+#include "commands/show.hpp"
+#include "commands/verb.hpp"
 #include "scene/claims_file.hpp"
 
 namespace alembert {
 
 namespace {
 
-const char* name_of(Verdict verdict) {
-    return std::array{"proved", "refuted", "undecided", "vacuous"}[static_cast<std::size_t>(verdict)];
+struct CheckOptions : SceneOptions {
+    std::string claims;  ///< a file; empty: the claims of the scene
+};
+
+int exit_code(const Checked& checked) {
+    bool open = false;
+    for (const CheckedClaim& c : checked.claims) {
+        if (c.verdict == Verdict::refuted) return 1;
+        open = open || c.verdict == Verdict::undecided || c.verdict == Verdict::vacuous;
+    }
+    return open ? 2 : 0;
 }
 
-Json as_json(const Claim& claim, const CheckedClaim& checked) {
-    Json json;
-    json["equation"] = text_of(claim.equation);
-    json["line"] = claim.place.line;
-    if (!claim.source.empty()) json["source"] = claim.source;
-    json["at"] = claim.at;
-    json["verdict"] = name_of(checked.verdict);
-    json["method"] = checked.normal_form ? "proved" : "sampled";
-    if (checked.verdict == Verdict::proved && !checked.normal_form) json["failure_bound_log2"] = checked.failure;
-    json["counterexample"] = Json::object();
-    for (const auto& [name, value] : checked.counterexample) json["counterexample"][name] = value;
-    json["residual"] = checked.residual.empty() ? Json(nullptr) : Json(checked.residual_value);
-    if (!checked.residual.empty()) json["residual_text"] = checked.residual;
-    json["difference"] = checked.difference;
-    if (!checked.nearest.empty()) json["nearest"] = checked.nearest;
-    json["likely"] = nullptr;
-    if (checked.verdict == Verdict::refuted) {
-        const Slip slip = checked.likely.value_or(Slip{});
-        json["likely"] = {{"kind", slip.kind}, {"term", slip.term}};
-        if (!slip.repair.empty()) json["likely"]["repair"] = slip.repair;
-    }
-    if (!checked.reason.empty()) json["reason"] = checked.reason;
-    return json;
-}
-
-std::string words_of(const Slip& slip) {
-    if (slip.kind == "sign") return "a sign: of the term " + slip.term;
-    if (slip.kind == "factor") return "a factor: in the term " + slip.term;
-    if (slip.kind == "lost_dot") return "a lost dot or square: in the term " + slip.term;
-    if (slip.kind == "missing_term") return "a term is missing: " + slip.term;
-    if (slip.kind == "extra_term") return "a term too many: " + slip.term;
-    if (slip.kind == "swapped_trig") return "sine and cosine exchanged: in the term " + slip.term;
-    if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
-    if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
-    if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
-    return "unknown";
-}
-
-void print(const Claim& claim, const CheckedClaim& c) {
-    fmt::print("{:<9}  {}\n", name_of(c.verdict), text_of(claim.equation));
-    const auto line = [](const std::string& label, const std::string& text) { fmt::print("{:<9}  {}{}\n", "", label, text); };
-    if (!claim.source.empty()) line("", claim.source);
-    if (!c.reason.empty()) line("", c.reason);
-    if (c.verdict != Verdict::refuted) return;
-    if (!c.nearest.empty()) line("nearest right equation: ", c.nearest);
-    if (!c.difference.empty()) line("the claim has beyond that: ", c.difference);
-    if (c.likely) {
-        line("likely ", words_of(*c.likely));
-        line("right is: ", c.likely->repair);
-    }
-    if (!c.counterexample.empty()) {
-        std::string state;
-        for (const auto& [name, value] : c.counterexample) state += (state.empty() ? "" : ", ") + name + " = " + value;
-        line("it fails at ", state);
-        line("where left - right = ", c.residual);
-    }
+int run(const CheckOptions& options) {
+    Scene scene = read_scene(options.scene);
+    if (!options.claims.empty()) scene = with_claims(std::move(scene), options.claims);
+    const CheckedScene checked = check(std::move(scene), options.by);
+    warn(checked.warnings);
+    if (options.json)
+        show(as_json(checked));
+    else
+        show(as_text(checked));
+    return exit_code(checked.checked);
 }
 
 }  // namespace
 
-int check(const Request& request) {
-    Derived d = derived(request);
-    if (!request.claims.empty()) d.scene = with_claims(std::move(d.scene), request.claims);
-    if (d.scene.claims.empty())
-        throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
-    const Checked result = check(d.scene, d.mechanism);
-
-    bool refuted = false, open = false;
-    for (const CheckedClaim& c : result.claims) {
-        refuted = refuted || c.verdict == Verdict::refuted;
-        open = open || c.verdict == Verdict::undecided || c.verdict == Verdict::vacuous;
-    }
-    if (request.json) {
-        Json json;
-        json["claims"] = Json::array();
-        for (std::size_t k = 0; k < result.claims.size(); ++k) json["claims"].push_back(as_json(d.scene.claims[k], result.claims[k]));
-        json["complete"] = result.complete;
-        std::cout << json.dump(2) << "\n";
-    } else {
-        for (std::size_t k = 0; k < result.claims.size(); ++k) print(d.scene.claims[k], result.claims[k]);
-        fmt::print("{}\n", result.complete ? "With the constraints, the claims that hold determine the motion."
-                                           : "The claims that hold do not determine the motion.");
-    }
-    return refuted ? 1 : open ? 2 : 0;
+void add_check(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<CheckOptions>(app, chosen, "check", "hold a hand derivation against the derived equations", run,
+                                 [](CLI::App& verb, CheckOptions& options) {
+                                     verb.add_option("claims", options.claims,
+                                                     "a file of claims, one equation a line; without it the scene's [[claim]]s");
+                                 });
 }
 
 }  // namespace alembert

@@ -1,61 +1,48 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/emit.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <iostream>
 
-#include "commands/pipeline.hpp"
-#include "lower/differentiate.hpp"
+#include "alembert/error.hpp"
+#include "commands/show.hpp"
+#include "commands/verb.hpp"
+#include "report/emission.hpp"
 
 namespace alembert {
 
-int emit_files(const Request& request) {
-    const Derived d = derived(request, Use::run);
-    const Choice choice = lowered(d, request);
-    std::optional<Differentiated> derivatives;
-    if (request.jacobian) {
-        derivatives = differentiated(choice.program, {.parameters = true, .power = true});
-        if (!derivatives) throw ModelError("the derivatives of the right-hand side are too long to be written out; leave out --jacobian");
-    }
-    const Source source = emit(derivatives ? derivatives->program : choice.program, {.batch = request.batch});
+namespace {
+
+struct EmitVerb : SceneOptions {
+    std::string folder;
+    EmissionOptions emission;
+};
+
+int run(const EmitVerb& options) {
+    EmissionOptions wishes = options.emission;
+    wishes.by = options.by;
+    const Emission e = emission(read_scene(options.scene), wishes);
+    warn(e.warnings);
     std::error_code failed;
-    std::filesystem::create_directories(request.output, failed);
-    if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
-    const std::string path = (std::filesystem::path(request.output) / source.file).string();
-    write_file(path, source.text);
-    const bool has_contacts = !d.mechanism.unilateral.empty();
-    if (request.json) {
-        Json result;
-        result["files"] = {path};
-        result["operations"] = source.operations.total();
-        result["formulation"] = source.formulation;
-        result["chain"] = choice.cost.chain;
-        if (choice.runner_up) {
-            const RunnerUp& second = *choice.runner_up;
-            result["runner_up"] = {{"formulation", second.formulation}, {"operations", second.cost.operations}, {"chain", second.cost.chain}};
-            result["runner_up_operations"] = second.cost.operations;
-        }
-        if (derivatives) {
-            result["jacobian_operations"] = derivatives->operations.total();
-            result["jacobian_route"] = derivatives->route;
-        }
-        if (has_contacts) result["closed"] = Json::array();
-        std::cout << result.dump(2) << "\n";
-    } else {
-        fmt::print("{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} "
-                   "functions)\n",
-                   path, source.formulation, source.operations.total(), source.operations.additions,
-                   source.operations.multiplications, source.operations.divisions, source.operations.functions);
-        if (derivatives)
-            fmt::print("the Jacobian takes {} operations ({})\n", derivatives->operations.total(), derivatives->route);
-        if (choice.runner_up)
-            fmt::print("next best: {}, {} operations\n", choice.runner_up->formulation, choice.runner_up->cost.operations);
-        if (has_contacts)
-            fmt::print("this is the motion while all gaps are open; simulate emits the other contact modes as it meets them\n");
-    }
+    std::filesystem::create_directories(options.folder, failed);
+    if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
+    const std::string path = (std::filesystem::path(options.folder) / e.source.file).string();
+    write_file(path, e.source.text);
+    if (options.json)
+        show(as_json(e, path));
+    else
+        show(as_text(e, path));
     return 0;
+}
+
+}  // namespace
+
+void add_emit(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<EmitVerb>(app, chosen, "emit", "write the specialized C++", run, [](CLI::App& verb, EmitVerb& options) {
+        verb.add_option("-o,--output", options.folder, "folder")->required();
+        verb.add_flag("--fold", options.emission.fold, "parameters as constants");
+        verb.add_flag("--jacobian", options.emission.jacobian, "with the derivatives of the right-hand side by state and parameters");
+        verb.add_flag("--batch", options.emission.batch, "the same functions for eight systems at once too");
+    });
 }
 
 }  // namespace alembert

@@ -1,125 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "analysis/impact.hpp"
+#include "report/impact.hpp"
 
-#include <fmt/format.h>
-
-#include <iostream>
-
-#include "commands/pipeline.hpp"
+#include "commands/show.hpp"
+#include "commands/verb.hpp"
 #include "formalism/formalisms.hpp"
-#include "report/latex.hpp"
-#include "report/text.hpp"
 
 namespace alembert {
 
 namespace {
 
-std::string equality(const ReadableEquation& e) { return text(e.lhs) + " = " + text(e.rhs); }
-
-/// (name, impulse) of all constraints, then of the closed contacts.
-std::vector<std::pair<std::string, double>> reactions(const Impact& hit, const Mechanism& m) {
-    std::vector<std::pair<std::string, double>> result;
-    for (std::size_t k = 0; k < m.constraints.size(); ++k)
-        result.emplace_back(m.constraints[k].name, hit.numbers.bilateral[static_cast<Eigen::Index>(k)]);
-    for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        result.emplace_back(m.unilateral[hit.contacts[k]].gap.name, hit.numbers.contact[static_cast<Eigen::Index>(k)]);
-    return result;
-}
-
-Json as_json(const Impact& hit, const Mechanism& m) {
-    Json result;
-    const auto by_name = [&](const auto& value) {
-        Json object = Json::object();
-        for (int i = 0; i < m.size(); ++i) object[m.q[i].get_name()] = value(i);
-        return object;
-    };
-    result["time"] = hit.start.t;
-    result["coordinates"] = by_name([&](int i) { return hit.start.q[i]; });
-    result["before"] = by_name([&](int i) { return hit.start.qdot[i]; });
-    result["after"] = by_name([&](int i) { return hit.numbers.after[i]; });
-    result["solution"] = hit.solution.empty() ? Json::object() : by_name([&](int i) { return text(hit.solution[i]); });
-    result["reactions"] = Json::object();
-    for (const auto& [name, value] : reactions(hit, m)) result["reactions"][name] = value;
-    result["reactions_solution"] = Json::object();
-    for (const auto& [name, value] : hit.reactions) result["reactions_solution"][name] = text(value);
-    result["equations"] = Json::array();
-    for (const ReadableEquation& e : hit.equations)
-        result["equations"].push_back({{"text", equality(e)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}});
-    result["conditions"] = Json::object();
-    for (const auto& [name, condition] : hit.conditions) result["conditions"][name] = equality(condition);
-    result["contacts"] = Json::array();
-    for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        result["contacts"].push_back({{"name", m.unilateral[hit.contacts[k]].gap.name}, {"stays_closed", bool(hit.numbers.stays_closed[k])}});
-    result["imposed"] = hit.imposed;
-    result["collisions"] = hit.numbers.collisions;
-    result["kinetic_before"] = hit.kinetic_before;
-    result["kinetic_after"] = hit.kinetic_after;
-    result["energy_loss"] = hit.kinetic_before - hit.kinetic_after;
-    if (hit.energy_loss) result["energy_loss_solution"] = text(*hit.energy_loss);
-    result["work_of_impulses"] = hit.numbers.work;
-    result["work_of_moving_constraints"] = hit.floors;
-    result["loss_in_constraints"] = hit.numbers.loss;
-    if (!hit.adjusted.empty()) result["adjusted"] = hit.adjusted;
-    if (!hit.silence.empty()) result["note"] = hit.silence;
-    return result;
-}
-
-void print_formulas(const Impact& hit, const Mechanism& m) {
-    if (!hit.equations.empty()) {
-        fmt::print("Equations of the impact (x' is a rate after, x'(-) before{}):\n",
-                   hit.conditions.empty() ? "" : "; multipliers are the impulses of reactions");
-        for (const ReadableEquation& e : hit.equations) fmt::print("  {}\n", equality(e));
-        for (const auto& [name, condition] : hit.conditions) fmt::print("  {}    ({})\n", equality(condition), name);
-        fmt::print("\n");
-    }
-    if (!hit.solution.empty()) {
-        fmt::print("Solution where the scene starts:\n");
-        for (int i = 0; i < m.size(); ++i) fmt::print("  {}' = {}\n", m.q[i].get_name(), text(hit.solution[i]));
-        for (const auto& [name, value] : hit.reactions) fmt::print("  impulse of {} = {}\n", name, text(value));
-        if (hit.energy_loss) fmt::print("  T before - T after = {}\n", text(*hit.energy_loss));
-        fmt::print("\n");
-    }
-    if (!hit.silence.empty()) fmt::print("Not shown in symbols: {}.\n\n", hit.silence);
-}
-
-void print_numbers(const Impact& hit, const Mechanism& m) {
-    for (const std::string& name : hit.imposed)
-        fmt::print("The rates before break constraint '{}'; it is imposed suddenly, and plastically.\n", name);
-    if (hit.numbers.collisions > 1) fmt::print("{} collisions follow each other in the same instant.\n", hit.numbers.collisions);
-    for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        fmt::print("Contact '{}' {}.\n", m.unilateral[hit.contacts[k]].gap.name,
-                   hit.numbers.stays_closed[k] ? "stays closed" : "opens");
-    fmt::print("{:<16}{:>24}{:>24}{:>24}\n", "", "value", "rate before", "rate after");
-    for (int i = 0; i < m.size(); ++i)
-        fmt::print("{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), hit.start.q[i], hit.start.qdot[i], hit.numbers.after[i]);
-    for (const auto& [name, value] : reactions(hit, m)) fmt::print("{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
-    for (const std::string& line : hit.adjusted) fmt::print("adjusted {}\n", line);
-    fmt::print("\nT before = {:.16g}\nT after = {:.16g}\n", hit.kinetic_before, hit.kinetic_after);
-    if (!m.impulses.empty()) fmt::print("work of the impulses = {:.16g}\n", hit.numbers.work);
-    if (hit.floors != 0) fmt::print("work of moving constraints = {:.16g}\n", hit.floors);
-    fmt::print("lost in constraints and contacts = {:.16g}\n", hit.numbers.loss);
+int run(const SceneOptions& options) {
+    if (!options.by.empty()) formalism(options.by);  // any will do: the momenta are the same in all
+    const Struck struck = impact(read_scene(options.scene));
+    warn(struck.warnings);
+    if (options.json)
+        show(as_json(struck));
+    else
+        show(as_text(struck));
+    return 0;
 }
 
 }  // namespace
 
-int impact(const Request& request) {
-    const Scene scene = read_scene(request.scene);
-    if (!scene.warnings.empty()) std::cerr << describe(scene, scene.warnings);
-    if (!request.by.empty()) formalism(request.by);  // any will do: the momenta are the same in all
-    const Mechanism mechanism = build(scene);
-    check_bodies(scene, mechanism, {});
-    const Impact hit = impact(mechanism);
-    if (request.json) {
-        std::cout << as_json(hit, mechanism).dump(2) << "\n";
-        return 0;
-    }
-    if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
-    if (hit.nothing_happens)
-        fmt::print("Nothing is struck: no impulses, every constraint is obeyed, no closed contact approaches. The rates stay as they are.\n\n");
-    else
-        print_formulas(hit, mechanism);
-    print_numbers(hit, mechanism);
-    return 0;
+void add_impact(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<SceneOptions>(app, chosen, "impact",
+                                 "the rates after the scene's impulses, sudden constraints and closed contacts", run);
 }
 
 }  // namespace alembert

@@ -4,35 +4,56 @@
 #include <filesystem>
 #include <iostream>
 
-#include "commands/pipeline.hpp"
+#include "commands/show.hpp"
+#include "commands/verb.hpp"
 #include "scene/text.hpp"
 #include "urdf/robot_scene.hpp"
 
 namespace alembert {
 
-int import_robot(const Request& request) {
-    const std::string file = std::filesystem::path(request.scene).filename().string();
-    const RobotScene scene = robot_scene(read_robot(request.scene), {.source = file, .floating = request.floating, .quaternion = request.quaternion});
-    parse_scene(scene.text, request.output);  // what it refuses is not written
-    write_file(request.output, scene.text);
-    for (const std::string& sentence : scene.notes) std::cerr << fmt::format("{}: note: {}\n", request.scene, escaped(sentence, 300));
+namespace {
+
+struct ImportOptions {
+    std::string robot, output;
+    bool floating = false, quaternion = false, json = false;
+};
+
+int run(const ImportOptions& options) {
+    const std::string file = std::filesystem::path(options.robot).filename().string();
+    const RobotScene scene = robot_scene(read_robot(options.robot), {.source = file, .floating = options.floating, .quaternion = options.quaternion});
+    parse_scene(scene.text, options.output);  // what it refuses is not written
+    write_file(options.output, scene.text);
+    for (const std::string& sentence : scene.notes) std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
-        std::cerr << fmt::format("{}: dropped: {}{}{}\n", request.scene, escaped(dropped.what), dropped.of.empty() ? "" : ": ",
+        std::cerr << fmt::format("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what), dropped.of.empty() ? "" : ": ",
                                  escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
-    if (request.json) {
+    if (options.json) {
         Json result;
-        result["file"] = request.output;
+        result["file"] = options.output;
         result["bodies"] = scene.bodies;
         result["coordinates"] = scene.coordinates;
         result["merged"] = scene.merged;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
-        std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+        show(result);
         return 0;
     }
-    fmt::print("{}\n{} bodies, {} coordinates: {}\n", request.output, scene.bodies, scene.coordinates.size(), fmt::join(scene.coordinates, ", "));
+    fmt::print("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(), fmt::join(scene.coordinates, ", "));
     for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
     return 0;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Chosen& chosen) {
+    const auto options = std::make_shared<ImportOptions>();
+    CLI::App* const verb = app.add_subcommand("import", "write the scene of a robot description (URDF)");
+    verb->add_option("robot", options->robot, "the robot, an .urdf file")->required();
+    verb->add_option("-o,--output", options->output, "the scene to be written")->required();
+    verb->add_flag("--floating", options->floating, "the root link moves freely; otherwise it is the ground");
+    verb->add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
+    verb->add_flag("--json", options->json, "print one JSON object");
+    verb->callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }
 
 }  // namespace alembert

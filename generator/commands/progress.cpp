@@ -17,29 +17,20 @@ constexpr auto redraw_after = std::chrono::milliseconds(100);
 
 }  // namespace
 
-Progress::Progress(std::string what)
-    : what_(std::move(what)), on_terminal_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + first_after) {}
+Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + first_after) {}
 
-Progress::~Progress() {
+void Progress::wipe() {
     if (drawn_) fmt::print(stderr, "\r\033[K");
+    drawn_ = false;
 }
 
-void Progress::at(double fraction) {
-    // Looking at the clock costs more than a step of a small system.
-    if (!on_terminal_ || ++skipped_ < 1000) return;
-    skipped_ = 0;
-    at_stage(fraction);
-}
-
-void Progress::at_stage(double fraction) {
-    if (!on_terminal_) return;
-    if (Clock::now() < next_) return;
+void Progress::at(std::string_view what, double part) {
+    if (!on_terminal_ || Clock::now() < next_) return;
     next_ = Clock::now() + redraw_after;
     drawn_ = true;
-    fraction = std::clamp(fraction, 0.0, 1.0);
-    const int full = static_cast<int>(fraction * width);
-    fmt::print(stderr, "\r{} [{}{}] {:3.0f} %", what_, std::string(full, '='), std::string(width - full, ' '),
-               100 * fraction);
+    part = std::clamp(part, 0.0, 1.0);
+    const int full = static_cast<int>(part * width);
+    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='), std::string(width - full, ' '), 100 * part);
     std::fflush(stderr);
 }
 

@@ -3,32 +3,33 @@
 
 /// A progress bar on standard error for work that takes longer than a second; only on a terminal.
 ///
-///     Progress progress("integrating");
-///     progress.at(0.3);              // as often as you like
+///     Progress progress;
+///     progress.at("integrating", 0.3);              // as often as you like: it looks at the clock
 ///
 /// The bar is wiped when it goes out of scope.
 
 #include <chrono>
-#include <string>
+#include <string_view>
 
 namespace alembert {
 
 class Progress {
 public:
-    explicit Progress(std::string what);
-    ~Progress();
+    Progress();
+    ~Progress() { wipe(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void at(double fraction);
-    void at_stage(double fraction);  ///< where it is not called in every step: looks at the clock each time
+    /// What is being done, and which part of it is over, from 0 to 1.
+    void at(std::string_view what, double part);
+
+    /// Before something else is printed.
+    void wipe();
 
 private:
     using Clock = std::chrono::steady_clock;
-    std::string what_;
     bool on_terminal_, drawn_ = false;
     Clock::time_point next_;
-    int skipped_ = 0;
 };
 
 }  // namespace alembert

@@ -1,270 +1,42 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-
-#include "alembert/drift.hpp"
-#include "analysis/assemble.hpp"
-#include "analysis/contacts.hpp"
-#include "analysis/joint_reactions.hpp"
-#include "commands/estimate.hpp"
-#include "commands/method.hpp"
+#include "alembert/error.hpp"
 #include "commands/progress.hpp"
-#include "commands/record.hpp"
-#include "commands/run_options.hpp"
+#include "commands/run_verb.hpp"
+#include "commands/show.hpp"
+#include "report/run.hpp"
 
 namespace alembert {
 
-Options options_of(const Request& request, const MethodChoice& choice, const Start& start) {
-    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
-    return {.method = choice.method,
-            .start = start.t,
-            .duration = wish(request.duration, start.duration),
-            .tolerance = wish(request.tolerance, start.tolerance),
-            .step = wish(request.step, start.step),
-            .sample = wish(request.sample, start.sample),
-            .budget = request.budget,
-            .when_stiff = choice.when_stiff};
-}
-
 namespace {
 
-/// "radau from t = 0.31 on: …", for a person.
-std::string described(const Switch& s) {
-    return fmt::format("{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} s)",
-                       s.method, s.time, s.largest_eigenvalue, s.step);
-}
-
-/// The state where the numbers failed.
-State<double> state_at(State<double> state, const Failure& failure) {
-    state.t = failure.time;
-    const auto middle = failure.state.begin() + static_cast<std::ptrdiff_t>(state.q.size());
-    state.q.assign(failure.state.begin(), middle);
-    state.qdot.assign(middle, middle + static_cast<std::ptrdiff_t>(state.qdot.size()));
-    return state;
-}
-
-/// Does E stay with the system? Not where an impact has taken some of it, or an impulse changed it.
-bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
-    return std::any_of(motion.events.begin(), motion.events.end(), [](const EventRecord& e) { return !e.impulse.empty(); }) ||
-           std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
-        return e.kind == ContactEvent::Kind::impact && contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
-    });
-}
-
-/// What the run measured of itself.
-struct Account {
-    bool conserved = true, jacobi_conserved = true;
-    Drift drift;
-    double constraint_drift = 0, impact_loss = 0, impulse_work = 0;
-    Modes::Seconds seconds;
-    double integrate_seconds = 0, estimate_seconds = 0;
-    std::string why_method;  ///< empty where it was given
-    bool closed = false;  ///< what runs now is not the result
-    std::optional<ErrorEstimate> estimate = {};
-};
-
-/// Why the result is not to be trusted; empty where nothing speaks against it.
-std::string distrust(const Account& account) {
-    if (!account.estimate || account.estimate->trusted) return {};
-    const ErrorEstimate& e = *account.estimate;
-    if (!e.value) return fmt::format("NOT TRUSTWORTHY: {}, so the error is unknown", e.by);
-    std::string text = fmt::format("NOT TRUSTWORTHY: the estimated error is {:.1e}", *e.value);
-    if (e.lyapunov) text += fmt::format("; the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left", *e.lyapunov, *e.horizon);
-    return text;
-}
-
-Json as_json(const ErrorEstimate& e) {
-    Json result{{"value", e.value ? Json(*e.value) : Json(nullptr)}, {"by", e.by}, {"trustworthy", e.trusted}};
-    if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
-    if (e.horizon) result["no_digit_after"] = *e.horizon;
-    return result;
-}
-
-/// q' at the end, where the state may hold speeds instead.
-std::vector<double> final_rates(const PhasedMotion& motion, const LoadedMode& mode) {
-    std::vector<double> rates(motion.final_state().size());
-    mode.contact.rhs(motion.final_time(), motion.final_state().data(), rates.data());
-    return rates;
-}
-
-Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived& d, const LoadedMode& mode, const Account& account,
-             const std::vector<std::string>& moved) {
-    const auto end = motion.final_state();
-    const bool balance = !account.conserved;
-    const std::vector<double> rates = final_rates(motion, mode);
-    Json result;
-    if (const std::string warning = distrust(account); !warning.empty()) result["warning"] = warning;
-    result["final"] = {{"time", motion.final_time()},
-                       {"coordinates", by_coordinate(mode.program, end.data())},
-                       {"rates", by_coordinate(mode.program, rates.data())}};
-    for (std::size_t k = 0; k < mode.program.speeds.size() && !d.mechanism.speeds.empty(); ++k)
-        result["final"]["speeds"][mode.program.speeds[k].name] = end[d.mechanism.q.size() + k];
-    result["method"] = motion.statistics.method;
-    if (!account.why_method.empty()) result["method_why"] = account.why_method;
-    if (const auto& s = motion.statistics.switched)
-        result["switched"] = {{"time", s->time}, {"method", s->method}, {"largest_eigenvalue", s->largest_eigenvalue}, {"step", s->step}};
-    if (mode.jacobian_operations) result["jacobian_operations"] = *mode.jacobian_operations;
-    result["formulation"] = mode.source.formulation;
-    result["steps"] = motion.statistics.steps;
-    result["rejected"] = motion.statistics.rejected;
-    result["evaluations"] = motion.statistics.evaluations;
-    result["energy_drift"] = balance ? Json(nullptr) : Json(account.drift.energy());
-    if (balance) result["work_balance"] = account.drift.balance();
-    if (account.jacobi_conserved) result["jacobi_drift"] = account.drift.jacobi();
-    result["constraint_drift"] = account.constraint_drift;
-    if (account.estimate) result["error_estimate"] = as_json(*account.estimate);
-    if (!moved.empty()) result["adjusted"] = moved;
-    result["events"] = Json::array();
-    for (const EventRecord& event : motion.events) result["events"].push_back(event_as_json(event, d.mechanism));
-    if (d.mechanism.has_kicks()) result["impulse_work"] = account.impulse_work;
-    if (!contacts.names.empty()) {
-        result["contacts"] = contacts_as_json(motion.contacts, contacts.names);
-        result["impact_loss"] = account.impact_loss;
+int run(const RunVerb& verb) {
+    RunOptions wishes = verb.wishes;
+    wishes.by = verb.by;
+    Progress progress;
+    wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    const Run run = simulate(read_scene(verb.scene), wishes);
+    progress.wipe();
+    warn(run.warnings);
+    if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows));
+    if (verb.json) {
+        show(as_json(run));
+    } else {
+        show(as_text(run));
+        if (!verb.output.empty()) show("wrote " + verb.output + "\n");
     }
-    result["seconds"] = {{"derive", account.seconds.derive},
-                         {"emit", account.seconds.emit},
-                         {"compile", account.seconds.compile},
-                         {"integrate", account.integrate_seconds},
-                         {"estimate", account.estimate_seconds}};
-    result["completed"] = motion.ending != Ending::failed;
-    return result;
-}
-
-void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& d, const LoadedMode& mode, const Account& account,
-           const std::vector<std::string>& moved) {
-    const auto end = motion.final_state();
-    const int n = d.mechanism.size();
-    const std::vector<double> rates = final_rates(motion, mode);
-    if (const std::string warning = distrust(account); !warning.empty()) fmt::print("{}\n", warning);
-    fmt::print("{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", mode.source.formulation,
-               motion.statistics.method, motion.statistics.steps, motion.statistics.rejected, motion.statistics.evaluations,
-               mode.source.operations.total());
-    if (!account.why_method.empty()) fmt::print("{}: {}\n", motion.statistics.method, account.why_method);
-    if (motion.statistics.switched) fmt::print("{}\n", described(*motion.statistics.switched));
-    if (mode.jacobian_operations) fmt::print("the Jacobian is emitted: {} operations\n", *mode.jacobian_operations);
-    fmt::print("{}", events_as_text(motion.events, d.mechanism));
-    fmt::print("{}", contacts_as_text(motion.contacts, contacts.names));
-    fmt::print("\nat t = {:.15g}\n", motion.final_time());
-    for (int i = 0; i < n; ++i)
-        fmt::print("{:<16}{:>24.16g}   rate {:>24.16g}\n", mode.program.coordinates[i].name, end[i], rates[i]);
-    for (std::size_t k = 0; k < mode.program.speeds.size() && !d.mechanism.speeds.empty(); ++k)
-        fmt::print("{:<16}{:>24.16g}\n", mode.program.speeds[k].name, end[n + static_cast<int>(k)]);
-    if (!contacts.names.empty()) {
-        std::string closed;
-        for (const int k : motion.phases.back().closed) closed += (closed.empty() ? "" : ", ") + contacts.names[k];
-        fmt::print("closed: {}\n", closed.empty() ? "no contact" : closed);
-    }
-    if (account.estimate && account.estimate->value) {
-        fmt::print("\nestimated error {:.1e}, by {}\n", *account.estimate->value, account.estimate->by);
-        if (account.estimate->lyapunov)
-            fmt::print("chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *account.estimate->lyapunov, *account.estimate->horizon);
-    }
-    if (account.impact_loss != 0) fmt::print("\nlost in impacts {:.10g}", account.impact_loss);
-    if (d.mechanism.has_kicks()) fmt::print("\ngained by impulses {:.10g}", account.impulse_work);
-    if (account.conserved)
-        fmt::print("\nenergy drift {:.2e}\n", account.drift.energy());
-    else
-        fmt::print("\nenergy is not conserved; work balance {:.2e}\n", account.drift.balance());
-    if (account.jacobi_conserved) fmt::print("T2 - T0 + V is; its drift {:.2e}\n", account.drift.jacobi());
-    if (!d.mechanism.constraints.empty() || !contacts.names.empty()) fmt::print("constraint drift {:.2e}\n", account.constraint_drift);
-    for (const std::string& line : moved) fmt::print("adjusted at the start: {}\n", line);
-    fmt::print("seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", account.seconds.derive,
-               account.seconds.emit, account.seconds.compile, mode.from_cache ? " (cached)" : "", account.integrate_seconds);
+    if (run.failure) throw IntegrationError(*run.failure, run.motion.failure->time, run.motion.failure->state);
+    return 0;
 }
 
 }  // namespace
 
-int simulate(const Request& request) {
-    const Derived d = derived(request, Use::run);
-    if (!d.mechanism.impulses.empty())
-        std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
-                                 request.scene);
-    const double begin = process_seconds();
-    const bool has_contacts = !d.mechanism.unilateral.empty();
-    // With contacts: of all that their modes can do.
-    const Energy energy = energy_of(has_contacts ? with_all_closed(d.mechanism) : d.mechanism);
-    Program program = lowered(d, request).program;
-    Start start = start_of(d.mechanism);
-    const std::vector<std::string> moved = assemble(start, d.mechanism, lower_constraints(d.mechanism), {});
-    const State<double> first = state_of(start, d.mechanism, d.equations);
-    const MethodChoice choice = method_for(request, d, program, start);
-    Options options = options_of(request, choice, start);
-    std::optional<ContactView> view;
-    std::optional<KickView> kicks;
-    Contacts contacts;
-    if (has_jumps(d.mechanism)) {
-        view.emplace(d.mechanism);
-        kicks.emplace(d.mechanism);
-        contacts = contacts_of(d, start, *view, *kicks);
-        if (has_contacts) check_gaps(d.scene, d.mechanism, *view, start.state(), std::max(options.tolerance, 1e-9));
-    }
-    const bool work = !energy.conserved;
-    const int n = d.mechanism.size();
-    Account account{.drift = Drift(n, static_cast<int>(first.qdot.size()), work), .seconds = {.derive = d.seconds, .emit = process_seconds() - begin, .compile = 0}, .why_method = choice.why};
-    Progress progress("integrating");
-    Modes modes(request, d, start, first, work ? Work::integrated : Work::left_out, choice,
-                [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
-                    if (account.closed) return;
-                    account.drift(mode.module.table(), mode.par, t, state, rate);
-                    if (mode.contact.project)
-                        account.constraint_drift =
-                            std::max(account.constraint_drift, mode.projection.residual(t, state.data()));
-                    progress.at((t - options.start) / options.duration);
-                });
-    modes.take_free(std::move(program));
-    const LoadedMode& free = modes({});
-    contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
-        if (account.closed) return;
-        const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}), b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
-        account.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
-    };
-
-    std::vector<double> initial = start.q;
-    initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
-    if (work) initial.push_back(0);
-    const Modes::Seconds before = modes.seconds();
-    const double integrate_begin = process_seconds();
-    const auto run = [&](const Options& with, const std::vector<double>& from) {
-        modes.forget();
-        return follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, from, with);
-    };
-    const PhasedMotion motion = run(options, initial);
-    const Modes::Seconds& spent = modes.seconds();
-    account.integrate_seconds = process_seconds() - integrate_begin - (spent.derive + spent.emit + spent.compile) +
-                                (before.derive + before.emit + before.compile);
-    account.seconds.derive += spent.derive;
-    account.seconds.emit += spent.emit;
-    account.seconds.compile += spent.compile;
-    account.conserved = energy.conserved && !is_lossy(motion, contacts);
-    account.jacobi_conserved = !energy.conserved && energy.jacobi_conserved && !has_contacts;
-    for (const ContactEvent& event : motion.contacts) account.impact_loss += event.energy_loss;
-    for (const EventRecord& event : motion.events) account.impulse_work += event.energy_gain;
-    account.closed = true;
-    if (request.estimate && !motion.failure && options.duration > 0) {
-        const double again = process_seconds();
-        account.estimate = error_estimate(motion, run, options, initial, start.q.size() + first.qdot.size());
-        account.estimate_seconds = process_seconds() - again;
-    }
-
-    std::optional<JointReactions> reactions;
-    if (request.reactions && !request.output.empty() && !d.mechanism.joints.empty()) reactions = joint_reactions(d.scene, d.mechanism);
-    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first));
-    if (request.json)
-        std::cout << as_json(motion, contacts, d, free, account, moved).dump(2) << "\n";
-    else
-        print(motion, contacts, d, free, account, moved);
-    if (!request.json && !request.output.empty()) fmt::print("wrote {}\n", request.output);
-    if (motion.failure) {
-        const auto reason = motion.failure->kind == FailureKind::no_contact_mode || motion.failure->kind == FailureKind::endless_kicks
-                                ? std::nullopt
-                                : failure_at(modes(motion.phases.back().closed).derived, state_at(first, *motion.failure));
-        throw IntegrationError(motion.failure->message + (reason ? "\n  there: " + *reason : ""), motion.failure->time,
-                               motion.failure->state);
-    }
-    return 0;
+void add_simulate(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<RunVerb>(app, chosen, "simulate", "emit, compile and integrate", run, [](CLI::App& verb, RunVerb& options) {
+        add_run_options(verb, options);
+        verb.add_option("--sample", options.wishes.sample, "seconds between rows")->check(positive_number());
+        verb.add_flag("!--no-estimate", options.wishes.estimate, "no second run to estimate the error: half the time");
+        add_reactions_option(verb, options.wishes.reactions);
+    });
 }
 
 }  // namespace alembert

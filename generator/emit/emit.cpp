@@ -54,10 +54,9 @@ public:
             a_.push_back(names_.fresh(q_.back() + "_ddot"));
         }
         for (const Quantity& u : p_.speeds) {
-            const bool is_rate = u.name.ends_with('\'');
-            const std::string name = is_rate ? u.name.substr(0, u.name.size() - 1) + "_dot" : u.name;
-            u_.push_back(names_.fresh(name));
-            a_.push_back(names_.fresh(is_rate ? u.name.substr(0, u.name.size() - 1) + "_ddot" : u_.back() + "_dot"));
+            const std::string q = u.rate_of < 0 ? "" : p_.coordinates[static_cast<std::size_t>(u.rate_of)].name;
+            u_.push_back(names_.fresh(q.empty() ? u.name : q + "_dot"));
+            a_.push_back(names_.fresh(q.empty() ? u_.back() + "_dot" : q + "_ddot"));
         }
         for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
         find_constants();
@@ -70,10 +69,10 @@ public:
         mustache::data file;
         functions << prepare();
         add(functions, right_hand_side());
-        const bool has_matrix = !p_.nodes_of("mass").empty();
+        const bool has_matrix = !p_.nodes_of(Group::mass).empty();
         if (has_matrix) add(functions, mass_forcing());
         file.set("has_matrix", has_matrix);
-        for (const std::vector<mustache::data>& one : {energy(), list("output"), list("event"), constraints(), multipliers()}) add(functions, one);
+        for (const std::vector<mustache::data>& one : {energy(), list(Group::output), list(Group::event), constraints(), multipliers()}) add(functions, one);
         add_projection(functions, file);
         add_derivatives(functions, file);
         file.set("scene", ascii_identifier(p_.name));
@@ -92,13 +91,13 @@ public:
         file.set("functions", functions);
         file.set("trigonometric", has_trigonometry());
         file.set("batch", options_.batch);
-        const bool one_by_one = p_.count(joined(p_.nodes_of("mass"), p_.nodes_of("forcing"))).total() > most_for_packs;
+        const bool one_by_one = p_.count(joined(p_.nodes_of(Group::mass), p_.nodes_of(Group::forcing))).total() > most_for_packs;
         file.set("one_by_one", one_by_one);
         file.set("together", has_matrix && !one_by_one);
         file.set("coordinate_names", quoted(q_));
         file.set("parameter_names", quoted(par_));
-        file.set("output_names", quoted(joined(labels("output"), labels("speed"))));
-        file.set("event_names", quoted(labels("event")));
+        file.set("output_names", quoted(joined(labels(Group::output), labels(Group::speed))));
+        file.set("event_names", quoted(labels(Group::event)));
         std::string values;
         for (const Quantity& par : p_.parameters) values += shortest(par.value) + ", ";
         file.set("parameter_values", values);
@@ -108,10 +107,10 @@ public:
         number("s", static_cast<std::size_t>(s_));
         number("p", par_.size());
         number("k", constants_.size());
-        number("outputs", p_.nodes_of("output").size() + p_.nodes_of("speed").size());
-        number("events", p_.nodes_of("event").size());
-        number("constraints", p_.nodes_of("velocity").size());
-        file.set("reaction", p_.nodes_of("gamma").empty() ? ""
+        number("outputs", p_.nodes_of(Group::output).size() + p_.nodes_of(Group::speed).size());
+        number("events", p_.nodes_of(Group::event).size());
+        number("constraints", p_.nodes_of(Group::velocity).size());
+        file.set("reaction", p_.nodes_of(Group::gamma).empty() ? ""
                              : own_speeds                 ? " + A^T lambda with A u' = gamma"
                                                           : " + A^T lambda with A q'' = gamma");
         std::string elementary = mustache::mustache{std::string(template_elementary)}.render(file);
@@ -147,7 +146,7 @@ private:
                 for (const int arg : p_[id].args) consider(arg);
         for (const Root& root : p_.roots) {
             consider(root.node);
-            if (found.contains(root.node) && (root.group == "mass" || root.group == "forcing"))
+            if (found.contains(root.node) && (root.group == Group::mass || root.group == Group::forcing))
                 constant_names_.emplace(root.node, root.name);
         }
         for (const int id : found)
@@ -319,7 +318,7 @@ private:
                          constants_.empty() ? "Real*" : "Real* par", unpacked(inputs(uses, false)), sections);
     }
 
-    std::vector<Goal> goals(const std::string& group, const std::string& section) const {
+    std::vector<Goal> goals(Group group, const std::string& section) const {
         std::vector<Goal> result;
         for (const Root& root : p_.roots)
             if (root.group == group) result.push_back({section, root.name, root.node});
@@ -333,21 +332,21 @@ private:
     }
 
     std::vector<mustache::data> right_hand_side() {
-        const bool is_free = p_.nodes_of("gamma").empty(), own_speeds = !p_.speeds.empty();
+        const bool is_free = p_.nodes_of(Group::gamma).empty(), own_speeds = !p_.speeds.empty();
         const std::string unknown = own_speeds ? "u'" : "q''", rows = fmt::format("Constraints A {} = gamma", unknown);
-        std::vector<Goal> all = goals("rate", "Kinematics q' = h(q, u, t)");
+        std::vector<Goal> all = goals(Group::rate, "Kinematics q' = h(q, u, t)");
         std::vector<Result> results;
         for (int i = 0; const Goal& goal : all) results.push_back({fmt::format("rate[{}]", i++), goal.node});
         for (Goal& goal : all) goal.name = ascii_identifier(goal.name) + "_dot";
-        all = joined(all, joined(goals("mass", "Mass matrix M(q), lower triangle"), goals("forcing", "Forcing f")));
+        all = joined(all, joined(goals(Group::mass, "Mass matrix M(q), lower triangle"), goals(Group::forcing, "Forcing f")));
         if (!is_free) {
-            std::vector<Goal> entries = goals(own_speeds ? "speed_row" : "row", rows);
+            std::vector<Goal> entries = goals(own_speeds ? Group::speed_row : Group::row, rows);
             if (own_speeds) std::erase_if(entries, [&](const Goal& goal) { return p_.is_zero(goal.node); });
-            all = joined(all, joined(entries, goals("gamma", rows)));
+            all = joined(all, joined(entries, goals(Group::gamma, rows)));
         }
         const std::string solve = is_free ? fmt::format("Solve M {} = f with M = L D L^T", unknown)
                                           : fmt::format("Solve M {0} = f + A^T lambda, A {0} = gamma", unknown);
-        all = joined(all, goals("acceleration", solve));
+        all = joined(all, goals(Group::acceleration, solve));
         // Recursions make accelerations without M and f.
         const std::vector<int> rhs = p_.right_hand_side(), list = p_.needed(rhs);
         const std::set<int> needed(list.begin(), list.end());
@@ -367,7 +366,7 @@ private:
     }
 
     std::vector<mustache::data> mass_forcing() {
-        const std::vector<Goal> mass = goals("mass", "Mass matrix M(q), lower triangle"), f = goals("forcing", "Forcing f");
+        const std::vector<Goal> mass = goals(Group::mass, "Mass matrix M(q), lower triangle"), f = goals(Group::forcing, "Forcing f");
         std::vector<Result> results;
         std::size_t k = 0;
         for (int i = 0; i < s_; ++i)
@@ -385,7 +384,7 @@ private:
     std::vector<mustache::data> energy() {
         std::vector<Goal> all;
         std::vector<Result> results;
-        for (const char* group : {"kinetic", "potential", "energy", "power", "jacobi"})
+        for (const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power, Group::jacobi})
             all = joined(all, goals(group, "Energy"));
         for (std::size_t i = 0; i < all.size(); ++i)
             results.push_back({i < 4 ? fmt::format("energy[{}]", i) : "jacobi[0]", all[i].node});
@@ -396,13 +395,13 @@ private:
     }
 
     std::vector<mustache::data> constraints() {
-        const std::vector<int> position = p_.nodes_of("position"), velocity = p_.nodes_of("velocity");
+        const std::vector<int> position = p_.nodes_of(Group::position), velocity = p_.nodes_of(Group::velocity);
         std::vector<Result> results;
         for (std::size_t k = 0; k < position.size(); ++k) results.push_back({fmt::format("position[{}]", k), position[k]});
         for (std::size_t k = 0; k < velocity.size(); ++k) results.push_back({fmt::format("velocity[{}]", k), velocity[k]});
-        for (std::size_t k = 0; const int node : p_.nodes_of("row"))
+        for (std::size_t k = 0; const int node : p_.nodes_of(Group::row))
             results.push_back({fmt::format("rows[{}]", k++), node});
-        for (std::size_t k = p_.nodes_of("row").size(); const int node : p_.nodes_of("speed_row"))
+        for (std::size_t k = p_.nodes_of(Group::row).size(); const int node : p_.nodes_of(Group::speed_row))
             results.push_back({fmt::format("rows[{}]", k++), node});
         std::vector<Goal> all;
         for (const Result& result : results) all.push_back({"Constraints", "", result.node});
@@ -413,7 +412,7 @@ private:
     }
 
     std::vector<mustache::data> multipliers() {
-        const std::vector<Goal> all = goals("multiplier", "Multipliers");
+        const std::vector<Goal> all = goals(Group::multiplier, "Multipliers");
         std::vector<Result> results;
         for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("lambda[{}]", i), all[i].node});
         return function("multipliers_at", "The multipliers lambda of M q'' = f + A^T lambda.",
@@ -423,8 +422,8 @@ private:
     }
 
     void add_projection(mustache::data& functions, mustache::data& file) {
-        const std::vector<int> position = p_.nodes_of("position"), pivots = p_.nodes_of("pivot"), moved = p_.nodes_of("projected");
-        const std::vector<Goal> gamma = goals("gamma", "Constraints");
+        const std::vector<int> position = p_.nodes_of(Group::position), pivots = p_.nodes_of(Group::pivot), moved = p_.nodes_of(Group::projected);
+        const std::vector<Goal> gamma = goals(Group::gamma, "Constraints");
         const bool is_needed = !gamma.empty() || std::any_of(position.begin(), position.end(), [&](int node) { return !p_.is_zero(node); });
         file.set("has_projection", !position.empty() && is_needed == !moved.empty());
         file.set("moves", !moved.empty());
@@ -441,7 +440,8 @@ private:
                                 "Real* position, [[maybe_unused]] Real* pivots",
                                 all, results));
         if (gamma.empty()) return;
-        for (const Goal& goal : gamma) right.push_back({fmt::format("out[{}]", goal.name.substr(5)), goal.node});  // "gamma2": of the third constraint
+        const std::vector<int> kept = p_.kept_constraints();
+        for (std::size_t k = 0; k < gamma.size(); ++k) right.push_back({fmt::format("out[{}]", kept[k]), gamma[k].node});
         add(functions, function("gamma_at", p_.speeds.empty() ? "gamma of A q'' = gamma." : "gamma of A u' = gamma.",
                                 "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, "
                                 "Real* out",
@@ -454,7 +454,7 @@ private:
         std::vector<Result> results;
     };
 
-    void add_entries(Pattern& pattern, const std::string& group, int row, std::size_t columns) const {
+    void add_entries(Pattern& pattern, Group group, int row, std::size_t columns) const {
         const std::vector<int> nodes = p_.nodes_of(group);
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             if (p_.is_zero(nodes[k])) continue;
@@ -474,14 +474,14 @@ private:
     }
 
     void add_derivatives(mustache::data& functions, mustache::data& file) {
-        const std::vector<int> nodes = p_.nodes_of("jacobian");
+        const std::vector<int> nodes = p_.nodes_of(Group::jacobian);
         file.set("has_derivatives", !nodes.empty());
         if (nodes.empty()) return;
         Pattern state, parameters;
-        add_entries(state, "jacobian", 0, static_cast<std::size_t>(n_ + s_));
-        add_entries(state, "power_gradient", n_ + s_, static_cast<std::size_t>(n_ + s_));
-        if (!par_.empty()) add_entries(parameters, "parameter_jacobian", 0, par_.size());
-        const bool by_parameters = !p_.nodes_of("parameter_jacobian").empty();
+        add_entries(state, Group::jacobian, 0, static_cast<std::size_t>(n_ + s_));
+        add_entries(state, Group::power_gradient, n_ + s_, static_cast<std::size_t>(n_ + s_));
+        if (!par_.empty()) add_entries(parameters, Group::parameter_jacobian, 0, par_.size());
+        const bool by_parameters = !p_.nodes_of(Group::parameter_jacobian).empty();
         add(functions, derivative("jacobian", "d rate / d state where it is not zero at every state; row n + s: of the power.", state));
         if (by_parameters)
             add(functions, derivative("parameter_jacobian", "d rate / d parameter where it is not zero at every state.", parameters));
@@ -506,19 +506,19 @@ private:
         return result;
     }
 
-    std::vector<mustache::data> list(const std::string& group) {
-        std::vector<Goal> all = goals(group, group == "output" ? "Outputs" : "Event functions");
-        if (group == "output") all = joined(all, goals("speed", "Generalized speeds"));
+    std::vector<mustache::data> list(Group group) {
+        std::vector<Goal> all = goals(group, group == Group::output ? "Outputs" : "Event functions");
+        if (group == Group::output) all = joined(all, goals(Group::speed, "Generalized speeds"));
         std::vector<Result> results;
         for (std::size_t i = 0; i < all.size(); ++i) results.push_back({fmt::format("out[{}]", i), all[i].node});
-        return function(group == "output" ? "outputs_at" : "events_at",
-                        group == "output" ? "The scene's outputs." : "The scene's event functions.",
+        return function(group == Group::output ? "outputs_at" : "events_at",
+                        group == Group::output ? "The scene's outputs." : "The scene's event functions.",
                         "[[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const "
                         "Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out",
                         all, results);
     }
 
-    std::vector<std::string> labels(const std::string& group) const {
+    std::vector<std::string> labels(Group group) const {
         std::vector<std::string> result;
         for (const Root& root : p_.roots)
             if (root.group == group) result.push_back(ascii_identifier(root.name));

@@ -9,9 +9,9 @@
 ///
 /// Functions of the file: rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for what depends on
 /// parameters alone; the tables at its end are those of lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program
-/// that has been differentiated (lower/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
+/// that has been differentiated (program/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
 
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

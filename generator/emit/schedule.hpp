@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "lower/program.hpp"
-#include "lower/readiness.hpp"
+#include "program/program.hpp"
+#include "program/readiness.hpp"
 
 namespace alembert {
 

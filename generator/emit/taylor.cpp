@@ -20,8 +20,8 @@
 #include "emit/templates.hpp"
 #include "emit/timely.hpp"
 #include "emit/writer.hpp"
-#include "lower/recurrence.hpp"
-#include "lower/solve.hpp"
+#include "program/recurrence.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 
@@ -218,8 +218,8 @@ private:
             Named& name = named_[id];
             const auto speed = [&] {
                 if (p_.speeds.empty()) return ascii_identifier(p_.coordinates[i].name) + "_dot";
-                const std::string& u = p_.speeds[i].name;
-                return ascii_identifier(u.ends_with('\'') ? u.substr(0, u.size() - 1) + "_dot" : u);
+                const Quantity& u = p_.speeds[i];
+                return ascii_identifier(u.rate_of < 0 ? u.name : p_.coordinates[static_cast<std::size_t>(u.rate_of)].name + "_dot");
             };
             switch (x.kind) {
                 case Kind::coordinate: name.now = names_.fresh(p_.coordinates[i].name + "_k"); break;

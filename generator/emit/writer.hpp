@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "emit/names.hpp"
-#include "lower/program.hpp"
-#include "lower/readiness.hpp"
+#include "program/program.hpp"
+#include "program/readiness.hpp"
 
 namespace alembert {
 

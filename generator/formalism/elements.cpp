@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "model/geometry.hpp"
-#include "report/readable.hpp"
+#include "notation/readable.hpp"
 
 namespace alembert {
 

@@ -8,8 +8,8 @@
 
 #include "formalism/elements.hpp"
 #include "model/parameter_values.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "formalism/elements.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -16,7 +16,7 @@
 #include "formalism/roberson_wittenburg.hpp"
 #include "formalism/routhian.hpp"
 #include "formalism/schiehlen.hpp"
-#include "report/text.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

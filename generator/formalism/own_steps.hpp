@@ -5,7 +5,7 @@
 ///
 ///     show_own_steps(derivation, mechanism, equations);    // fills `sections`; replaces `equations` for hamilton, routhian
 
-#include "report/derivation.hpp"
+#include "formalism/derivation.hpp"
 
 namespace alembert {
 

@@ -2,8 +2,8 @@
 #include "formalism/rest.hpp"
 
 #include "formalism/dalembert.hpp"
-#include "report/readable.hpp"
-#include "report/text.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
 
 namespace alembert {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "formalism/equations.hpp"
-#include "report/phrase.hpp"
+#include "notation/phrase.hpp"
 #include "symbolic/fourier.hpp"
 
 namespace alembert {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
-#include "lower/flatten.hpp"
-#include "lower/share.hpp"
-#include "report/readable.hpp"
+#include "program/flatten.hpp"
+#include "program/share.hpp"
+#include "notation/readable.hpp"
 
 namespace alembert {
 
@@ -97,8 +97,6 @@ std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t bud
 
 namespace {
 
-bool is_textbook(const Program& program) { return program.formulation.ends_with("textbook form"); }
-
 /// A form as lowered.
 struct Candidate {
     Program program;
@@ -114,8 +112,11 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
         programs.push_back({lower(m, intermediate, energy, options)});
     }
     const bool has_matrix = equations.M.rows() > 0;
-    if (const std::optional<Equations> textbook = has_matrix ? textbook_equations(m, equations) : std::nullopt)
-        programs.push_back({lower(m, *textbook, readable_energy(m, energy), options)});
+    if (const std::optional<Equations> textbook = has_matrix ? textbook_equations(m, equations) : std::nullopt) {
+        LowerOptions as_in_book = options;
+        as_in_book.is_textbook = true;
+        programs.push_back({lower(m, *textbook, readable_energy(m, energy), as_in_book)});
+    }
     if (!equations.tree) return;
     const bool parallel = has_parallel_axes(*equations.tree);
     using Solve = RecursionForm::Solve;
@@ -157,7 +158,7 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
     std::vector<Program> programs;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         Candidate& c = candidates[k];
-        const double least = times[k] * least_after / (is_textbook(c.program) ? readability : 1);
+        const double least = times[k] * least_after / (c.program.is_textbook ? readability : 1);
         if (c.program.singular || least <= best || times[k] <= second) programs.push_back(shared(c.is_recursion ? flattened(c.program) : std::move(c.program)));
     }
     return programs;
@@ -175,7 +176,7 @@ Choice choose(const Mechanism& m, const std::vector<Equations>& equations, const
     std::vector<std::size_t> order(programs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t k) {
-        const bool readable = is_textbook(programs[k]);  // as good, and better to read
+        const bool readable = programs[k].is_textbook;  // as good, and better to read
         return std::make_pair(programs[k].singular && !readable, costs[k].time() * (readable ? 1 : readability));
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "lower/cost.hpp"
 #include "lower/lower.hpp"
+#include "program/cost.hpp"
 
 namespace alembert {
 

@@ -11,8 +11,8 @@
 /// are those of the mechanism that moves, and one sweep backwards through the velocities gives all partial derivatives: the number of
 /// operations is linear in the bodies, and no mass matrix is made.
 
-#include "lower/program.hpp"
 #include "model/mechanism.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

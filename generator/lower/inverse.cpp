@@ -49,11 +49,11 @@ std::vector<int> inverse_loads(Program& program, const Mechanism& m, const std::
 Program lower_inverse(const Mechanism& m) {
     Program program = begun(m);
     const std::vector<int> loads = inverse_loads(program, m);
-    for (int i = 0; i < m.size(); ++i) program.roots.push_back({"load", m.q[i].get_name(), loads[i]});
+    for (int i = 0; i < m.size(); ++i) program.roots.push_back({Group::load, m.q[i].get_name(), loads[i]});
     const auto lowering = lowering_into(program, m);
     for (const Mechanism::Constraint& c : m.constraints) {
-        for (int i = 0; i < m.size(); ++i) program.roots.push_back({"row", fmt::format("{}_{}", c.name, i), lowering(c.row[i])});
-        program.roots.push_back({"gamma", c.name, lowering(c.acceleration)});
+        for (int i = 0; i < m.size(); ++i) program.roots.push_back({Group::row, fmt::format("{}_{}", c.name, i), lowering(c.row[i])});
+        program.roots.push_back({Group::gamma, c.name, lowering(c.acceleration)});
     }
     return program.canonical();
 }

@@ -4,7 +4,7 @@
 /// Inverse dynamics: the loads τ along the coordinates that accelerations need, M q'' = f + Aᵀλ + τ.
 ///
 ///     const Program program = lower_inverse(mechanism);
-///     program.nodes_of("load");        // M q'' − f, one for each coordinate, in q, q', q'', t
+///     program.nodes_of(Group::load);        // M q'' − f, one for each coordinate, in q, q', q'', t
 ///
 /// Groups of roots: "load"; of constraints "row" (A, n each) and "gamma" (A q'' = γ), of those with a multiplier. Along a tree of
 /// joints by Newton-Euler outwards and inwards, in a number of operations linear in the bodies (Luh, Walker & Paul, J. Dynamic Systems,
@@ -13,8 +13,8 @@
 
 #include <optional>
 
-#include "lower/program.hpp"
 #include "model/mechanism.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lower/interpret.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -13,7 +13,7 @@
 /// become parallel, and the division by their sine zero.
 
 #include "formalism/recursion.hpp"
-#include "lower/symbolic_scalar.hpp"
+#include "program/symbolic_scalar.hpp"
 
 namespace alembert {
 

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "formalism/kinematics.hpp"
-#include "lower/interpret.hpp"
 #include "lower/project.hpp"
 #include "lower/recursion.hpp"
-#include "lower/solve.hpp"
+#include "program/interpret.hpp"
+#include "program/solve.hpp"
 #include "symbolic/functions.hpp"
 
 namespace alembert {
@@ -201,9 +201,9 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
     lowering.lower_definitions(values);
     lowering.lower_definitions(rates);
     for (std::size_t k = 0; k < values.size(); ++k)
-        program.roots.push_back({"speed", m.speeds[k].u.get_name(), lowering(values[k])});
+        program.roots.push_back({Group::speed, m.speeds[k].u.get_name(), lowering(values[k])});
     for (std::size_t k = 0; k < rates.size(); ++k)
-        program.roots.push_back({"speed_rate", m.speeds[k].u.get_name(), lowering(rates[k])});
+        program.roots.push_back({Group::speed_rate, m.speeds[k].u.get_name(), lowering(rates[k])});
 }
 
 /// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B = A_all A_keptᵀ
@@ -260,14 +260,18 @@ Program begun(const Mechanism& m, bool fold) {
 Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
     Program program = begun(m, options.fold);
     program.formulation = equations.formalism;
+    program.is_textbook = options.is_textbook;
     Lowering lowering(program, m, options.fold);
 
     const int n = equations.size();
     const bool has_speeds = !equations.h.empty();
     std::vector<int> udot;
     for (int k = 0; k < n && has_speeds; ++k) {
-        const bool is_rate = m.symbols->info(equations.u[k]).kind == SymbolInfo::Kind::coordinate;
-        program.speeds.push_back({equations.u[k].get_name() + (is_rate ? "'" : ""), m.speeds.empty() ? "" : m.speeds[k].unit});
+        const SymbolInfo& info = m.symbols->info(equations.u[k]);
+        const bool is_rate = info.kind == SymbolInfo::Kind::coordinate;
+        program.speeds.push_back({.name = equations.u[k].get_name() + (is_rate ? "'" : ""),
+                                  .unit = m.speeds.empty() ? "" : m.speeds[k].unit,
+                                  .rate_of = is_rate ? info.index : -1});
         udot.push_back(program.variable({Variable::Kind::acceleration, k}));
     }
     define_rates(lowering, program, m, equations, udot);
@@ -324,7 +328,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
             for (const auto& [c, row, gamma] : norms)
                 terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
             mass.push_back(program.sum(0, terms));
-            program.roots.push_back({"mass", fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
+            program.roots.push_back({Group::mass, fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
     for (int i = 0; i < n && has_matrix; ++i) {
         blame_row(i);
@@ -332,7 +336,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         for (const auto& [c, row, gamma] : norms)
             terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
         forcing.push_back(program.sum(0, terms));
-        program.roots.push_back({"forcing", fmt::format("f{}", i), forcing.back()});
+        program.roots.push_back({Group::forcing, fmt::format("f{}", i), forcing.back()});
     }
     program.set_sources({0});
     // [M Aᵀ; A 0] (u', −λ) = (f, γ)
@@ -343,25 +347,25 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         std::vector<Program::Term> velocity{{1, lowering(constraint.drift)}};
         for (int i = 0; i < m.size(); ++i) {
             const int entry = lowering(has_speeds ? constraint.row[i] : equations.A[c][i]);
-            program.roots.push_back({"row", fmt::format("A{}_{}", c, i), entry});
+            program.roots.push_back({Group::row, fmt::format("A{}_{}", c, i), entry});
             velocity.emplace_back(1, program.product(1, {{entry, 1}, {lowering(m.qdot[i]), 1}}));
         }
         if (const int k = row_of[c]; k >= 0) {
             for (int i = 0; i < n; ++i) mass.push_back(lowering(equations.A[k][i]));
             for (int j = 0; j <= k; ++j) mass.push_back(program.number(0));
             forcing.push_back(lowering(equations.gamma[k]));
-            program.roots.push_back({"gamma", fmt::format("gamma{}", c), forcing.back()});
+            program.roots.push_back({Group::gamma, fmt::format("gamma{}", c), forcing.back(), static_cast<int>(c)});
         }
         for (int i = 0; i < n && has_speeds; ++i)
-            program.roots.push_back({"speed_row", fmt::format("B{}_{}", c, i),
+            program.roots.push_back({Group::speed_row, fmt::format("B{}_{}", c, i),
                                      row_of[c] < 0 ? program.number(0) : lowering(equations.A[row_of[c]][i])});
-        program.roots.push_back({"position", constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
-        program.roots.push_back({"velocity", constraint.name, program.sum(0, velocity)});
+        program.roots.push_back({Group::position, constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
+        program.roots.push_back({Group::velocity, constraint.name, program.sum(0, velocity)});
     }
     if (!has_matrix && !by_tree.acceleration)
         throw ModelError("the rates of the joints do not determine those of the coordinates; take --by recursive");
     if (const auto solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration : solve_symmetric(program, mass, forcing, n)) {
-        for (int i = 0; i < n; ++i) program.roots.push_back({"acceleration", fmt::format("a{}", i), (*solution)[i]});
+        for (int i = 0; i < n; ++i) program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
         if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
@@ -378,7 +382,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         if (!m.redundant.empty()) share_out(lowering, program, m, energy.power);
         for (const auto* list : {&m.constraints, &m.redundant})
             for (const Mechanism::Constraint& constraint : *list)
-                program.roots.push_back({"multiplier", constraint.multiplier.get_name(), lowering(constraint.multiplier)});
+                program.roots.push_back({Group::multiplier, constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
         // The power and outputs may name multipliers; their values are never read, as there is no motion.
@@ -386,8 +390,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         for (const Mechanism::Constraint& constraint : m.redundant) lowering.define(constraint.multiplier, program.number(0));
     }
     for (int i = 0; i < m.size() && has_speeds; ++i) {
-        program.roots.push_back({"rate", m.q[i].get_name(), lowering(m.qdot[i])});
-        program.roots.push_back({"second_rate", m.q[i].get_name(), lowering(m.qddot[i])});
+        program.roots.push_back({Group::rate, m.q[i].get_name(), lowering(m.qdot[i])});
+        program.roots.push_back({Group::second_rate, m.q[i].get_name(), lowering(m.qddot[i])});
     }
     add_speed_roots(lowering, program, m, equations);
     wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
@@ -396,13 +400,13 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     lowering.lower_definitions(wanted);
     const int T = lowering(energy.kinetic), V = lowering(energy.potential);
     const int E = m.given_lagrangian ? lowering(energy.energy) : program.sum(0, {{1, T}, {1, V}});
-    program.roots.push_back({"kinetic", "T", T});
-    program.roots.push_back({"potential", "V", V});
-    program.roots.push_back({"energy", "E", E});
-    program.roots.push_back({"power", "P", lowering(energy.power)});
-    program.roots.push_back({"jacobi", "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
-    for (const Part& part : m.outputs) program.roots.push_back({"output", part.label, lowering(part.value)});
-    for (const Part& part : m.events) program.roots.push_back({"event", part.label, lowering(part.value)});
+    program.roots.push_back({Group::kinetic, "T", T});
+    program.roots.push_back({Group::potential, "V", V});
+    program.roots.push_back({Group::energy, "E", E});
+    program.roots.push_back({Group::power, "P", lowering(energy.power)});
+    program.roots.push_back({Group::jacobi, "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
+    for (const Part& part : m.outputs) program.roots.push_back({Group::output, part.label, lowering(part.value)});
+    for (const Part& part : m.events) program.roots.push_back({Group::event, part.label, lowering(part.value)});
     return program.canonical();
 }
 
@@ -417,7 +421,7 @@ Program lower_constraints(const Mechanism& m) {
     for (const Mechanism::Constraint& c : m.constraints) want(c.row, c.position.value_or(0), c.drift);
     for (const Mechanism::Speed& s : m.speeds) want(s.row, s.form, s.drift);
     lowering.lower_definitions(wanted);
-    const auto linear = [&](const std::vector<ex>& row, const ex& drift, const std::string& group) {
+    const auto linear = [&](const std::vector<ex>& row, const ex& drift, Group group) {
         std::vector<Program::Term> value{{1, lowering(drift)}};
         for (int i = 0; i < m.size(); ++i) {
             const int entry = lowering(row[i]);
@@ -427,11 +431,11 @@ Program lower_constraints(const Mechanism& m) {
         return program.sum(0, value);
     };
     for (const Mechanism::Constraint& c : m.constraints) {
-        program.roots.push_back({"velocity", c.name, linear(c.row, c.drift, "row")});
-        program.roots.push_back({"position", c.name, c.position ? lowering(*c.position) : program.number(0)});
+        program.roots.push_back({Group::velocity, c.name, linear(c.row, c.drift, Group::row)});
+        program.roots.push_back({Group::position, c.name, c.position ? lowering(*c.position) : program.number(0)});
     }
     for (const Mechanism::Speed& s : m.speeds)
-        program.roots.push_back({"speed", s.u.get_name(), linear(s.row, s.drift, "form_row")});
+        program.roots.push_back({Group::speed, s.u.get_name(), linear(s.row, s.drift, Group::form_row)});
     return program.canonical();
 }
 

@@ -4,25 +4,25 @@
 /// From equations to straight-line code: the last place that knows GiNaC.
 ///
 ///     const Program program = lower(mechanism, equations, energy_of(mechanism));
-///     program.nodes_of("acceleration");
+///     program.nodes_of(Group::acceleration);
 ///
-/// Groups of roots: "mass" (lower triangle, row by row) and "forcing", unless the equations have no M; "acceleration", "kinetic", "potential",
-/// "energy", "power", "jacobi", "output", "event"; of constraints "row" (A, n each), "position", "velocity", "gamma" (of those
-/// with a multiplier), "multiplier", "projected" (q, u at the constraints) and "pivot" (project.hpp); of a scene with speeds "speed", "speed_rate".
-/// Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u',
-/// and there are "rate" (q'), "second_rate" (q'') and "speed_row" (A in speeds; zeros for eliminated constraints).
+/// The groups of roots are those of program.hpp: mass and forcing unless the equations have no M; accelerations, energies, outputs and
+/// events; of constraints rows, positions, velocities, gamma, multipliers, and a step of the projection (project.hpp); of a scene with
+/// speeds these and their rates. Where the speeds are not the rates, `Program::speeds` names them, variables of kind `rate` and
+/// `acceleration` are u and u', and there are roots for q', q'' and A in speeds.
 
 #include <functional>
 
 #include "formalism/equations.hpp"
-#include "lower/program.hpp"
 #include "lower/recursion_form.hpp"
 #include "model/energy.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 
 struct LowerOptions {
     bool fold = false;  ///< parameters become constants, at the scene's values
+    bool is_textbook = false;  ///< the equations are in their readable form, whose order of terms is to be kept
     std::optional<RecursionForm> recursion = {};  ///< of equations with a tree: M, f and q'' by this instead of by their expressions
 };
 
@@ -30,7 +30,7 @@ struct LowerOptions {
 Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
               const LowerOptions& options = {});
 
-/// The constraints and the scene's speeds alone, in q and q': "row", "position", "velocity", "form_row", "speed".
+/// The constraints and the scene's speeds alone, in q and q': groups row, position, velocity, form_row and speed.
 Program lower_constraints(const Mechanism& mechanism);
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.

@@ -4,7 +4,7 @@
 #include "lower/project.hpp"
 
 #include "lower/lower.hpp"
-#include "lower/solve.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 
@@ -41,7 +41,7 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
 void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K, bool fold) {
     const bool own_speeds = !equations.h.empty();
     const std::size_t n = m.q.size(), s = equations.u.size();
-    const std::vector<int> position = program.nodes_of("position"), kept = equations.kept(m);
+    const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
     std::vector<int> across;  // constraints that the speeds have eliminated and coordinates may leave
     for (const Equations::Eliminated& e : equations.eliminated)
         if (!program.is_zero(position[e.constraint])) across.push_back(e.constraint);
@@ -86,7 +86,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     for (std::size_t i = 0; i < n; ++i) {
         const int q = program.variable({Variable::Kind::coordinate, static_cast<int>(i)});
         given.emplace_back(m.q[i], program.sum(0, {{1, q}, {-1, off[i]}}));
-        program.roots.push_back({"projected", m.q[i].get_name(), given.back().second});
+        program.roots.push_back({Group::projected, m.q[i].get_name(), given.back().second});
     }
     if (!kept.empty()) {
         const auto there = lowering_into(program, m, given, fold);
@@ -98,9 +98,9 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     }
     for (std::size_t k = 0; k < s; ++k) {
         const std::string name = own_speeds ? equations.u[k].get_name() : m.q[k].get_name() + "'";
-        program.roots.push_back({"projected", name, program.sum(0, {{1, u[k]}, {-1, change[k]}})});
+        program.roots.push_back({Group::projected, name, program.sum(0, {{1, u[k]}, {-1, change[k]}})});
     }
-    for (const int pivot : pivots) program.roots.push_back({"pivot", "", pivot});
+    for (const int pivot : pivots) program.roots.push_back({Group::pivot, "", pivot});
 }
 
 }  // namespace alembert

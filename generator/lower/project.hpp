@@ -4,7 +4,7 @@
 /// One step of Newton's method to the constraints, unrolled: the roots "projected" (q, then u) and "pivot".
 ///
 ///     add_projection(program, mechanism, equations, K);      // after "position"; K as the accelerations have it
-///     program.nodes_of("projected");                         // n + s
+///     program.nodes_of(Group::projected);                         // n + s
 ///
 /// For constraints that keep a multiplier it is the least change in the metric of M, from the factors of K = [M Aᵀ; A 0] that the
 /// accelerations have: positions along q' = S u, S = ∂h/∂u, then speeds where they have arrived. Holonomic constraints that the speeds
@@ -14,7 +14,7 @@
 /// there is nothing to move. No roots at all where that is true of each.
 
 #include "formalism/equations.hpp"
-#include "lower/program.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

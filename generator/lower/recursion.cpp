@@ -3,7 +3,7 @@
 
 #include "formalism/planar_chain.hpp"
 #include "lower/link_frames.hpp"
-#include "lower/solve.hpp"
+#include "program/solve.hpp"
 
 namespace alembert {
 

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "formalism/joint_tree.hpp"
-#include "lower/program.hpp"
 #include "lower/recursion_form.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "lower/interpret.hpp"
 #include "formalism/equations.hpp"
+#include "program/interpret.hpp"
 
 namespace alembert {
 

@@ -1,220 +1,166 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/derivation.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "lower/lower.hpp"
-#include "report/euler_form.hpp"
-#include "report/intermediate_form.hpp"
+#include "notation/latex.hpp"
+#include "notation/text.hpp"
+#include "report/formula_page.hpp"
 
 namespace alembert {
 
-using GiNaC::ex;
-
 namespace {
 
-constexpr double largest_tree = 30000;        // nodes of all equations, written out
-constexpr std::size_t most_terms = 150;       // of one equation in normal form; beyond, nobody reads it
+/// The four steps of the book but for the equations themselves.
+std::vector<Block> steps(const Derivation& shown, const Notation& n) {
+    const auto statements = [&](const std::vector<Statement>& list) {
+        std::vector<std::pair<std::string, std::string>> result;
+        for (const Statement& s : list) result.emplace_back(n.left(s), n.phrase(s.value));
+        return result;
+    };
+    std::string names;
+    for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + n.inline_phrase(q);
+    const int freedom = shown.degrees_of_freedom;
+    std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
+                                           freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
+                               {}}};
 
-class Making {
-public:
-    Making(const Mechanism& m, const Equations& e) : m_(m), e_(e) {}
-
-    Derivation make() {
-        result_.formalism = e_.formalism;
-        result_.degrees_of_freedom = m_.size();
-        for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
-        gaps();
-        for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
-        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
-        if (!e_.h.empty() && m_.speeds.empty()) choice();
-        for (const ex& pole : e_.poles)
-            if (const auto f = normal(pole))
-                result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
-        if (!readable_equations() || !energies()) return with_definitions();
-        angular_velocities();
-        forces();
-        derivatives();
-        constraints();
-        return std::move(result_);
+    if (!shown.angular.empty()) blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
+    std::vector<Statement> energies = shown.energies;
+    const auto total = [&](const char* letter, const Phrase& value) {
+        energies.push_back({Statement::Kind::energy, letter, "", {}, value});
+    };
+    if (shown.lagrangian) {
+        total("L", *shown.lagrangian);
+    } else {
+        total("T", shown.kinetic);
+        total("V", shown.potential);
     }
-
-private:
-    Phrase symbol_of(const GiNaC::symbol& s) const { return phrases::symbol(s, m_.symbols->info(s)); }
-
-    std::optional<Fourier> normal(const ex& e) const {
-        if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
-        std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
-        if (f && f->size() > most_terms) return std::nullopt;
-        return f;
+    blocks.push_back({shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
+                      statements(energies)});
+    blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
+                                           : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
+                      statements(shown.forces)});
+    for (std::size_t k = 0; k < shown.sections.size(); ++k) {
+        const Section& section = shown.sections[k];
+        blocks.push_back({(k == 0 ? "4. " : "") + section.words, statements(section.statements)});
+        for (const auto& [left, right] : section.equalities)
+            blocks.back().equalities.emplace_back(n.phrase(left), n.phrase(right));
     }
-
-    bool readable_equations() {
-        double size = 0;
-        for (int i = 0; i < e_.size(); ++i) {
-            for (int j = 0; j < e_.size(); ++j) size += m_.z->tree_size(e_.M(i, j));
-            size += m_.z->tree_size(e_.forcing(i));
-        }
-        if (size > largest_tree) return false;
-        for (int i = 0; i < e_.size(); ++i) {
-            GiNaC::exvector terms{-e_.own[i], -e_.dissipative[i]};
-            for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
-            GiNaC::exvector forces{e_.applied[i]};
-            for (std::size_t k = 0; k < e_.A.size(); ++k) forces.push_back(e_.A[k][i] * e_.lambda[k]);
-            const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
-            if (!left || !right) return false;
-            result_.equations.push_back(readable_equation(*left, *right));
-        }
-        if (!e_.h.empty()) write_as_euler(result_.equations, result_.rows);
-        for (std::size_t i = 0; i < e_.h.size(); ++i) {
-            if (e_.h[i].is_equal(m_.qdot[i])) continue;
-            const auto rate = normal(e_.h[i]);
-            if (!rate) return false;
-            result_.kinematics.emplace_back(symbol_of(m_.qdot[i]), readable(*rate));
-        }
-        return true;
-    }
-
-    /// Speeds that the program chose.
-    void choice() {
-        std::string kept, solved;
-        for (int i = 0; i < m_.size(); ++i) {
-            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(), [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
-            if (!is_free) solved += (solved.empty() ? "" : ", ") + m_.q[i].get_name() + "'";
-        }
-        for (int k = 0; k < e_.size(); ++k) {
-            kept += (kept.empty() ? "" : ", ") + m_.symbols->info(e_.u[k]).text();
-            if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
-            if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
-        }
-        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept +
-                         (result_.speeds.empty() ? "." : ", with");
-    }
-
-    bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
-        const auto f = normal(value);
-        if (!f) return false;
-        statement.value = readable(*f);
-        to.push_back(std::move(statement));
-        return true;
-    }
-
-    /// ω along the axes of each body that turns in space.
-    void angular_velocities() {
-        for (const MassElement& body : m_.masses) {
-            if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero())) continue;
-            for (int k = 0; k < 3; ++k)
-                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], body.label, {}, {}}, body.rotation->w_NB_B[k]);
-        }
-    }
-
-    bool energies() {
-        using Kind = Statement::Kind;
-        for (const Part& part : m_.kinetic)
-            if (!add(result_.energies, {Kind::energy, "T", part.label, {}, {}}, part.value)) return false;
-        for (const Part& part : m_.potential)
-            if (!add(result_.energies, {Kind::energy, "V", part.label, {}, {}}, part.value)) return false;
-        const Energy energy = energy_of(m_);
-        const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
-        if (!T || !V || !L) return false;
-        result_.kinetic = readable(*T);
-        result_.potential = readable(*V);
-        if (m_.given_lagrangian) result_.lagrangian = readable(*L);
-        return true;
-    }
-
-    /// Q of everything that does work: of V as −∂V/∂q, of loads by their virtual work; then in all.
-    void forces() {
-        using Kind = Statement::Kind;
-        GiNaC::exvector total(m_.size(), 0);
-        const auto add_all = [&](const std::string& label, const std::vector<ex>& Q) {
-            for (int i = 0; i < m_.size(); ++i) {
-                if (Q[i].is_zero()) continue;
-                add(result_.forces, {Kind::work, "Q", label, symbol_of(m_.q[i]), {}}, Q[i]);
-                total[i] += Q[i];
-            }
-        };
-        for (const Part& part : m_.potential) add_all(part.label, m_.z->pull_back({{part.value, -1}}, m_.q));
-        for (const Load& load : m_.loads) {
-            std::vector<std::pair<ex, ex>> targets;
-            for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
-            add_all(load.label, m_.z->pull_back(targets, m_.qdot));
-        }
-        if (result_.forces.empty()) return;
-        for (int i = 0; i < m_.size(); ++i) add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
-    }
-
-    /// ∂T/∂q' and ∂T/∂q, or those of L where the scene gives it.
-    void derivatives() {
-        using Kind = Statement::Kind;
-        const std::string letter = m_.given_lagrangian ? "L" : "T";
-        std::vector<GiNaC::symbol> state = m_.q;
-        state.insert(state.end(), m_.qdot.begin(), m_.qdot.end());
-        const ex energy = m_.given_lagrangian ? m_.lagrangian() : m_.kinetic_energy();
-        const std::vector<ex> gradient = m_.z->pull_back({{energy, 1}}, state);
-        for (int i = 0; i < m_.size(); ++i) {
-            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
-            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
-        }
-    }
-
-    void constraints() {
-        for (const Mechanism::Constraint& c : m_.constraints) {
-            if (is_gap(c)) continue;
-            GiNaC::exvector terms{c.drift};
-            for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
-            if (const auto f = normal(c.position ? *c.position : ex(GiNaC::add(std::move(terms)))))
-                result_.constraints.emplace_back(c.name, readable(*f));
-        }
-    }
-
-    /// A unilateral constraint among the others, for the sake of its reaction.
-    bool is_gap(const Mechanism::Constraint& c) const {
-        return std::any_of(m_.unilateral.begin(), m_.unilateral.end(),
-                           [&](const Mechanism::Unilateral& contact) { return contact.gap.multiplier.is_equal(c.multiplier); });
-    }
-
-    void gaps() {
-        for (const Mechanism::Unilateral& contact : m_.unilateral)
-            if (const auto f = normal(*contact.gap.position)) result_.gaps.emplace_back(contact.gap.name, readable(*f));
-    }
-
-    Derivation with_definitions() {
-        const Program program = lower(m_, e_, energy_of(m_));
-        IntermediateForm form = intermediate_form(program, m_, e_);
-        result_.definitions = std::move(form.definitions);
-        result_.equations = std::move(form.equations);
-        result_.kinematics = std::move(form.kinematics);
-        result_.kinetic = std::move(form.kinetic);
-        result_.potential = std::move(form.potential);
-        result_.energies.clear();
-        return std::move(result_);
-    }
-
-    const Mechanism& m_;
-    const Equations& e_;
-    Derivation result_;
-};
+    if (!shown.sections.empty()) return blocks;
+    blocks.push_back({shown.lagrangian ? "4. For Lagrange's equations d/dt dL/dq' - dL/dq = Q:"
+                                       : "4. For Lagrange's equations d/dt dT/dq' - dT/dq = Q:",
+                      statements(shown.derivatives)});
+    return blocks;
+}
 
 }  // namespace
 
-void show_reactions(Derivation& shown, const Mechanism& m) {
-    for (const Mechanism::Constraint& c : m.constraints)
-        for (int i = 0; i < m.size(); ++i) {
-            const ex force = c.row[i] * c.multiplier;
-            if (force.is_zero() || m.z->tree_size(force) > largest_tree) continue;
-            const auto f = fourier(m.z->expand(force), *m.symbols, 20 * most_terms);
-            if (!f || f->size() > most_terms) continue;
-            shown.reactions.push_back({.kind = Statement::Kind::work,
-                                       .letter = "Q",
-                                       .of = c.name,
-                                       .by = phrases::symbol(m.q[i], m.symbols->info(m.q[i])),
-                                       .value = readable(*f)});
-        }
+Json as_json(const DerivedScene& d) {
+    const Derivation& shown = d.shown;
+    const Mechanism& m = d.mechanism;
+    Json result;
+    result["formalism"] = shown.formalism;
+    result["degrees_of_freedom"] = shown.degrees_of_freedom;
+    result["coordinates"] = Json::array();
+    result["speeds"] = Json::array();
+    for (const GiNaC::symbol& q : m.q) {
+        result["coordinates"].push_back(q.get_name());
+        if (m.speeds.empty()) result["speeds"].push_back(q.get_name() + "'");
+    }
+    for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
+    result["multipliers"] = Json::array();
+    for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
+    if (!shown.gaps.empty()) {
+        result["gaps"] = Json::object();
+        for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
+    }
+    if (!shown.reactions.empty()) {
+        result["reactions"] = Json::object();
+        for (const Statement& r : shown.reactions) result["reactions"][r.of][text(*r.by)] = text(r.value);
+    }
+    result["kinetic"] = text(shown.kinetic);
+    result["potential"] = text(shown.potential);
+    if (shown.lagrangian) result["lagrangian"] = text(*shown.lagrangian);
+    result["equations"] = Json::array();
+    for (const ReadableEquation& e : shown.equations) {
+        Json one = {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}};
+        if (e.divided_by) one["divided_by"] = text(*e.divided_by);
+        result["equations"].push_back(std::move(one));
+    }
+    if (!shown.kinematics.empty()) {
+        result["kinematics"] = Json::array();
+        for (const auto& [rate, value] : shown.kinematics)
+            result["kinematics"].push_back({{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
+    }
+    for (const auto* list : {&shown.speeds, &shown.definitions})
+        for (const auto& [name, value] : *list)
+            result["definitions"].push_back({{"name", text(name)}, {"text", text(value)}});
+    for (const Statement& s : d.joint_loads) result["joint_reactions"][s.of][s.letter] = text(s.value);
+    return result;
 }
 
-Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
-    return Making(mechanism, equations).make();
+std::string as_page(const DerivedScene& d, const PageOptions& options) {
+    const Derivation& shown = d.shown;
+    const Notation n = notation_of(options.format);
+    std::vector<Block> blocks;
+    if (options.format == "text" && !d.scene.title.empty()) blocks.push_back({d.scene.title, {}});
+    if (!shown.definitions.empty()) {
+        blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
+        for (const auto& [name, value] : shown.definitions)
+            blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
+        for (const Section& section : shown.sections) {
+            if (!options.steps) break;
+            blocks.push_back({section.words, {}});
+            for (const Statement& s : section.statements) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+        }
+    } else if (options.steps) {
+        for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
+    }
+    const bool free = d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
+    if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
+    for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
+    blocks.push_back({fmt::format("Equations of motion ({}{}):",
+                                  shown.title,
+                                  !d.by.empty()        ? ""
+                                  : !d.equations.h.empty() ? "; the scene has generalized speeds"
+                                  : free && d.has_unilateral_reactions ? "; the coordinates are independent while all gaps are open"
+                                  : free              ? "; the coordinates are independent"
+                                                      : "; the coordinates are not independent"),
+                      {}});
+    for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (!shown.kinematics.empty()) {
+        blocks.push_back({"with the rates of the coordinates:", {}});
+        for (const auto& [rate, value] : shown.kinematics) blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
+    }
+    for (const Phrase& pole : shown.poles)
+        blocks.push_back({fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
+    if (!shown.constraints.empty()) {
+        const bool all = d.equations.A.empty();
+        blocks.push_back({all ? "The constraints, which the speeds obey:"
+                              : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
+        for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
+    if (!shown.reactions.empty()) {
+        blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
+        for (const Statement& r : shown.reactions) blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
+    }
+    if (!d.joint_loads.empty()) {
+        blocks.push_back({"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:", {}});
+        for (const Statement& s : d.joint_loads) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+    }
+    if (!shown.gaps.empty()) {
+        blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
+        for (const auto& [name, phrase] : shown.gaps)
+            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
+    }
+    for (std::size_t i = 0; i < shown.equations.size(); ++i)
+        if (shown.equations[i].divided_by)
+            blocks.push_back({fmt::format("The equation of {} has been divided by {}.",
+                                          n.inline_phrase(shown.rows[i]),
+                                          n.inline_phrase(*shown.equations[i].divided_by)),
+                              {}});
+    return n.page(blocks);
 }
 
 }  // namespace alembert

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Two systems of linear equations have the same solutions if and only if their reduced row echelon forms are equal.
+// A rational identity of degree d that is false holds at a random point of GF(p) with a chance of at most d/p
+// (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
+#include "agree/agree.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <random>
+
+#include "exact/square_points.hpp"
+#include "agree/system.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+/// Unknowns of a square system by elimination with row exchanges; nothing where a pivot is small beside the largest.
+std::optional<std::vector<long double>> solved(std::vector<std::vector<long double>> rows) {
+    const std::size_t size = rows.size();
+    if (size == 0 || rows[0].size() != size + 1) return std::nullopt;
+    std::vector<long double> x(size, 0);
+    long double largest_pivot = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t r = k; r < size; ++r)
+            if (std::abs(rows[r][k]) > std::abs(rows[pivot][k])) pivot = r;
+        std::swap(rows[k], rows[pivot]);
+        largest_pivot = std::max(largest_pivot, std::abs(rows[k][k]));
+        if (!(std::abs(rows[k][k]) > 1e-9L * largest_pivot)) return std::nullopt;
+        for (std::size_t r = k + 1; r < size; ++r) {
+            const long double factor = rows[r][k] / rows[k][k];
+            for (std::size_t c = k; c <= size; ++c) rows[r][c] -= factor * rows[k][c];
+        }
+    }
+    for (std::size_t k = size; k-- > 0;) {
+        x[k] = rows[k][size];
+        for (std::size_t c = k + 1; c < size; ++c) x[k] -= rows[k][c] * x[c];
+        x[k] /= rows[k][k];
+    }
+    return x;
+}
+
+std::vector<std::vector<long double>> rows_at(const System& s, State<long double> state) {
+    return rows_of(s, values_of<long double>(s, [&](const std::vector<long double>& udot) {
+                       if (!s.is_plain()) state.qddot = udot;
+                       return interpret(s.program, state);
+                   }));
+}
+
+/// In long double arithmetic at a random state: the largest residual of `b`'s rows at `a`'s solution over the largest term;
+/// where the two have different unknowns, the difference of those that they share, over the largest. Nothing where that
+/// cannot be told.
+std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
+    std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
+    State<long double> state;
+    for (std::size_t i = 0; i < a.program.parameters.size(); ++i) state.parameters.push_back(positive(random));
+    state.t = positive(random);
+    for (int i = 0; i < a.n; ++i) {
+        state.q.push_back(turn(random));
+        state.qdot.push_back(turn(random));
+    }
+    State<long double> plain = state;  // with q' for u
+    for (const System* s : {&a, &b}) {
+        if (s->is_plain()) continue;
+        const auto value = interpret(s->program, state);
+        for (int i = 0; i < a.n; ++i) plain.qdot[i] = value[s->rates[i]];
+    }
+    const auto x = solved(rows_at(a, a.is_plain() ? plain : state));
+    if (!x) return std::nullopt;
+    const auto other = rows_at(b, b.is_plain() ? plain : state);
+    long double worst = 0;
+    if (a.hidden != b.hidden || a.is_plain() != b.is_plain()) {
+        const auto y = solved(other);
+        if (!y) return std::nullopt;
+        long double largest = 0;
+        for (int k = 0; k < a.common; ++k) {
+            largest = std::max({largest, std::abs((*x)[a.hidden + k]), std::abs((*y)[b.hidden + k])});
+            worst = std::max(worst, std::abs((*x)[a.hidden + k] - (*y)[b.hidden + k]));
+        }
+        if (!std::isfinite(largest)) return std::nullopt;
+        return largest > 0 ? worst / largest : 0;
+    }
+    const std::size_t size = x->size();
+    for (const auto& row : other) {
+        long double sum = -row[size], largest = std::abs(row[size]);
+        for (std::size_t c = 0; c < size; ++c) {
+            sum += row[c] * (*x)[c];
+            largest = std::max(largest, std::abs(row[c] * (*x)[c]));
+        }
+        if (!std::isfinite(sum)) return std::nullopt;
+        if (largest > 0) worst = std::max(worst, std::abs(sum) / largest);
+    }
+    return worst;
+}
+
+/// Are all entries equal by their normal forms? False too where that takes too long to tell.
+bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& m, double seconds) {
+    if (a.h.size() != b.h.size() || a.A.size() != b.A.size()) return false;
+    const auto start = std::chrono::steady_clock::now();
+    const auto equal = [&](const ex& x, const ex& y) {
+        if (x.is_equal(y)) return true;
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+        return used.count() < seconds && m.z->tree_size(x) + m.z->tree_size(y) < 20000 && vanishes(x - y, m) == true;
+    };
+    for (int i = 0; i < a.size(); ++i) {
+        for (int j = 0; j <= i; ++j)
+            if (!equal(a.M(i, j), b.M(i, j))) return false;
+        if (!equal(a.forcing(i), b.forcing(i))) return false;
+    }
+    for (std::size_t k = 0; k < a.A.size(); ++k) {
+        for (int i = 0; i < a.size(); ++i)
+            if (!equal(a.A[k][i], b.A[k][i])) return false;
+        if (!equal(a.gamma[k], b.gamma[k])) return false;
+    }
+    for (std::size_t i = 0; i < a.h.size(); ++i)
+        if (!equal(a.h[i], b.h[i])) return false;
+    return true;
+}
+
+}  // namespace
+
+Derivations derive_all(const Mechanism& mechanism) {
+    Derivations result;
+    for (const Formalism& f : formalisms()) {
+        if (f.name == "routh" && mechanism.constraints.empty()) continue;  // Lagrange's, word for word
+        try {
+            result.equations.push_back(f.derive(mechanism));
+        } catch (const ModelError& e) {
+            result.refused.emplace_back(f.name, e.what());
+        }
+    }
+    return result;
+}
+
+Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, double seconds) {
+    constexpr int most_unusable = 2000;
+    Agreement result;
+    if (equations.size() < 2) {
+        result.reason = "fewer than two formalisms apply";
+        return result;
+    }
+    std::vector<int> eliminated;
+    const Equations* in_speeds = nullptr;
+    for (const Equations& e : equations) {
+        for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
+        if (e.h.empty()) continue;
+        if (in_speeds == nullptr) in_speeds = &e;
+        if (e.u != in_speeds->u) {
+            result.reason = fmt::format("{} and {} are in different speeds", in_speeds->formalism, e.formalism);
+            return result;
+        }
+    }
+    std::vector<System> systems;
+    const System* speeds = nullptr;
+    systems.reserve(equations.size());
+    for (const Equations& e : equations) {
+        systems.push_back(system_of(e, m, eliminated));
+        if (!systems.back().is_plain()) speeds = &systems.back();
+    }
+
+    std::vector<SquarePoints::Part> parts;
+    int finer = 0;
+    for (const System& s : systems) {
+        parts.push_back({&s.program, s.wanted});
+        parts.back().roots.insert(parts.back().roots.end(), s.rates.begin(), s.rates.end());
+        finer = std::max(finer, halvings(s.program, parts.back().roots) - ModularPoint{}.halves);
+    }
+    const SquarePoints usable(parts, {});
+    int unusable = 0;
+    for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
+        const auto point = usable.at({.seed = seed, .given = {}, .given_angles = {}, .finer = finer});
+        const auto rates = !point ? std::nullopt : speeds != nullptr ? rates_at(*speeds, *point) : std::optional(ModularRates{});
+        std::vector<Echelon> forms;
+        for (const System& s : systems) {
+            auto form = rates ? echelon(s, *point, *rates) : std::nullopt;
+            if (!form) break;
+            forms.push_back(std::move(*form));
+        }
+        if (forms.size() < systems.size()) {
+            if (++unusable < most_unusable) continue;
+            result.reason = "no point was found where all roots exist";
+            return result;
+        }
+        double degree = 0, conditions = 0;
+        for (const Echelon& form : forms) {
+            degree += form.degree + forms[0].degree;
+            conditions = std::max(conditions, form.conditions);
+        }
+        for (std::size_t k = 1; k < forms.size(); ++k) {
+            if (forms[k].rows == forms[0].rows) continue;
+            std::mt19937_64 random(seed);
+            int tried = 0;
+            for (int attempt = 0; attempt < 32; ++attempt)
+                if (const auto r = residual(systems[0], systems[k], random); r && ++tried && *r > 1e-9L) {
+                    result.verdict = Agreement::Verdict::refuted;
+                    result.reason = fmt::format("{} and {} differ: at a random state an equation of the second is off by {:.2g} "
+                                                "of its largest term with the accelerations of the first",
+                                                systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
+                    return result;
+                }
+            result.reason = fmt::format("{} and {} differ in exact arithmetic that does not know all identities, and agree at "
+                                        "{} random states",
+                                        systems[0].formalism, systems[k].formalism, tried);
+            return result;
+        }
+        ++result.points;
+        const double chance = std::log2(degree) + conditions - 61;
+        if (chance > -1) {
+            result.reason = "the equations are of too high a degree for a bound on the failure of sampling";
+            return result;
+        }
+        result.failure += chance;
+    }
+    result.verdict = Agreement::Verdict::proved;
+    result.normal_form = true;
+    const auto start = std::chrono::steady_clock::now();
+    for (std::size_t k = 1; k < equations.size() && result.normal_form; ++k) {
+        const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
+        result.normal_form = equal_by_normal_form(equations[0], equations[k], m, seconds - used.count());
+    }
+    return result;
+}
+
+Agreed agree(Scene scene) {
+    const auto start = std::chrono::steady_clock::now();
+    Agreed result{prepared(std::move(scene))};
+    Mechanism& m = result.mechanism;
+    if (!m.speeds.empty()) m = without_constraints(std::move(m), redundant_constraints(m));
+    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
+    result.derivations = derive_all(m);
+    result.agreement = agree(result.derivations.equations, m);
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+}  // namespace alembert

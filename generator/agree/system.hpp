@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// One formalism's equations as numbers: rows of unknowns and a right-hand side, exactly modulo a prime or in floating point.
+///
+/// Unknowns: hidden ones, the multipliers of constraints that every system keeps, then q''. Hidden are u' of a system in
+/// speeds, and the multipliers of constraints that another system has eliminated. The rows whose pivots, in reduced
+/// row echelon form, come after the hidden columns say what the system says of the other unknowns.
+
+#include <map>
+#include <optional>
+
+#include "lower/lower.hpp"
+#include "program/interpret.hpp"
+#include "program/modular.hpp"
+
+namespace alembert {
+
+struct System {
+    std::string formalism;
+    Program program;
+    int n = 0, speeds = 0;                    ///< coordinates, speeds
+    std::vector<int> mass, forcing;           ///< mass: lower triangle
+    std::vector<std::vector<int>> A;          ///< in speeds
+    std::vector<int> gamma, rates, second;    ///< rates: q', second: q'' in u'; empty where u = q'
+    std::vector<int> columns;                 ///< of the multipliers of A's rows
+    int hidden = 0, common = 0;               ///< columns
+    std::vector<int> wanted;
+
+    /// Where u = q' leaves out nothing.
+    bool is_plain() const { return rates.empty(); }
+    int unknowns() const { return hidden + common; }
+};
+
+/// `somewhere_eliminated`: positions in Mechanism::constraints that one of the systems has eliminated.
+System system_of(const Equations& equations, const Mechanism& mechanism, const std::vector<int>& somewhere_eliminated);
+
+/// Values of all nodes, and q'' = B u' + c.
+template <typename Real>
+struct SystemValues {
+    std::vector<Real> value;
+    std::vector<Real> c;
+    std::vector<std::vector<Real>> B;  ///< by speed
+};
+
+/// −Aᵀλ + M u' = f,  A u' = γ,  q'' − B u' = c.
+template <typename Real>
+std::vector<std::vector<Real>> rows_of(const System& s, const SystemValues<Real>& at) {
+    const std::size_t size = static_cast<std::size_t>(s.speeds), width = static_cast<std::size_t>(s.unknowns());
+    const std::size_t q = width - static_cast<std::size_t>(s.n), u = s.is_plain() ? q : 0;  // where u' begins
+    std::vector<std::vector<Real>> result;
+    for (std::size_t i = 0; i < size; ++i) {
+        std::vector<Real> row(width + 1, Real(0));
+        for (std::size_t k = 0; k < s.A.size(); ++k) row[s.columns[k]] = Real(0) - at.value[s.A[k][i]];
+        for (std::size_t j = 0; j < size; ++j) {
+            const std::size_t a = std::max(i, j), b = std::min(i, j);
+            row[u + j] = at.value[s.mass[a * (a + 1) / 2 + b]];
+        }
+        row[width] = at.value[s.forcing[i]];
+        result.push_back(std::move(row));
+    }
+    for (std::size_t k = 0; k < s.A.size(); ++k) {
+        std::vector<Real> row(width + 1, Real(0));
+        for (std::size_t i = 0; i < size; ++i) row[u + i] = at.value[s.A[k][i]];
+        row[width] = at.value[s.gamma[k]];
+        result.push_back(std::move(row));
+    }
+    for (std::size_t i = 0; i < at.c.size(); ++i) {
+        std::vector<Real> row(width + 1, Real(0));
+        row[q + i] = Real(1);
+        for (std::size_t k = 0; k < size; ++k) row[u + k] = Real(0) - at.B[k][i];
+        row[width] = at.c[i];
+        result.push_back(std::move(row));
+    }
+    return result;
+}
+
+/// From `evaluate(accelerations)`, which gives all nodes' values at u'.
+template <typename Real, typename Evaluate>
+SystemValues<Real> values_of(const System& s, const Evaluate& evaluate) {
+    std::vector<Real> udot(static_cast<std::size_t>(s.speeds), Real(0));
+    SystemValues<Real> result{.value = evaluate(udot), .c = {}, .B = {}};
+    if (s.is_plain() || result.value.empty()) return result;
+    for (const int id : s.second) result.c.push_back(result.value[id]);
+    for (int k = 0; k < s.speeds; ++k) {
+        udot[k] = Real(1);
+        const std::vector<Real> value = evaluate(udot);
+        udot[k] = Real(0);
+        result.B.emplace_back();
+        for (std::size_t i = 0; i < result.c.size(); ++i) result.B.back().push_back(value[s.second[i]] - result.c[i]);
+    }
+    return result;
+}
+
+/// Given values of the rates in place of random ones; none: random.
+using RatesModP = std::map<std::pair<Variable::Kind, int>, Prime>;
+
+struct Echelon {
+    std::vector<std::vector<Prime>> rows;  ///< of the unknowns that are not hidden
+    double degree = 1, conditions = 0;
+};
+
+/// q' where u is random; nothing at an unusable point. `degree` of these values in the random ones.
+struct ModularRates {
+    RatesModP rates;
+    double degree = 1;
+};
+std::optional<ModularRates> rates_at(const System& system, const ModularPoint& point);
+std::optional<Echelon> echelon(const System& system, ModularPoint point, const ModularRates& rates);
+
+}  // namespace alembert

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// r(q, v) = (f, Aᵀ v, (|v|² − 1)/2) = 0 by Levenberg's and Marquardt's steps (JᵀJ + μ) δ = −Jᵀ r (Nocedal & Wright, Numerical
+// Optimization (2006), §10.3).
+#include "audit/singular_poses.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "alembert/dense.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double small = 1e-9;
+constexpr int starts = 48, most_rounds = 60;
+constexpr int largest = 30000;  // entries of the derivatives of A
+
+class Search {
+public:
+    Search(const Mechanism& m, State<double> state, const std::vector<State<double>>& states)
+        : m_(m), state_(std::move(state)), usual_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.constraints.size()))) {
+        std::vector<GiNaC::ex> rows, positions;
+        for (const Mechanism::Constraint& c : m.constraints) {
+            rows.insert(rows.end(), c.row.begin(), c.row.end());
+            positions.push_back(c.position.value_or(0));
+        }
+        std::vector<GiNaC::ex> all = rows;
+        all.insert(all.end(), positions.begin(), positions.end());
+        for (int i = 0; i < m.size(); ++i)
+            if (std::any_of(all.begin(), all.end(), [&](const GiNaC::ex& e) { return m.z->depends(e, {m.q[i]}); }))
+                moving_.push_back(i);
+        searchable_ = rows.size() * moving_.size() <= largest;
+        for (const int i : moving_) {
+            if (!searchable_) break;
+            const std::vector<GiNaC::ex> slopes = m.z->push_forward(rows, {{m.q[i], 1}});
+            all.insert(all.end(), slopes.begin(), slopes.end());
+        }
+        nodes_ = lower_expressions(program_, m, all);
+        Eigen::VectorXd size = usual_;
+        for (const State<double>& s : states) {
+            look(s.q);
+            size = size.cwiseMax(A_.rowwise().norm());
+        }
+        for (Eigen::Index k = 0; k < size.size(); ++k) usual_[k] = size[k] > 0 && std::isfinite(size[k]) ? size[k] : 1;
+    }
+
+    std::vector<SingularPose> go(std::size_t most) {
+        std::vector<SingularPose> found;
+        const auto add = [&](const std::vector<double>& q, bool given) {
+            auto pose = singular(q);
+            if (!pose) return;
+            pose->given = given;
+            const auto same = [&](const SingularPose& other) {
+                for (std::size_t i = 0; i < q.size(); ++i)
+                    if (std::abs(other.q[i] - pose->q[i]) > 1e-5 * (1 + std::abs(other.q[i]))) return false;
+                return true;
+            };
+            if (std::none_of(found.begin(), found.end(), same)) found.push_back(*pose);
+        };
+        add(state_.q, true);
+        std::vector<double> zero = state_.q;
+        for (const int i : moving_) zero[i] = 0;
+        add(zero, false);
+        std::mt19937_64 random(1);
+        std::uniform_real_distribution<double> away(-std::numbers::pi, std::numbers::pi);
+        for (int k = 0; k < starts && searchable_ && !moving_.empty(); ++k) {
+            std::vector<double> q = state_.q;
+            for (const int i : moving_) q[i] += away(random) * std::max(1.0, std::abs(q[i]) / 2);
+            if (!descend(q, random)) continue;
+            q = simplified(q);
+            if (near(q)) add(q, false);
+        }
+        // Simple poses first, where there are many.
+        const auto plain = [&](const SingularPose& pose) {
+            int count = 0;
+            for (const int i : moving_) {
+                const double quarter = pose.q[i] / (std::numbers::pi / 2);
+                count += pose.q[i] == state_.q[i] || std::abs(quarter - std::round(quarter)) < 1e-9;
+            }
+            return count;
+        };
+        const auto distance = [&](const SingularPose& pose) {
+            double sum = 0;
+            for (std::size_t i = 0; i < pose.q.size(); ++i) sum += std::pow(pose.q[i] - state_.q[i], 2);
+            return sum;
+        };
+        std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+            if (a.given != b.given) return a.given;
+            if (plain(a) != plain(b)) return plain(a) > plain(b);
+            return distance(a) < distance(b);
+        });
+        if (found.size() > most) found.resize(most);
+        return found;
+    }
+
+private:
+    /// A and f at q, rows in their usual sizes, and the derivatives of A.
+    void look(const std::vector<double>& q) {
+        State<double> state = state_;
+        state.q = q;
+        value_ = interpret(program_, state);
+        const auto m = usual_.size();
+        const Eigen::Index n = m_.size();
+        A_.resize(m, n);
+        f_.resize(m);
+        for (Eigen::Index k = 0; k < m; ++k) {
+            const double unit = usual_[k] > 0 ? usual_[k] : 1;
+            for (Eigen::Index i = 0; i < n; ++i) A_(k, i) = value_[nodes_[k * n + i]] / unit;
+            f_[k] = value_[nodes_[m * n + k]] / unit;
+        }
+    }
+
+    double slope(Eigen::Index j, Eigen::Index k, Eigen::Index i) const {
+        const Eigen::Index m = usual_.size(), n = m_.size();
+        return value_[nodes_[m * n + m + j * m * n + k * n + i]] / usual_[k];
+    }
+
+    std::optional<SingularPose> singular(const std::vector<double>& q) {
+        look(q);
+        if (!A_.allFinite() || !f_.allFinite()) return std::nullopt;
+        double size = 1;
+        for (const double x : q) size = std::max(size, std::abs(x));
+        if (f_.lpNorm<Eigen::Infinity>() > small * size) return std::nullopt;
+        const SingularValues svd = singular_values(A_);
+        SingularPose pose{.q = q, .rank = 0, .among = {}};
+        for (const double sigma : svd.values) pose.rank += sigma > small;
+        if (pose.rank == A_.rows()) return std::nullopt;
+        const Eigen::MatrixXd null = svd.left.rightCols(A_.rows() - pose.rank);
+        for (Eigen::Index k = 0; k < A_.rows(); ++k)
+            if (null.row(k).norm() > 1e-6) pose.among.push_back(static_cast<int>(k));
+        return pose;
+    }
+
+    Eigen::VectorXd residual(const Eigen::VectorXd& v) const {
+        Eigen::VectorXd r(f_.size() + A_.cols() + 1);
+        r << f_, A_.transpose() * v, (v.squaredNorm() - 1) / 2;
+        return r;
+    }
+
+    Eigen::MatrixXd jacobian(const Eigen::VectorXd& v) const {
+        const Eigen::Index m = usual_.size(), n = m_.size(), p = static_cast<Eigen::Index>(moving_.size());
+        Eigen::MatrixXd J = Eigen::MatrixXd::Zero(m + n + 1, p + m);
+        for (Eigen::Index j = 0; j < p; ++j)
+            for (Eigen::Index k = 0; k < m; ++k) {
+                if (m_.constraints[k].position) J(k, j) = A_(k, moving_[j]);
+                for (Eigen::Index i = 0; i < n; ++i) J(m + i, j) += v[k] * slope(j, k, i);
+            }
+        J.block(m, p, n, m) = A_.transpose();
+        J.block(m + n, p, 1, m) = v.transpose();
+        return J;
+    }
+
+    /// What tends to zero at infinity is no singular pose.
+    bool near(const std::vector<double>& q) const {
+        return std::all_of(moving_.begin(), moving_.end(), [&](int i) {
+            return std::abs(q[i] - state_.q[i]) <= 4 * std::numbers::pi * std::max(1.0, std::abs(state_.q[i]));
+        });
+    }
+
+    bool descend(std::vector<double>& q, std::mt19937_64& random) {
+        std::normal_distribution<double> normal;
+        Eigen::VectorXd v(usual_.size());
+        for (double& c : v) c = normal(random);
+        v.normalize();
+        look(q);
+        double damping = 1e-2;
+        Eigen::VectorXd r = residual(v);
+        const Eigen::Index p = static_cast<Eigen::Index>(moving_.size());
+        for (int round = 0; round < most_rounds; ++round) {
+            if (!r.allFinite()) return false;
+            if (r.norm() < 1e-14) return true;
+            const Eigen::MatrixXd J = jacobian(v);
+            Eigen::MatrixXd N = J.transpose() * J;
+            N.diagonal().array() += damping;
+            const Eigen::VectorXd step = -solve_symmetric(N, J.transpose() * r);
+            std::vector<double> next = q;
+            for (Eigen::Index j = 0; j < p; ++j) next[moving_[j]] += step[j];
+            const Eigen::VectorXd turned = v + step.tail(v.size());
+            look(next);
+            const Eigen::VectorXd after = residual(turned);
+            if (after.norm() < r.norm()) {
+                q = next;
+                v = turned;
+                r = after;
+                damping = std::max(damping / 10, 1e-3 * r.squaredNorm());
+            } else {
+                damping *= 10;
+                look(q);
+                if (damping > 1e8) break;
+            }
+        }
+        return r.norm() < 1e-9;
+    }
+
+    /// The same pose with simpler numbers, where it is singular as well.
+    std::vector<double> simplified(std::vector<double> q) {
+        for (const int i : moving_)
+            for (double other : {0.0, state_.q[i], std::remainder(q[i], 2 * std::numbers::pi)}) {
+                if (std::abs(other + std::numbers::pi) < 1e-6) other += 2 * std::numbers::pi;
+                std::vector<double> trial = q;
+                trial[i] = other;
+                if (!singular(trial)) continue;
+                q = trial;
+                break;
+            }
+        return q;
+    }
+
+    const Mechanism& m_;
+    State<double> state_;
+    Program program_;
+    std::vector<int> nodes_, moving_;
+    bool searchable_ = true;
+    std::vector<double> value_;
+    Eigen::VectorXd usual_, f_;
+    Eigen::MatrixXd A_;
+};
+
+}  // namespace
+
+std::vector<SingularPose> singular_poses(const Mechanism& mechanism, const State<double>& state,
+                                         const std::vector<State<double>>& states, std::size_t most) {
+    if (mechanism.constraints.empty()) return {};
+    return Search(mechanism, state, states).go(most);
+}
+
+}  // namespace alembert

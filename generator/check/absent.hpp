@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Which term does a claim lack? For claims that are no multiple of an equation of motion: integrals, eliminated equations.
+///
+///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);   // "m*l^2*theta'^2/2", "r'*phi'" …
+///     absent_term(program, residual, nodes_of_terms, steady, states)     // residual + (3/2)·m·terms[7] = 0 on every motion
+///
+/// A term t is lacking from r if −r/t is the same number times powers of parameters at all states. The powers are found from two
+/// states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, looked up in a table of all small powers.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/motions.hpp"
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+/// Terms that may stand in an equation about this mechanism, as text: those of its equations, constraints, energies and momenta,
+/// and products of two coordinates, rates, accelerations, multipliers or inputs with sines and cosines. If the claim
+/// differentiates, also derivatives of such terms. At most a few thousand.
+std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism, const Equations& equations);
+
+/// Parameters, and the sums of parameters in the claim.
+std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);
+
+struct Absent {
+    std::size_t term = 0;     ///< which
+    std::string coefficient;  ///< "-2*m/l", "1"
+};
+
+/// A value that no motion changes, as a node and as text: parameters and sums of them.
+struct Steady {
+    std::string text;
+    int node = 0;
+};
+
+/// All such terms, those with the simplest coefficient first. `points`: at least three states of the mechanism.
+std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
+                                  const std::vector<ModularPoint>& points);
+
+}  // namespace alembert

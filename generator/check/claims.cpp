@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/claims.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "lower/lower.hpp"
+#include "derive/derivation.hpp"
+#include "notation/text.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+int order_of(const ex& e, const Mechanism& m) {
+    std::vector<GiNaC::symbol> highest = m.qddot;
+    for (const Mechanism::Input& input : m.inputs) highest.push_back(input.derivative[2]);
+    if (m.z->depends(e, highest)) return 2;
+    highest = m.qdot;
+    for (const Mechanism::Input& input : m.inputs) highest.push_back(input.derivative[1]);
+    return m.z->depends(e, highest) ? 1 : 0;
+}
+
+Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations)
+    : m_(mechanism), e_(equations), formulas_(scene, mechanism) {
+    for (const Claim& claim : scene.claims) {
+        for (const Name& name : claim.unknowns) open_name(name.text, false);
+        for (const Name& name : claim.constants) open_name(name.text, true);
+    }
+    know_intermediates(scene);
+    // x'(-) stands in the place of x'': at an impact there are no accelerations.
+    for (int i = 0; i < m_.size(); ++i) formulas_.know(m_.q[i].get_name() + "'(-)", m_.qddot[i]);
+}
+
+// The definitions that `derive` prints beyond the readable size, where a claim speaks of them.
+void Claims::know_intermediates(const Scene& scene) {
+    const std::function<bool(const Tree&)> has_one = [&](const Tree& tree) {
+        if (tree.kind == Tree::Kind::name && tree.text[0] == 'z' && tree.text.size() > 1) return true;
+        return std::any_of(tree.args.begin(), tree.args.end(), [&](const TreePtr& arg) { return has_one(*arg); });
+    };
+    if (std::none_of(scene.claims.begin(), scene.claims.end(), [&](const Claim& claim) {
+            return has_one(*claim.equation.lhs.tree) || has_one(*claim.equation.rhs.tree);
+        }))
+        return;
+    for (const auto& [name, value] : derivation_of(m_, e_).definitions) {
+        std::vector<Diagnostic> mistakes;
+        const Expression expression = parse_expression(text(value), {}, mistakes);
+        if (!mistakes.empty()) return;
+        formulas_.know(text(name), m_.z->name(formulas_.value(expression)));
+    }
+}
+
+void Claims::open_name(const std::string& name, bool constant) {
+    for (const Open& known : open_)
+        if (known.name == name) return;
+    const int index = static_cast<int>(e_.lambda.size() + m_.undetermined().size() + open_.size());
+    const GiNaC::symbol symbol = m_.symbols->declare(name, SymbolInfo::Kind::other, index);
+    open_.push_back({name, constant, symbol, {Variable::Kind::unknown, index}});
+    formulas_.know(name, symbol);
+    if (!constant) formulas_.has_no_derivative(symbol);
+}
+
+std::vector<GiNaC::symbol> Claims::open_symbols() const {
+    std::vector<GiNaC::symbol> result;
+    for (const Open& o : open_) result.push_back(o.symbol);
+    return result;
+}
+
+const std::optional<Impact::Exact>& Claims::after_impact() {
+    if (std::exchange(has_struck_, true)) return after_;
+    try {
+        Impact result = impact(m_);
+        after_ = std::move(result.exact);
+        impact_obstacle_ = after_ ? "" : result.silence;
+        for (const GiNaC::symbol& before : after_ ? after_->before : std::vector<GiNaC::symbol>())
+            if (!after_->pose.contains(before)) {
+                impact_obstacle_ = "the rates before the impact are known in numbers only";
+                after_.reset();
+                break;
+            }
+    } catch (const std::runtime_error& e) {
+        impact_obstacle_ = e.what();
+    }
+    return after_;
+}
+
+/// In parameters, and in coordinates that start at a number inside a sine.
+ex Claims::at_impact(const ex& e) const {
+    GiNaC::exmap values;
+    for (int i = 0; i < m_.size(); ++i) {
+        values[m_.qdot[i]] = after_->after[i];
+        values[m_.qddot[i]] = after_->pose.at(after_->before[i]);  // x'(-)
+    }
+    for (const auto& [multiplier, impulse] : after_->reactions) values[multiplier] = impulse;
+    constexpr auto plain = GiNaC::subs_options::no_pattern;
+    return m_.z->name(m_.z->expand(e).subs(values, plain).subs(after_->pose, plain));
+}
+
+ClaimForm Claims::read(const Claim& claim) {
+    ClaimForm form;
+    form.residual = m_.z->name(formulas_.value(claim.equation.lhs) - formulas_.value(claim.equation.rhs));
+    if (claim.at == "impact" && after_impact()) form.residual = at_impact(form.residual);
+    bool constants = false;
+    const std::vector<GiNaC::symbol> symbols = open_symbols();
+    const std::vector<ex> slopes = m_.z->pull_back({{form.residual, 1}}, symbols);
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+        if (slopes[k].is_zero()) continue;
+        form.open.push_back(static_cast<int>(k));
+        form.linear = form.linear && !m_.z->depends(slopes[k], symbols);
+        constants = constants || open_[k].constant;
+    }
+    form.order = order_of(form.residual, m_);
+    if (constants) {
+        ex next = form.residual;
+        for (int order = form.order; order < 2; ++order) {
+            next = m_.time_derivative({next})[0];
+            form.derivatives.push_back(next);
+        }
+    }
+    return form;
+}
+
+std::vector<int> Claims::lower(Program& program, const std::vector<ex>& list) const {
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (std::size_t k = 0; k < e_.lambda.size(); ++k)
+        given.emplace_back(e_.lambda[k], program.variable({Variable::Kind::unknown, static_cast<int>(k)}));
+    int next_unknown = static_cast<int>(e_.lambda.size());
+    for (const Mechanism::Constraint* c : m_.undetermined())
+        given.emplace_back(c->multiplier, program.variable({Variable::Kind::unknown, next_unknown++}));
+    for (const Open& o : open_) given.emplace_back(o.symbol, program.variable(o.variable));
+    return lower_expressions(program, m_, list, given);
+}
+
+}  // namespace alembert

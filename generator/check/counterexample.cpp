@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/counterexample.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+bool is_small(const numeric& value) {
+    return value.is_rational() ? value.is_zero() : GiNaC::abs(value) < GiNaC::pow(numeric(10), numeric(-25));
+}
+
+void describe_impact(const Told& told, const RealState& state, Counterexample& result) {
+    const Impact::Exact& impact = *told.claims.after_impact();
+    const auto add = [&](const std::string& name, const ex& e) {
+        Program p;
+        const ex here = told.mechanism.z->name(e.subs(impact.pose, GiNaC::subs_options::no_pattern));
+        const std::vector<int> node = told.claims.lower(p, {here});
+        if (const auto value = evaluate(p, state, node)) result.values.emplace_back(name, text_of((*value)[0]));
+    };
+    const auto& q = told.mechanism.q;
+    for (const auto& x : q) add(x.get_name(), x);
+    for (std::size_t i = 0; i < q.size(); ++i) add(q[i].get_name() + "'(-)", impact.before[i]);
+    for (std::size_t i = 0; i < q.size(); ++i) add(q[i].get_name() + "'", impact.after[i]);
+    for (const auto& [multiplier, impulse] : impact.reactions) add(multiplier.get_name(), impulse);
+}
+
+Counterexample described(const Told& told, const RealState& state, const numeric& residual,
+                         const std::vector<int>& open = {}) {
+    using Kind = Variable::Kind;
+    const Mechanism& m = told.mechanism;
+    Counterexample result{.values = {}, .residual = text_of(residual), .residual_value = residual.to_double()};
+    const auto add = [&](const std::string& name, const RealState::Key& key) {
+        if (state.value.contains(key)) result.values.emplace_back(name, text_of(state, key));
+    };
+    int independent = 0;
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent) add(p.symbol.get_name(), {Kind::parameter, independent++});
+    if (told.is_impact) {
+        describe_impact(told, state, result);
+        return result;
+    }
+    add("t", {Kind::time, 0});
+    for (const auto& part : {std::pair{Kind::coordinate, ""}, {Kind::rate, "'"}, {Kind::acceleration, "''"}})
+        for (int i = 0; i < m.size(); ++i) add(m.q[i].get_name() + part.second, {part.first, i});
+    const auto& lambda = told.equations.lambda;
+    for (std::size_t k = 0; k < lambda.size(); ++k)
+        add(lambda[k].get_name(), {Kind::unknown, static_cast<int>(k)});
+    for (const std::size_t k : told.spoken)
+        add(m.undetermined()[k]->multiplier.get_name(), {Kind::unknown, static_cast<int>(lambda.size() + k)});
+    for (const int o : open) {
+        const Open& name = told.claims.open()[static_cast<std::size_t>(o)];
+        add(name.name, {name.variable.kind, name.variable.index});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
+                                             int root) {
+    const auto start = std::chrono::steady_clock::now();
+    for (unsigned seed = 0; seed < 1200; ++seed) {
+        if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4) && seed > 40)
+            break;  // far beyond what a right answer takes
+        const auto state = real_state(motions, p, {root}, seed);
+        if (!state) continue;
+        const auto value = evaluate(p, *state, {root});
+        if (value && !is_small((*value)[0])) return described(told, *state, (*value)[0]);
+    }
+    return std::nullopt;
+}
+
+bool holds_in_numbers(const Motions& motions, const Program& p, int root) {
+    int found = 0;
+    for (unsigned seed = first_float_seed; seed < first_float_seed + 60 && found < 3; ++seed) {
+        const auto state = real_state(motions, p, {root}, seed);
+        if (!state) continue;
+        const auto value = evaluate(p, *state, {root});
+        if (!value || !is_small((*value)[0])) return false;
+        ++found;
+    }
+    return found == 3;
+}
+
+std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
+                                             const OpenClaim& of) {
+    const std::vector<Open>& names = told.claims.open();
+    const std::vector<int> roots = rows.roots();
+    const std::size_t columns = names.size();
+    for (unsigned seed = 0; seed < 600; ++seed) {
+        auto state = real_state(motions, rows.program, roots, seed);
+        if (!state) continue;
+        for (const Open& o : names) state->value[{o.variable.kind, o.variable.index}] = 0;
+        const auto value = evaluate(rows.program, *state, roots);
+        if (!value) continue;
+        // Rows of the right claims first, then of the other wrong ones, then this one's: the first that
+        // contradicts.
+        std::vector<std::size_t> sequence(rows.list.size());
+        std::iota(sequence.begin(), sequence.end(), std::size_t{0});
+        std::stable_sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {
+            const auto place = [&](std::size_t r) {
+                return rows.list[r].claim == of.claim ? 2 : of.wrong.contains(rows.list[r].claim) ? 1 : 0;
+            };
+            return place(a) < place(b);
+        });
+        std::vector<std::vector<numeric>> kept;
+        std::vector<std::size_t> pivots;
+        for (const std::size_t r : sequence) {
+            std::vector<numeric> row(columns + 1);
+            const std::size_t base = r * (columns + 1);
+            row[columns] = -(*value)[base];
+            for (std::size_t j = 0; j < columns; ++j) row[j] = (*value)[base + 1 + j];
+            for (std::size_t p = 0; p < pivots.size(); ++p) {
+                const numeric factor = row[pivots[p]];
+                for (std::size_t j = 0; j <= columns; ++j) row[j] -= factor * kept[p][j];
+                row[pivots[p]] = 0;
+            }
+            const auto pivot =
+                std::find_if(row.begin(), row.end() - 1, [](const numeric& x) { return !is_small(x); });
+            if (pivot == row.end() - 1) {
+                if (rows.list[r].claim != of.claim || is_small(row[columns])) continue;
+                for (std::size_t p = pivots.size(); p-- > 0;) {
+                    numeric x = kept[p][columns];
+                    for (std::size_t j = pivots[p] + 1; j < columns; ++j)
+                        x -= kept[p][j] * state->value[{names[j].variable.kind, names[j].variable.index}];
+                    state->value[{names[pivots[p]].variable.kind, names[pivots[p]].variable.index}] = x;
+                }
+                Counterexample result = described(told, *state, -row[columns], of.open);
+                result.of_derivative = rows.list[r].derived;
+                return result;
+            }
+            const numeric lead = *pivot;
+            pivots.push_back(static_cast<std::size_t>(pivot - row.begin()));
+            for (numeric& x : row) x /= lead;
+            kept.push_back(std::move(row));
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace alembert

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/open_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alembert {
+
+using GiNaC::ex;
+
+std::vector<int> OpenRows::roots() const {
+    std::vector<int> result;
+    for (const Row& row : list) {
+        result.push_back(row.rest);
+        result.insert(result.end(), row.slope.begin(), row.slope.end());
+    }
+    return result;
+}
+
+OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group) {
+    OpenRows rows;
+    const std::vector<GiNaC::symbol> symbols = claims.open_symbols();
+    std::vector<ex> list;
+    for (const std::size_t k : group) {
+        std::vector<ex> parts{forms[k].residual};
+        parts.insert(parts.end(), forms[k].derivatives.begin(), forms[k].derivatives.end());
+        for (std::size_t r = 0; r < parts.size(); ++r) {
+            rows.list.push_back({.claim = k, .rest = 0, .slope = {}, .derived = r > 0, .last = r + 1 == parts.size()});
+            const std::vector<ex> slopes = claims.mechanism().z->pull_back({{parts[r], 1}}, symbols);
+            GiNaC::exvector rest{parts[r]};
+            for (std::size_t j = 0; j < symbols.size(); ++j) rest.push_back(-slopes[j] * symbols[j]);
+            list.push_back(GiNaC::add(std::move(rest)));
+            list.insert(list.end(), slopes.begin(), slopes.end());
+        }
+    }
+    const std::vector<int> nodes = claims.lower(rows.program, list);
+    std::size_t next = 0;
+    for (OpenRows::Row& row : rows.list) {
+        row.rest = nodes[next++];
+        for (std::size_t j = 0; j < symbols.size(); ++j) row.slope.push_back(nodes[next++]);
+    }
+    return rows;
+}
+
+std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& state) {
+    const std::vector<int> roots = rows.roots();
+    const auto at = evaluate_mod(rows.program, state.point, roots);
+    if (!at) return std::nullopt;
+    OpenMatrix result;
+    double degree = 1;
+    for (const int id : roots) degree = std::max(degree, at->degree[id]);
+    degree = (static_cast<double>(rows.list.size()) * degree + 1) * std::max(1.0, state.degree);
+    result.chance = std::log2(degree) + at->conditions + state.conditions - 61;
+    result.exact = at->exact && state.exact;
+    for (const OpenRows::Row& row : rows.list) {
+        result.rows.emplace_back();
+        for (const int id : row.slope) result.rows.back().push_back(at->value[id]);
+        result.rows.back().push_back(-at->value[row.rest]);
+    }
+    return result;
+}
+
+bool consistent(const std::vector<std::vector<Prime>>& rows) {
+    if (rows.empty()) return true;
+    const std::size_t columns = rows[0].size() - 1;
+    return rank_of(rows, columns) == rank_of(rows, columns + 1);
+}
+
+int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) { return reduce_rows(rows, columns); }
+
+bool pins(const OpenRows& rows, const OpenMatrix& at, const std::set<std::size_t>& without, std::size_t k) {
+    std::vector<std::vector<Prime>> all, others;
+    for (std::size_t r = 0; r < rows.list.size(); ++r) {
+        if (without.contains(rows.list[r].claim)) continue;
+        all.push_back(at.rows[r]);
+        if (rows.list[r].claim != k || !rows.list[r].last) others.push_back(at.rows[r]);
+    }
+    if (all.empty()) return false;
+    const std::size_t columns = all[0].size() - 1;
+    return rank_of(all, columns) > (others.empty() ? 0 : rank_of(others, columns));
+}
+
+std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const std::vector<std::size_t>& group) {
+    const auto rest = [&](const std::set<std::size_t>& without) {
+        std::vector<std::vector<Prime>> result;
+        for (std::size_t r = 0; r < rows.list.size(); ++r)
+            if (!without.contains(rows.list[r].claim)) result.push_back(at.rows[r]);
+        return result;
+    };
+    std::set<std::size_t> found;
+    for (const std::size_t a : group)
+        if (consistent(rest({a}))) found.insert(a);
+    if (!found.empty()) return found;
+    for (std::size_t i = 0; i < group.size(); ++i)
+        for (std::size_t j = i + 1; j < group.size(); ++j)
+            if (consistent(rest({group[i], group[j]}))) {
+                if (!found.empty()) return {group.begin(), group.end()};
+                found = {group[i], group[j]};
+            }
+    return found.empty() ? std::set<std::size_t>(group.begin(), group.end()) : found;
+}
+
+}  // namespace alembert

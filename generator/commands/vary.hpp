@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// --vary NAME=FROM:TO:COUNT, any number of times.
+///
+///     const Grid grid = grid_of({"theta1=0:3:4", "l1=1:2:2"});     // 8 points, the last name the fastest
+
+#include "run/grid.hpp"
+
+namespace alembert {
+
+/// Throws ModelError: nothing to vary, what is not NAME=FROM:TO:COUNT with finite numbers and a count from 1, a name given
+/// twice, more than a million points.
+Grid grid_of(const std::vector<std::string>& vary);
+
+}  // namespace alembert

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/verb.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "formalism/formalisms.hpp"
+
+namespace alembert {
+
+namespace {
+
+CLI::Validator number(bool zero) {
+    return CLI::Validator(
+        [zero](const std::string& text) {
+            const double x = std::strtod(text.c_str(), nullptr);
+            const bool is_right = std::isfinite(x) && (x > 0 || (zero && x == 0));
+            return is_right ? std::string() : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
+        },
+        zero ? "NONNEGATIVE" : "POSITIVE");
+}
+
+std::string names_of_formalisms() {
+    std::string names;
+    for (const Formalism& f : formalisms()) names += (names.empty() ? "" : ", ") + f.name;
+    return names;
+}
+
+}  // namespace
+
+CLI::Validator positive_number() { return number(false); }
+CLI::Validator nonnegative_number() { return number(true); }
+
+void add_scene_options(CLI::App& verb, SceneOptions& options) {
+    verb.add_option("scene", options.scene, "the scene, a TOML file")->required();
+    verb.add_flag("--json", options.json, "print one JSON object");
+    verb.add_option("--by", options.by, "formalism: " + names_of_formalisms());
+}
+
+void add_reactions_option(CLI::App& verb, bool& reactions) {
+    verb.add_flag("--reactions", reactions, "the reaction of each constraint along each coordinate, lambda*df/dq");
+}
+
+void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
+    verb.add_option("--at", at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+}
+
+void add_verbs(CLI::App& app, Chosen& chosen) {
+    for (const auto add : {add_derive, add_agree, add_audit, add_check, add_eval, add_linearize, add_inverse, add_impact, add_emit,
+                           add_import, add_simulate, add_sweep, add_bench})
+        add(app, chosen);
+}
+
+Overrides overrides_of(const std::vector<std::string>& at) {
+    Overrides result;
+    for (const std::string& item : at) {
+        const std::size_t equals = item.find('=');
+        std::size_t used = 0;
+        double value = 0;
+        try {
+            value = std::stod(item.substr(equals + 1), &used);
+        } catch (const std::exception&) {
+            used = 0;
+        }
+        if (equals == std::string::npos || equals == 0 || used == 0 || used != item.size() - equals - 1)
+            throw ModelError(fmt::format("--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3", item));
+        result.emplace_back(item.substr(0, equals), value);
+    }
+    return result;
+}
+
+}  // namespace alembert

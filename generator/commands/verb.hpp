@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The verbs of the command line. Each registers itself with its options; when it is chosen, it makes one call of the library and
+/// shows the result, for a person or, with --json, for a program.
+///
+///     CLI::App app;
+///     Chosen chosen;
+///     add_verbs(app, chosen);
+///     app.parse(argc, argv);
+///     const int code = chosen.action();
+///
+/// Mistakes leave as exceptions, which main turns into messages and the exit codes of docs/commands.md.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lower/start.hpp"
+
+namespace alembert {
+
+/// What the command line asks for.
+struct Chosen {
+    std::string subject;            ///< the file that messages name: the scene
+    std::function<int()> action;    ///< gives the exit code
+};
+
+/// What every verb takes.
+struct SceneOptions {
+    std::string scene;
+    bool json = false;
+    std::string by;  ///< a formalism; empty: the program chooses
+};
+
+void add_agree(CLI::App& app, Chosen& chosen);
+void add_audit(CLI::App& app, Chosen& chosen);
+void add_bench(CLI::App& app, Chosen& chosen);
+void add_check(CLI::App& app, Chosen& chosen);
+void add_derive(CLI::App& app, Chosen& chosen);
+void add_emit(CLI::App& app, Chosen& chosen);
+void add_eval(CLI::App& app, Chosen& chosen);
+void add_impact(CLI::App& app, Chosen& chosen);
+void add_import(CLI::App& app, Chosen& chosen);
+void add_inverse(CLI::App& app, Chosen& chosen);
+void add_linearize(CLI::App& app, Chosen& chosen);
+void add_simulate(CLI::App& app, Chosen& chosen);
+void add_sweep(CLI::App& app, Chosen& chosen);
+
+/// All of them, in the order in which --help shows them.
+void add_verbs(CLI::App& app, Chosen& chosen);
+
+/// --at NAME=VALUE, any number of times. Throws ModelError for what is not of this form.
+Overrides overrides_of(const std::vector<std::string>& at);
+
+/// CLI11's own validators let NaN pass, and tell the range in 309 digits.
+CLI::Validator positive_number();
+CLI::Validator nonnegative_number();
+
+/// --reactions, of the verbs that can tell them.
+void add_reactions_option(CLI::App& verb, bool& reactions);
+
+/// --at, of the verbs that look at one state.
+void add_at_option(CLI::App& verb, std::vector<std::string>& at);
+
+void add_scene_options(CLI::App& verb, SceneOptions& options);
+
+/// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run` does the work and gives
+/// the exit code.
+template <typename Options>
+void add_scene_verb(CLI::App& app, Chosen& chosen, const char* name, const char* about, int (*run)(const Options&),
+                    const std::function<void(CLI::App&, Options&)>& more = {}) {
+    const auto options = std::make_shared<Options>();
+    CLI::App* const verb = app.add_subcommand(name, about);
+    add_scene_options(*verb, *options);
+    if (more) more(*verb, *options);
+    verb->callback([options, run, &chosen] { chosen = {options->scene, [options, run] { return run(*options); }}; });
+}
+
+}  // namespace alembert

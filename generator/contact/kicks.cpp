@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/kicks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "state/assemble.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double negligible = 1e-9, lost = 1e-12, epsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+KickView::KickView(const Mechanism& m) : program_(begun(m)) {
+    std::vector<ex> values;
+    for (const Part& event : m.events) values.push_back(event.value);
+    std::vector<ex> wanted = values;
+    const std::vector<ex> slopes = m.time_derivative(values);
+    const std::vector<ex> bends = m.time_derivative(slopes);  // but for q''', where `when` holds rates
+    wanted.insert(wanted.end(), slopes.begin(), slopes.end());
+    wanted.insert(wanted.end(), bends.begin(), bends.end());
+    for (const ex& value : values) {
+        const std::vector<ex> gradient = m.z->pull_back({{value, 1}}, m.q);
+        wanted.insert(wanted.end(), gradient.begin(), gradient.end());
+    }
+    for (const Mechanism::Speed& speed : m.speeds) wanted.push_back(speed.form);
+    for (const Mechanism::Occasion& event : m.occasions) wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
+    const std::vector<int> nodes = lower_expressions(program_, m, wanted);
+    auto next = nodes.begin();
+    const auto taken = [&next](std::size_t count) {
+        const auto first = next;
+        next += static_cast<std::ptrdiff_t>(count);
+        return std::vector<int>(first, next);
+    };
+    values_ = taken(m.events.size());
+    slopes_ = taken(m.events.size());
+    bends_ = taken(m.events.size());
+    for (std::size_t k = 0; k < m.events.size(); ++k) gradients_.push_back(taken(m.q.size()));
+    speeds_ = taken(m.speeds.size());
+    for (const Mechanism::Occasion& event : m.occasions) impulses_.push_back(taken(event.impulse.size()));
+}
+
+Eigen::VectorXd KickView::impulse(int event, const State<double>& state) const {
+    const std::vector<int>& nodes = impulses_[static_cast<std::size_t>(event)];
+    const std::vector<double> value = interpret(program_, state);
+    Eigen::VectorXd result(static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t i = 0; i < nodes.size(); ++i) result[static_cast<Eigen::Index>(i)] = value[nodes[i]];
+    return result;
+}
+
+std::vector<PassedZero> KickView::passed(const State<double>& before, const State<double>& after) const {
+    const std::vector<double> a = interpret(program_, before), b = interpret(program_, after);
+    std::vector<PassedZero> result;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+        const double value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
+        double size = size_of_terms(program_, values_[k], b);
+        const bool has_jumped = std::abs(value - a[values_[k]]) > negligible * size;
+        const double rounding = 2 * std::abs(value) + 16 * epsilon * size;
+        for (std::size_t i = 0; i < after.q.size(); ++i) size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
+        PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
+        if (has_jumped) {  // the value as it is tells
+        } else if (std::abs(slope) > negligible * std::abs(one.slope)) {
+            one.side = slope > 0 ? 1 : -1;
+            one.hold = rounding / std::abs(slope);
+            if (slope * bend < 0) one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
+        } else if (std::abs(bend) > negligible * size_of_terms(program_, bends_[k], b)) {
+            one.side = bend > 0 ? 1 : -1;
+            one.hold = std::sqrt(2 * rounding / std::abs(bend));
+        } else {
+            one.band = lost * size;
+        }
+        result.push_back(one);
+    }
+    return result;
+}
+
+std::vector<double> KickView::speeds(const State<double>& state) const {
+    const std::vector<double> value = interpret(program_, state);
+    std::vector<double> result;
+    for (const int node : speeds_) result.push_back(value[node]);
+    return result;
+}
+
+}  // namespace alembert

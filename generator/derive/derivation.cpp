@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "derive/derivation.hpp"
+
+#include <algorithm>
+
+#include "lower/lower.hpp"
+#include "derive/euler_form.hpp"
+#include "derive/intermediate_form.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double largest_tree = 30000;        // nodes of all equations, written out
+constexpr std::size_t most_terms = 150;       // of one equation in normal form; beyond, nobody reads it
+
+class Making {
+public:
+    Making(const Mechanism& m, const Equations& e) : m_(m), e_(e) {}
+
+    Derivation make() {
+        result_.formalism = e_.formalism;
+        result_.degrees_of_freedom = m_.size();
+        for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
+        gaps();
+        for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
+        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
+        if (!e_.h.empty() && m_.speeds.empty()) choice();
+        for (const ex& pole : e_.poles)
+            if (const auto f = normal(pole))
+                result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
+        if (!readable_equations() || !energies()) return with_definitions();
+        angular_velocities();
+        forces();
+        derivatives();
+        constraints();
+        return std::move(result_);
+    }
+
+private:
+    Phrase symbol_of(const GiNaC::symbol& s) const { return phrases::symbol(s, m_.symbols->info(s)); }
+
+    std::optional<Fourier> normal(const ex& e) const {
+        if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
+        std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
+        if (f && f->size() > most_terms) return std::nullopt;
+        return f;
+    }
+
+    bool readable_equations() {
+        double size = 0;
+        for (int i = 0; i < e_.size(); ++i) {
+            for (int j = 0; j < e_.size(); ++j) size += m_.z->tree_size(e_.M(i, j));
+            size += m_.z->tree_size(e_.forcing(i));
+        }
+        if (size > largest_tree) return false;
+        for (int i = 0; i < e_.size(); ++i) {
+            GiNaC::exvector terms{-e_.own[i], -e_.dissipative[i]};
+            for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
+            GiNaC::exvector forces{e_.applied[i]};
+            for (std::size_t k = 0; k < e_.A.size(); ++k) forces.push_back(e_.A[k][i] * e_.lambda[k]);
+            const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
+            if (!left || !right) return false;
+            result_.equations.push_back(readable_equation(*left, *right));
+        }
+        if (!e_.h.empty()) write_as_euler(result_.equations, result_.rows);
+        for (std::size_t i = 0; i < e_.h.size(); ++i) {
+            if (e_.h[i].is_equal(m_.qdot[i])) continue;
+            const auto rate = normal(e_.h[i]);
+            if (!rate) return false;
+            result_.kinematics.emplace_back(symbol_of(m_.qdot[i]), readable(*rate));
+        }
+        return true;
+    }
+
+    /// Speeds that the program chose.
+    void choice() {
+        std::string kept, solved;
+        for (int i = 0; i < m_.size(); ++i) {
+            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(), [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
+            if (!is_free) solved += (solved.empty() ? "" : ", ") + m_.q[i].get_name() + "'";
+        }
+        for (int k = 0; k < e_.size(); ++k) {
+            kept += (kept.empty() ? "" : ", ") + m_.symbols->info(e_.u[k]).text();
+            if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
+            if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
+        }
+        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept +
+                         (result_.speeds.empty() ? "." : ", with");
+    }
+
+    bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
+        const auto f = normal(value);
+        if (!f) return false;
+        statement.value = readable(*f);
+        to.push_back(std::move(statement));
+        return true;
+    }
+
+    /// ω along the axes of each body that turns in space.
+    void angular_velocities() {
+        for (const MassElement& body : m_.masses) {
+            if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero())) continue;
+            for (int k = 0; k < 3; ++k)
+                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], body.label, {}, {}}, body.rotation->w_NB_B[k]);
+        }
+    }
+
+    bool energies() {
+        using Kind = Statement::Kind;
+        for (const Part& part : m_.kinetic)
+            if (!add(result_.energies, {Kind::energy, "T", part.label, {}, {}}, part.value)) return false;
+        for (const Part& part : m_.potential)
+            if (!add(result_.energies, {Kind::energy, "V", part.label, {}, {}}, part.value)) return false;
+        const Energy energy = energy_of(m_);
+        const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
+        if (!T || !V || !L) return false;
+        result_.kinetic = readable(*T);
+        result_.potential = readable(*V);
+        if (m_.given_lagrangian) result_.lagrangian = readable(*L);
+        return true;
+    }
+
+    /// Q of everything that does work: of V as −∂V/∂q, of loads by their virtual work; then in all.
+    void forces() {
+        using Kind = Statement::Kind;
+        GiNaC::exvector total(m_.size(), 0);
+        const auto add_all = [&](const std::string& label, const std::vector<ex>& Q) {
+            for (int i = 0; i < m_.size(); ++i) {
+                if (Q[i].is_zero()) continue;
+                add(result_.forces, {Kind::work, "Q", label, symbol_of(m_.q[i]), {}}, Q[i]);
+                total[i] += Q[i];
+            }
+        };
+        for (const Part& part : m_.potential) add_all(part.label, m_.z->pull_back({{part.value, -1}}, m_.q));
+        for (const Load& load : m_.loads) {
+            std::vector<std::pair<ex, ex>> targets;
+            for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
+            add_all(load.label, m_.z->pull_back(targets, m_.qdot));
+        }
+        if (result_.forces.empty()) return;
+        for (int i = 0; i < m_.size(); ++i) add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
+    }
+
+    /// ∂T/∂q' and ∂T/∂q, or those of L where the scene gives it.
+    void derivatives() {
+        using Kind = Statement::Kind;
+        const std::string letter = m_.given_lagrangian ? "L" : "T";
+        std::vector<GiNaC::symbol> state = m_.q;
+        state.insert(state.end(), m_.qdot.begin(), m_.qdot.end());
+        const ex energy = m_.given_lagrangian ? m_.lagrangian() : m_.kinetic_energy();
+        const std::vector<ex> gradient = m_.z->pull_back({{energy, 1}}, state);
+        for (int i = 0; i < m_.size(); ++i) {
+            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
+            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
+        }
+    }
+
+    void constraints() {
+        for (const Mechanism::Constraint& c : m_.constraints) {
+            if (is_gap(c)) continue;
+            GiNaC::exvector terms{c.drift};
+            for (int i = 0; i < m_.size(); ++i) terms.push_back(c.row[i] * m_.qdot[i]);
+            if (const auto f = normal(c.position ? *c.position : ex(GiNaC::add(std::move(terms)))))
+                result_.constraints.emplace_back(c.name, readable(*f));
+        }
+    }
+
+    /// A unilateral constraint among the others, for the sake of its reaction.
+    bool is_gap(const Mechanism::Constraint& c) const {
+        return std::any_of(m_.unilateral.begin(), m_.unilateral.end(),
+                           [&](const Mechanism::Unilateral& contact) { return contact.gap.multiplier.is_equal(c.multiplier); });
+    }
+
+    void gaps() {
+        for (const Mechanism::Unilateral& contact : m_.unilateral)
+            if (const auto f = normal(*contact.gap.position)) result_.gaps.emplace_back(contact.gap.name, readable(*f));
+    }
+
+    Derivation with_definitions() {
+        const Program program = lower(m_, e_, energy_of(m_));
+        IntermediateForm form = intermediate_form(program, m_, e_);
+        result_.definitions = std::move(form.definitions);
+        result_.equations = std::move(form.equations);
+        result_.kinematics = std::move(form.kinematics);
+        result_.kinetic = std::move(form.kinetic);
+        result_.potential = std::move(form.potential);
+        result_.energies.clear();
+        return std::move(result_);
+    }
+
+    const Mechanism& m_;
+    const Equations& e_;
+    Derivation result_;
+};
+
+}  // namespace
+
+void show_reactions(Derivation& shown, const Mechanism& m) {
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (int i = 0; i < m.size(); ++i) {
+            const ex force = c.row[i] * c.multiplier;
+            if (force.is_zero() || m.z->tree_size(force) > largest_tree) continue;
+            const auto f = fourier(m.z->expand(force), *m.symbols, 20 * most_terms);
+            if (!f || f->size() > most_terms) continue;
+            shown.reactions.push_back({.kind = Statement::Kind::work,
+                                       .letter = "Q",
+                                       .of = c.name,
+                                       .by = phrases::symbol(m.q[i], m.symbols->info(m.q[i])),
+                                       .value = readable(*f)});
+        }
+}
+
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
+    return Making(mechanism, equations).make();
+}
+
+}  // namespace alembert

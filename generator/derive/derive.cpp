@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "derive/derive.hpp"
+
+#include "contact/contacts.hpp"
+#include "exact/expression_of.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/own_steps.hpp"
+#include "reaction/joint_reactions.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// What joints bear, as far as it is short: F_x … M_z of each.
+std::vector<Statement> borne(const Derived& d) {
+    constexpr std::size_t most_terms = 20;
+    constexpr const char* letters[] = {"F_x", "F_y", "F_z", "M_x", "M_y", "M_z"};
+    if (d.mechanism.joints.empty()) return {};
+    const JointReactions reactions = joint_reactions(d.scene, d.mechanism);
+    std::vector<GiNaC::symbol> multipliers;
+    const auto find = [&](const std::string& name, const Mechanism::Constraint& c) {
+        if (c.multiplier.get_name() == name) multipliers.push_back(c.multiplier);
+    };
+    for (const std::string& name : reactions.multipliers) {
+        for (const auto* list : {&d.mechanism.constraints, &d.mechanism.redundant})
+            for (const Mechanism::Constraint& c : *list) find(name, c);
+        for (const Mechanism::Unilateral& contact : d.mechanism.unilateral) find(name, contact.gap);
+    }
+    const std::vector<int> force = reactions.program.nodes_of(Group::force), moment = reactions.program.nodes_of(Group::moment);
+    std::vector<Statement> result;
+    for (std::size_t k = 0; k < reactions.joints.size(); ++k)
+        for (std::size_t i = 0; i < 6; ++i) {
+            const auto e = expression_of(reactions.program, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3], d.mechanism, multipliers);
+            if (!e) continue;
+            const auto f = fourier(*e, *d.mechanism.symbols, 20 * most_terms);
+            if (!f || f->size() > most_terms) continue;
+            result.push_back({.kind = Statement::Kind::energy, .letter = letters[i], .of = reactions.joints[k], .by = {}, .value = readable(*f)});
+        }
+    return result;
+}
+
+}  // namespace
+
+DerivedScene derive(Scene scene, const ShowOptions& options) {
+    DerivedScene d{derived(std::move(scene), {.by = options.by})};
+    // First-order equations in momenta are shown beside the energies, not after their elimination.
+    const bool momenta = d.equations.formalism == "hamilton" || d.equations.formalism == "routhian";
+    d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !momenta && options.by != "lagrange";
+    if (d.has_unilateral_reactions) static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
+    d.shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
+    d.shown.formalism = d.equations.formalism;
+    show_own_steps(d.shown, d.mechanism, d.equations);
+    if (!options.reactions) return d;
+    show_reactions(d.shown, d.mechanism);
+    d.joint_loads = borne(d);
+    return d;
+}
+
+}  // namespace alembert

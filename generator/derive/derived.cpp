@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "derive/derived.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/process_time.hpp"
+#include "audit/audit.hpp"
+#include "formalism/elements.hpp"
+#include "formalism/formalisms.hpp"
+#include "formalism/joint_tree.hpp"
+#include "formalism/recursive.hpp"
+#include "lower/lower.hpp"
+#include "state/assemble.hpp"
+#include "state/diagnose.hpp"
+#include "state/gimbal.hpp"
+#include "state/redundancy.hpp"
+#include "state/speeds.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The formalism of that name; without one, the one a teacher would choose.
+Equations equations_by(const std::string& name, const Mechanism& mechanism) {
+    if (!name.empty()) return formalism(name).derive(mechanism);
+    if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
+    return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
+}
+
+constexpr int many_pairs = 128;  // of bodies above each other: 16 in a row
+constexpr int most_with_matrix = 80;  // joints; of more, M would be most of what is derived, emitted and compiled
+
+/// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are as many operations for
+/// all formalisms but articulated bodies.
+std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
+    if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m)) return {};
+    try {
+        const JointTree tree = joint_tree(m);
+        std::vector<int> depth;
+        int pairs = 0;
+        for (const TreeJoint& joint : tree.joints) {
+            depth.push_back(joint.link.parent < 0 ? 1 : depth[static_cast<std::size_t>(joint.link.parent)] + 1);
+            pairs += depth.back();
+        }
+        if (pairs < many_pairs) return {};
+        if (use == Use::run && static_cast<int>(tree.joints.size()) > most_with_matrix) return recursive_without_matrix(m);
+        return formalism("recursive").derive(m);
+    } catch (const ModelError&) {  // it does not apply
+        return {};
+    }
+}
+
+/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
+void refuse_contradiction(const Mechanism& m) {
+    if (m.constraints.empty()) return;
+    Start start = start_of(m);
+    try {
+        assemble(start, m, lower_constraints(m), {});
+    } catch (const std::runtime_error&) {
+        const Audit found = audit_of(m);
+        if (found.contradictory.size() > 1) throw ModelError(found.problem);
+    }
+}
+
+/// The share of each constraint along each coordinate, λ ∂f/∂q, as outputs R_<constraint>_<coordinate>.
+std::vector<ReactionOutput> add_reactions(Mechanism& m) {
+    std::vector<ReactionOutput> result;
+    for (const Mechanism::Constraint& c : m.constraints)
+        for (int i = 0; i < m.size(); ++i) {
+            if (c.row[i].is_zero()) continue;
+            const std::string coordinate = m.q[i].get_name();
+            result.push_back({m.outputs.size(), c.name, coordinate});
+            m.outputs.push_back({fmt::format("R_{}_{}", c.name, coordinate), m.z->name(c.row[i] * c.multiplier)});
+        }
+    return result;
+}
+
+/// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else needs to. A joint that
+/// closes a loop likewise.
+std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
+    if (c.closes_loop) return {};
+    if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == c.place; })) return {};
+    return describe(p.scene, {{c.place,
+                               fmt::format("constraint '{}' follows from the others; its equation is left "
+                                           "out, and the reactions of all are the least that keep them",
+                                           c.name),
+                               Severity::warning}});
+}
+
+}  // namespace
+
+Derived derived(Scene scene, const DeriveOptions& options) {
+    const double start = process_seconds();
+    Derived d{prepared(std::move(scene), options.at)};
+    d.by = options.by;
+    const std::vector<int> redundant = redundant_constraints(d.mechanism);
+    check_implied(d.mechanism, redundant);
+    for (const int k : redundant)
+        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k])) d.warnings.push_back(*std::move(warning));
+    d.mechanism = without_constraints(std::move(d.mechanism), redundant);
+    refuse_contradiction(d.mechanism);
+    if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
+    if (const std::optional<Diagnostic> mistake = mistake_in_speeds(d.mechanism)) fail(d.scene, {*mistake});
+    std::optional<Equations> at_once;
+    if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
+    d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
+    if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
+        d.warnings.emplace_back("warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
+                                "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n");
+    d.seconds = process_seconds() - start;
+    return d;
+}
+
+Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& by) {
+    const double start = process_seconds();
+    Derived again{{.scene = d.scene, .mechanism = std::move(mechanism), .warnings = d.warnings}};
+    again.equations = equations_by(by, again.mechanism);
+    again.by = d.by;
+    again.reaction_outputs = d.reaction_outputs;
+    again.seconds = process_seconds() - start;
+    return again;
+}
+
+void need_rates(const Derived& d) {
+    if (!d.equations.h.empty())
+        throw ModelError("contacts are followed in coordinates and their rates, and impulses of events in these or the scene's own speeds; leave out --by kane, or "
+                         "take --by routh");
+}
+
+Choice lowered(const Derived& d, bool fold) {
+    std::vector<Equations> all{d.equations};
+    if (d.by.empty() && d.equations.h.empty() && !d.equations.tree) {
+        try {
+            all.push_back(formalism("recursive").derive(d.mechanism));
+        } catch (const ModelError&) {  // it does not apply
+        }
+    }
+    return choose(d.mechanism, all, {.fold = fold});
+}
+
+std::optional<std::string> failure_at(const Derived& d, const State<double>& state) {
+    if (auto lock = gimbal_lock(d.scene, d.mechanism, state)) return lock;
+    LowerOptions options;
+    if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
+    const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
+    if (const auto combination = massless_combination(program, state))
+        return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
+                           *combination);
+    if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
+    return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
+}
+
+}  // namespace alembert

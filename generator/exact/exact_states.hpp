@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "exact/motions.hpp"
+
+namespace alembert {
+
+/// Exact states one after the other, made when first asked for; null once no more are found.
+class ExactStates {
+public:
+    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings) : motions(m, e, at, halves, halvings) {}
+
+    const ExactState* get(std::size_t k) {
+        while (made_.size() <= k && unusable_ < most_unusable && motions.obstacle().empty()) {
+            if (auto state = motions.at(++seed_))
+                made_.push_back(std::move(*state));
+            else
+                ++unusable_;
+        }
+        return k < made_.size() ? &made_[k] : nullptr;
+    }
+
+    const Motions motions;
+
+private:
+    static constexpr int most_unusable = 4000;
+    std::vector<ExactState> made_;
+    std::uint64_t seed_ = 0;
+    int unusable_ = 0;
+};
+
+}  // namespace alembert

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "exact/real_state.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <set>
+
+namespace alembert {
+
+using GiNaC::numeric;
+
+namespace {
+
+using Key = RealState::Key;
+
+/// Variables in angles, and those outside.
+void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
+    std::set<std::pair<int, bool>> seen;
+    std::vector<std::pair<int, bool>> stack;
+    for (const int root : roots) stack.emplace_back(root, false);
+    while (!stack.empty()) {
+        const auto [id, inside] = stack.back();
+        stack.pop_back();
+        if (!seen.emplace(id, inside).second) continue;
+        const Node& node = p[id];
+        if (node.op == Op::variable) (inside ? angles : plain).insert({node.variable.kind, node.variable.index});
+        const bool turns = node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
+        for (const int arg : node.args) stack.emplace_back(arg, inside || turns);
+    }
+}
+
+/// Small numbers first, odder ones with the seed.
+class Numbers {
+public:
+    explicit Numbers(unsigned seed) : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
+    numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
+    numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
+    /// Within (−1, 1), all over one denominator: so are the components of a unit quaternion, which rarely is found otherwise.
+    numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
+    numeric tangent() {
+        const int below = pick(2, 2 + spread_ / 2);
+        const numeric r = numeric(pick(1, below)) / numeric(below == 1 ? 1 : below);
+        return pick(0, 1) != 0 ? r : -r;
+    }
+
+private:
+    int pick(int low, int high) { return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1)); }
+    std::mt19937 random_;
+    int spread_, below_;
+};
+
+/// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where there is one.
+/// `seed` chooses among several.
+std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats, unsigned seed) {
+    std::array<numeric, 4> y;
+    for (int k = 0; k < 4; ++k) {
+        const auto value = f(numeric(k - 1));
+        if (!value) return std::nullopt;
+        y[static_cast<std::size_t>(k)] = *value;
+    }
+    if (y[1].is_zero() && seed % 2 == 0) return numeric(0);
+    const numeric c = y[1], b = (y[2] - y[0]) / 2, a = (y[2] + y[0]) / 2 - c;
+    const numeric beyond = y[3] - (4 * a + 2 * b + c);
+    const bool quadratic = beyond.is_rational() ? beyond.is_zero() : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
+    if (quadratic && a.is_zero()) return b.is_zero() ? (c.is_zero() ? std::optional(numeric(1)) : std::nullopt) : std::optional(-c / b);
+    if (quadratic) {
+        const numeric discriminant = b * b - 4 * a * c;
+        if (discriminant.is_negative()) return std::nullopt;
+        const numeric root = GiNaC::sqrt(discriminant);
+        if (!root.is_rational() && !floats) return std::nullopt;
+        return (seed % 4 < 2 ? root - b : -root - b) / (2 * a);
+    }
+    if (!floats) return std::nullopt;
+    // Secants, from two guesses, in 50 digits.
+    numeric x0 = numeric(1, 3) + numeric(static_cast<int>(seed % 7)), x1 = x0 + numeric(1, 15);
+    auto f0 = f(x0), f1 = f(x1);
+    for (int step = 0; step < 60 && f0 && f1; ++step) {
+        const numeric slope = *f1 - *f0;
+        if (slope.is_zero()) break;
+        const numeric x2 = x1 - *f1 * (x1 - x0) / slope;
+        x0 = x1, f0 = f1, x1 = GiNaC::ex_to<numeric>(GiNaC::ex(x2).evalf());
+        f1 = f(x1);
+        if (!f1 || GiNaC::abs(x1 - x0) > GiNaC::pow(numeric(10), numeric(-45))) continue;
+        return GiNaC::abs(x1) < GiNaC::pow(numeric(10), numeric(-30)) ? numeric(0) : x1;
+    }
+    return std::nullopt;
+}
+
+bool is_almost_zero(const numeric& x) {
+    return x.is_zero() || (!x.is_rational() && GiNaC::abs(x) <= GiNaC::pow(numeric(10), numeric(-35)));
+}
+
+void put(RealState& state, const Key& key, const numeric& x) {
+    if (state.angle.contains(key))
+        put_angle(state, key, {x});
+    else
+        state.value[key] = x;
+}
+
+/// Newton's method in 50 digits from `x`: derivatives from differences of 1e-25, steps of least length where there are more unknowns
+/// than conditions. Angles are moved by the tangent of their half.
+bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions, const std::vector<Key>& keys, std::vector<numeric> x) {
+    const std::size_t rows = conditions.size();
+    const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
+    for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
+    const auto at = [&](std::size_t moved) {
+        for (std::size_t i = 0; i < keys.size(); ++i) put(state, keys[i], i == moved ? x[i] + small : x[i]);
+        return evaluate(motions.program(), state, conditions);
+    };
+    for (int round = 0; round < 60; ++round) {
+        const auto f = at(keys.size());
+        if (!f) return false;
+        std::vector<std::vector<numeric>> slopes;  // by unknown
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            auto moved = at(i);
+            if (!moved) return false;
+            for (std::size_t k = 0; k < rows; ++k) (*moved)[k] = ((*moved)[k] - (*f)[k]) / small;
+            slopes.push_back(std::move(*moved));
+        }
+        std::vector<std::vector<numeric>> normal(rows, std::vector<numeric>(rows + 1));
+        for (std::size_t k = 0; k < rows; ++k) {
+            normal[k][rows] = (*f)[k];
+            for (std::size_t j = 0; j < rows; ++j)
+                for (const std::vector<numeric>& slope : slopes) normal[k][j] += slope[k] * slope[j];
+        }
+        const auto weights = solve_rows(std::move(normal), rows);
+        if (!weights) return false;
+        numeric length = 0;
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            numeric step = 0;
+            for (std::size_t k = 0; k < rows; ++k) step += slopes[i][k] * (*weights)[k];
+            x[i] -= step;
+            length += GiNaC::abs(step);
+        }
+        if (length > 1000) return false;
+        if (length < GiNaC::pow(numeric(10), numeric(-45))) return at(keys.size()).has_value();
+    }
+    return false;
+}
+
+bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
+    return solve_together(motions, state, {step.node, step.second->node},
+                          {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
+                          {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
+}
+
+/// All loose conditions together, for all coordinates in them.
+bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
+    std::set<Key> angles, plain;
+    find_variables(motions.program(), motions.loose(), angles, plain);
+    angles.merge(plain);
+    std::vector<Key> keys;
+    std::vector<numeric> x;
+    for (const Key& key : angles) {
+        if (key.first != Variable::Kind::coordinate) continue;
+        x.emplace_back(static_cast<int>((seed * 7 + keys.size() * 5) % 23) - 11, 9);
+        keys.push_back(key);
+    }
+    return solve_together(motions, state, motions.loose(), keys, std::move(x));
+}
+
+bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
+    if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
+    for (const Motions::Step& step : motions.steps()) {
+        if (step.second) {
+            if (!floats || !solve_two(motions, state, step, seed)) return false;
+            continue;
+        }
+        const Key key{step.variable.kind, step.variable.index};
+        const auto at = [&](const numeric& x, bool cleared) -> std::optional<numeric> {
+            put(state, key, x);
+            const auto value = evaluate(motions.program(), state, {step.node});
+            if (!value) return std::nullopt;
+            return cleared ? (*value)[0] * (1 + x * x) : (*value)[0];
+        };
+        const bool is_angle = state.angle.contains(key);
+        const auto root = root_of([&](const numeric& x) { return at(x, is_angle); }, floats, seed);
+        if (!root) return false;
+        if (step.variable.kind == Variable::Kind::parameter && !root->is_positive()) return false;
+        const auto rest = at(*root, false);
+        if (!rest) return false;
+        if (!is_almost_zero(*rest)) return false;
+    }
+    const auto implied = evaluate(motions.program(), state, motions.implied());
+    return implied && std::all_of(implied->begin(), implied->end(), is_almost_zero);
+}
+
+bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
+    const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
+    const Motions::System& s = motions.entries();
+    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::rate, static_cast<int>(i)}] = numbers.any();
+    if (m > 0) {
+        // Rates nearest to the chosen ones would be fractions of large numbers; the pivots' rates are solved for instead.
+        const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.drift);
+        if (!A || !b) return false;
+        std::vector<std::size_t> pivots;
+        std::vector<std::vector<numeric>> rows(m, std::vector<numeric>(n));
+        for (std::size_t k = 0; k < m; ++k) {
+            for (std::size_t i = 0; i < n; ++i) rows[k][i] = (*A)[k * n + i];
+            for (std::size_t p = 0; p < pivots.size(); ++p) {
+                const numeric factor = rows[k][pivots[p]] / rows[p][pivots[p]];
+                for (std::size_t i = 0; i < n; ++i) rows[k][i] -= factor * rows[p][i];
+                rows[k][pivots[p]] = 0;
+            }
+            const auto pivot = std::max_element(rows[k].begin(), rows[k].end(), [](const numeric& a, const numeric& b2) {
+                return GiNaC::abs(a) < GiNaC::abs(b2);
+            });
+            if (GiNaC::abs(*pivot) < GiNaC::pow(numeric(10), numeric(-30))) return false;
+            pivots.push_back(static_cast<std::size_t>(pivot - rows[k].begin()));
+        }
+        std::vector<std::vector<numeric>> equations(m, std::vector<numeric>(m + 1));
+        for (std::size_t k = 0; k < m; ++k) {
+            equations[k][m] = -(*b)[k];
+            for (std::size_t i = 0; i < n; ++i) {
+                const auto column = std::find(pivots.begin(), pivots.end(), i);
+                if (column != pivots.end())
+                    equations[k][static_cast<std::size_t>(column - pivots.begin())] = (*A)[k * n + i];
+                else
+                    equations[k][m] -= (*A)[k * n + i] * state.value[{Variable::Kind::rate, static_cast<int>(i)}];
+            }
+        }
+        const auto rates = solve_rows(std::move(equations), m);
+        if (!rates) return false;
+        for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
+    }
+    std::vector<int> roots = s.M;
+    for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
+    const auto value = evaluate(motions.program(), state, roots);
+    if (!value) return false;
+    std::vector<std::vector<numeric>> rows(n + m, std::vector<numeric>(n + m + 1));
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) rows[i][j] = (*value)[i * n + j];
+        rows[i][n + m] = (*value)[n * n + i];
+        for (std::size_t k = 0; k < m; ++k) {
+            rows[n + k][i] = (*value)[n * n + n + k * n + i];
+            rows[i][n + k] = -rows[n + k][i];
+        }
+    }
+    for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
+    const auto solution = solve_rows(std::move(rows), n + m);
+    if (!solution) return false;
+    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
+    for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
+    return true;
+}
+
+}  // namespace
+
+std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed) {
+    if (!motions.obstacle().empty()) return std::nullopt;
+    const Precision digits;
+    Numbers numbers(seed);
+    const bool floats = seed >= first_float_seed;
+    std::set<Key> angles, plain;
+    const Motions::System& s = motions.entries();
+    std::vector<int> entries = s.M;
+    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma}) entries.insert(entries.end(), part->begin(), part->end());
+    for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
+    entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
+    entries.insert(entries.end(), motions.implied().begin(), motions.implied().end());
+    find_variables(motions.program(), entries, angles, plain);
+    find_variables(claims, roots, angles, plain);
+
+    RealState state;
+    std::set<Key> all = angles;
+    all.insert(plain.begin(), plain.end());
+    for (int i = 0; i < motions.size(); ++i) all.insert({Variable::Kind::coordinate, i});
+    for (const Key& key : all) {
+        const bool is_angle = angles.contains(key) && !plain.contains(key) &&
+                              (key.first == Variable::Kind::coordinate || key.first == Variable::Kind::parameter ||
+                               key.first == Variable::Kind::time);
+        if (is_angle)
+            put_angle(state, key, {numbers.tangent()});
+        else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time)
+            state.value[key] = numbers.positive();
+        else
+            state.value[key] = seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
+    }
+    if (motions.where() == Motions::At::rest) {
+        for (int i = 0; i < motions.size(); ++i)
+            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.value[{kind, i}] = 0;
+        for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
+    }
+    if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
+    if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
+    for (const auto& [key, value] : state.value) state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
+    return state;
+}
+
+}  // namespace alembert

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "exact/real_values.hpp"
+
+#include <cln/integer.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace alembert {
+
+using GiNaC::numeric;
+
+namespace {
+
+using Key = RealState::Key;
+
+struct Turned {
+    numeric cos = 1, sin = 0;
+};
+Turned operator*(const Turned& a, const Turned& b) {
+    return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
+}
+
+/// Σ c·variable + c·π, where an expression is that.
+struct Linear {
+    std::map<Key, Rational> angles;
+    Rational pi = 0;
+};
+
+class Evaluation {
+public:
+    Evaluation(const Program& program, const RealState& state) : p_(program), s_(state) {}
+
+    std::optional<std::vector<numeric>> run(const std::vector<int>& roots) {
+        value_.resize(p_.size());
+        for (const int id : p_.needed(roots)) {
+            const std::optional<numeric> value = of(id);
+            if (!value || !value->is_real()) return std::nullopt;
+            value_[id] = *value;
+        }
+        std::vector<numeric> result;
+        for (const int id : roots) result.push_back(value_[id]);
+        return result;
+    }
+
+private:
+    static numeric number(const Rational& r) { return numeric(cln::cl_N(r)); }
+
+    std::optional<numeric> of(int id) try {
+        const Node& node = p_[id];
+        const auto arg = [&](std::size_t k) -> const numeric& { return value_[node.args[k]]; };
+        switch (node.op) {
+            case Op::number: return number(node.number);
+            case Op::pi: return GiNaC::ex_to<numeric>(GiNaC::Pi.evalf());
+            case Op::variable: return s_.value.at({node.variable.kind, node.variable.index});
+            case Op::sum: {
+                numeric sum = number(node.number);
+                for (std::size_t k = 0; k < node.args.size(); ++k) sum += number(node.coefficients[k]) * arg(k);
+                return sum;
+            }
+            case Op::product: {
+                numeric product = 1;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    if (node.exponents[k] < 0 && arg(k).is_zero()) return std::nullopt;
+                    product *= GiNaC::pow(arg(k), numeric(node.exponents[k]));
+                }
+                return product;
+            }
+            case Op::sin:
+            case Op::cos:
+            case Op::tan: {
+                if (const auto turn = turned(node.args[0])) {
+                    if (node.op == Op::tan && turn->cos.is_zero()) return std::nullopt;
+                    return node.op == Op::sin ? turn->sin : node.op == Op::cos ? turn->cos : turn->sin / turn->cos;
+                }
+                const numeric x = real(arg(0));
+                return node.op == Op::sin ? GiNaC::sin(x) : node.op == Op::cos ? GiNaC::cos(x) : GiNaC::tan(x);
+            }
+            case Op::sqrt: return GiNaC::sqrt(arg(0));  // exact for squares of fractions
+            case Op::abs: return GiNaC::abs(arg(0));
+            case Op::sign: return numeric(arg(0).csgn());
+            case Op::asin: return GiNaC::asin(real(arg(0)));
+            case Op::acos: return GiNaC::acos(real(arg(0)));
+            case Op::atan: return GiNaC::atan(real(arg(0)));
+            case Op::sinh: return GiNaC::sinh(real(arg(0)));
+            case Op::cosh: return GiNaC::cosh(real(arg(0)));
+            case Op::tanh: return GiNaC::tanh(real(arg(0)));
+            case Op::exp: return arg(0).is_zero() ? numeric(1) : GiNaC::exp(real(arg(0)));
+            case Op::log: return arg(0).is_positive() ? std::optional(GiNaC::log(real(arg(0)))) : std::nullopt;
+            case Op::pow: return GiNaC::pow(real(arg(0)), real(arg(1)));
+            case Op::atan2: return GiNaC::atan(real(arg(0)), real(arg(1)));
+            case Op::min: return std::min(arg(0), arg(1));
+            case Op::max: return std::max(arg(0), arg(1));
+        }
+        return std::nullopt;
+    } catch (const std::exception&) {  // a pole
+        return std::nullopt;
+    }
+
+    static numeric real(const numeric& x) { return GiNaC::ex_to<numeric>(GiNaC::ex(x).evalf()); }
+
+    std::optional<Linear> linear(int id) const {
+        const Node& node = p_[id];
+        Linear result;
+        if (node.op == Op::pi) {
+            result.pi = 1;
+            return result;
+        }
+        if (node.op == Op::variable) {
+            const Key key{node.variable.kind, node.variable.index};
+            if (!s_.angle.contains(key)) return std::nullopt;
+            result.angles[key] = 1;
+            return result;
+        }
+        if (node.op != Op::sum || !cln::zerop(node.number)) return std::nullopt;
+        for (std::size_t k = 0; k < node.args.size(); ++k) {
+            const auto part = linear(node.args[k]);
+            if (!part) return std::nullopt;
+            result.pi = result.pi + node.coefficients[k] * part->pi;
+            for (const auto& [key, c] : part->angles) {
+                Rational& to = result.angles.emplace(key, 0).first->second;
+                to = to + node.coefficients[k] * c;
+            }
+        }
+        return result;
+    }
+
+    std::optional<Turned> turned(int id) const {
+        const auto sum = linear(id);
+        if (!sum) return std::nullopt;
+        Turned result;
+        const auto turn = [&](Turned by, const Rational& times) {
+            if (cln::denominator(times) != 1 || cln::abs(times) > 1000) return false;
+            int count = cln::cl_I_to_int(cln::numerator(times));
+            if (count < 0) by.sin = -by.sin;
+            for (count = std::abs(count); count > 0; --count) result = result * by;
+            return true;
+        };
+        if (!turn({0, 1}, 2 * sum->pi)) return std::nullopt;
+        for (const auto& [key, c] : sum->angles) {
+            const RealState::Angle& angle = s_.angle.at(key);
+            if (angle.half_turn) {
+                if (!turn({0, 1}, 2 * c)) return std::nullopt;
+                continue;
+            }
+            const numeric below = 1 + angle.tangent * angle.tangent;
+            if (!turn({(1 - angle.tangent * angle.tangent) / below, 2 * angle.tangent / below}, c))
+                return std::nullopt;
+        }
+        return result;
+    }
+
+    const Program& p_;
+    const RealState& s_;
+    std::vector<numeric> value_;
+};
+
+}  // namespace
+
+void put_angle(RealState& state, const RealState::Key& key, const RealState::Angle& angle) {
+    state.angle[key] = angle;
+    state.value[key] = angle.half_turn ? GiNaC::ex_to<numeric>(GiNaC::Pi.evalf())
+                                       : 2 * GiNaC::atan(GiNaC::ex_to<numeric>(GiNaC::ex(angle.tangent).evalf()));
+}
+
+std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots) {
+    const Precision digits;
+    return Evaluation(program, state).run(roots);
+}
+
+std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>> rows, std::size_t columns) {
+    for (std::size_t c = 0; c < columns; ++c) {
+        std::size_t pivot = c;
+        for (std::size_t r = c + 1; r < rows.size(); ++r)
+            if (GiNaC::abs(rows[r][c]) > GiNaC::abs(rows[pivot][c])) pivot = r;
+        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30))) return std::nullopt;
+        std::swap(rows[c], rows[pivot]);
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            if (r == c || rows[r][c].is_zero()) continue;
+            const numeric factor = rows[r][c] / rows[c][c];
+            for (std::size_t k = c; k <= columns; ++k) rows[r][k] -= factor * rows[c][k];
+        }
+    }
+    std::vector<numeric> result;
+    for (std::size_t c = 0; c < columns; ++c) result.push_back(rows[c][columns] / rows[c][c]);
+    return result;
+}
+
+std::string text_of(const numeric& value) {
+    std::ostringstream stream;
+    if (value.is_rational()) {
+        stream << value;
+        return stream.str();
+    }
+    const long former = GiNaC::Digits;
+    GiNaC::Digits = 30;
+    stream << GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
+    GiNaC::Digits = former;
+    std::string text = stream.str();
+    std::replace(text.begin(), text.end(), 'E', 'e');
+    return text;
+}
+
+std::string text_of(const RealState& state, const Key& key) {
+    const auto angle = state.angle.find(key);
+    if (angle == state.angle.end()) return text_of(state.value.at(key));
+    if (angle->second.half_turn) return "pi";
+    if (angle->second.tangent.is_zero()) return "0";
+    return fmt::format("2*atan({})", text_of(angle->second.tangent));
+}
+
+}  // namespace alembert

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Programs in numbers that anyone can substitute: fractions as long as the arithmetic stays in the rationals, otherwise floats of 50
+/// digits. Angles are such as 2·atan(1/3), whose sines and cosines are fractions.
+///
+///     if (const auto r = evaluate(program, state, roots)) r->front().is_zero()
+///     text_of(state, key)                                                           // "2*atan(1/3)"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <ginac/ginac.h>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+struct RealState {
+    using Key = std::pair<Variable::Kind, int>;
+    struct Angle {
+        GiNaC::numeric tangent;  ///< of the half
+        bool half_turn = false;  ///< the angle is π itself
+    };
+    std::map<Key, GiNaC::numeric> value;
+    std::map<Key, Angle> angle;  ///< variables that are angles; `value` holds them as floats
+    bool exact = true;           ///< constraints hold exactly, accelerations are fractions
+};
+
+/// Fifty digits, for as long as it lives.
+class Precision {
+public:
+    Precision() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
+    ~Precision() { GiNaC::Digits = former_; }
+    Precision(const Precision&) = delete;
+    Precision& operator=(const Precision&) = delete;
+
+private:
+    long former_;
+};
+
+/// The variable is this angle.
+void put_angle(RealState& state, const RealState::Key& key, const RealState::Angle& angle);
+
+/// The values of `roots`; nothing where one is not a finite real number.
+std::optional<std::vector<GiNaC::numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots);
+
+/// As a person types it: "3/7", "2*atan(1/3)", a decimal.
+std::string text_of(const RealState& state, const RealState::Key& key);
+std::string text_of(const GiNaC::numeric& value);
+
+/// Gauss-Jordan elimination of rows of `columns` coefficients and a right-hand side; the solution if it is unique.
+std::optional<std::vector<GiNaC::numeric>> solve_rows(std::vector<std::vector<GiNaC::numeric>> rows, std::size_t columns);
+
+}  // namespace alembert

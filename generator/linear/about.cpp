@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "linear/about.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/error.hpp"
+#include "contact/contacts.hpp"
+#include "formalism/elements.hpp"
+#include "linear/linearize_symbolic.hpp"
+#include "lower/lower.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double closed_gap = 1e-9;  // · max(1, |q|)
+constexpr std::size_t widest = 60;   // letters of an element in symbols
+
+using SymbolRows = decltype(LinearizedScene::symbols);
+
+
+/// Initial values as the scene has them, or exactly as they were asked for.
+std::vector<GiNaC::ex> starts(const Mechanism& m, const LinearizeOptions& options, const std::string& prime) {
+    std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
+    for (const auto& [name, number] : options.exact_at)
+        for (int i = 0; i < m.size(); ++i)
+            if (m.q[i].get_name() + prime == name) values[i] = exact_number(number);
+    return values;
+}
+
+SymbolRows in_symbols(const Linearization& near, const Derived& d, const LinearizeOptions& options) {
+    const Mechanism& m = d.mechanism;
+    if (!near.paired || static_cast<int>(near.speeds.size()) != m.size()) return {};
+    const auto found = symbolic_matrices(m, d.equations, starts(m, options, ""), starts(m, options, "'"));
+    if (!found) return {};
+    std::vector<int> order;
+    for (const std::string& speed : near.speeds)
+        for (int i = 0; i < m.size(); ++i)
+            if (m.q[i].get_name() + "'" == speed) order.push_back(i);
+    if (static_cast<int>(order.size()) != m.size()) return {};
+    SymbolRows result;
+    for (const auto& [name, matrix] : {std::pair("M", &found->M), std::pair("C", &found->C), std::pair("G", &found->G), std::pair("K", &found->K), std::pair("N", &found->N)}) {
+        result.push_back({name, {}});
+        for (const int i : order) {
+            result.back().second.emplace_back();
+            for (const int j : order) {
+                const auto f = fourier((*matrix)(i, j), *m.symbols);
+                if (!f) return {};
+                result.back().second.back().push_back(text(readable(*f)));
+                if (result.back().second.back().back().size() > widest) return {};
+            }
+        }
+    }
+    return result;
+}
+
+/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates are not steady,
+/// Kane's speeds may be.
+Linearization linearized(Derived& d, const LinearizeOptions& options, const Start& start) {
+    try {
+        return linearize(d.mechanism, d.equations, start);
+    } catch (const ModelError&) {
+        const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
+        const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
+        if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || !masses_are_known(d.mechanism)) throw;
+        std::optional<Linearization> found;
+        try {
+            Derived other = derived_again(d, d.mechanism, "kane");
+            found = linearize(other.mechanism, other.equations, start);
+            d.equations = std::move(other.equations);
+        } catch (const std::runtime_error&) {
+        }
+        if (!found) throw;
+        return *std::move(found);
+    }
+}
+
+/// Contacts that are closed and stay so become constraints of the mechanism.
+void close_contacts(Derived& d, const Start& start) {
+    need_rates(d);
+    const ContactView view(d.mechanism);
+    const State<double> state = start.state();
+    check_gaps(d.scene, d.mechanism, view, state, closed_gap);
+    const Lasting lasting = contacts_at_rest(view, state, closed_gap);
+    const std::vector<std::string> idle = touching_without_force(view, state, lasting);
+    if (!idle.empty())
+        throw ModelError(fmt::format("contact {} touches at this state without a force: it presses on one side of the state and opens on "
+                                     "the other, so the equations of motion have no first derivative there. Give a state in "
+                                     "which the contact presses or is open, or leave the contact out",
+                                     fmt::join(idle, ", ")));
+    if (!lasting.closed.empty()) d = derived_again(d, with_closed(d.mechanism, lasting.closed), "routh");
+}
+
+}  // namespace
+
+LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
+    LinearizedScene result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    result.start = start_of(result.mechanism, options.at);
+    assemble(result.start, result.mechanism, lower_constraints(result.mechanism), options.at);
+    if (!result.mechanism.unilateral.empty()) close_contacts(result, result.start);
+    result.matrices = linearized(result, options, result.start);
+    result.symbols = in_symbols(result.matrices, result, options);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The verb `linearize`: a scene's equations near an equilibrium or a steady motion, in numbers and, where they are short, in symbols.
+///
+///     const LinearizedScene near = linearize(read_scene("scenes/gallery/bicycle.toml"), {.at = {{"x'", 4.6}}});
+///     near.matrices.A, near.matrices.eigenvalues;
+
+#include "derive/derived.hpp"
+#include "linear/linearize.hpp"
+
+namespace alembert {
+
+struct LinearizeOptions {
+    std::string by = {};  ///< a formalism; empty: the program chooses
+    Overrides at = {};
+    std::vector<std::pair<std::string, std::string>> exact_at = {};  ///< the same as typed: decimals are exact in symbols
+};
+
+struct LinearizedScene : Derived {
+    Start start;                   ///< where; obeys the constraints
+    Linearization matrices;
+    /// M, C, G, K, N in the parameters, by name, row by row in the order of the numbers; empty where they are not short.
+    std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols;
+};
+
+/// Contacts that are closed at the state and stay so are constraints. Throws as the function of linearize.hpp, and ModelError for a contact
+/// that touches without a force.
+LinearizedScene linearize(Scene scene, const LinearizeOptions& options = {});
+
+}  // namespace alembert

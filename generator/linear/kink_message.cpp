@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "linear/kink_message.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/expression_of.hpp"
+#include "lower/lower.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+
+namespace alembert {
+
+namespace {
+
+std::string number(long double x) {
+    return fmt::format("{:.6g}", static_cast<double>(x) + 0.0);
+}
+
+class Message {
+public:
+    explicit Message(const KinkPlace& place)
+        : r_(place.residuals), at_(place.at), point_(place.value), m_(place.mechanism), e_(place.equations) {}
+
+    std::string about(const std::vector<int>& nodes, const std::string& fault) const {
+        std::vector<std::string> functions, labels;
+        for (const int id : nodes) add(functions, text_of(r_.program, id));
+        in_the_scene(functions, labels);
+        if (functions.size() > 3) functions.resize(3);
+        return fmt::format(
+            "the equations of motion have no first derivative at {}, so they cannot be linearized there: because "
+            "of {}{}, {}. A force "
+            "must have a first derivative at the state, and a potential a second one. Give a state off this point "
+            "with --at, or a "
+            "function that is smooth there, such as sqrt(x^2 + e^2) for abs(x)",
+            place(nodes), fmt::join(functions, ", "),
+            labels.empty() ? "" : fmt::format(" in {}", fmt::join(labels, ", ")), fault);
+    }
+
+private:
+    static void add(std::vector<std::string>& list, const std::string& item) {
+        if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+    }
+
+    std::string text_of(const Program& program, int id) const {
+        std::vector<GiNaC::symbol> unknown;
+        for (const Mechanism::Input& input : m_.inputs)
+            unknown.insert(unknown.end(), input.derivative.begin(), input.derivative.end());
+        const bool in_rates = e_.h.empty() || &program != &r_.program;
+        const auto value = in_rates || r_.s <= r_.n ? expression_of(program, id, m_, unknown) : std::nullopt;
+        if (!value) return fmt::format("{}(…)", name_of(program[id].op));
+        GiNaC::exmap speeds;
+        for (int i = 0; i < r_.s && !in_rates; ++i) speeds[m_.qdot[i]] = e_.u[i];
+        const auto f = fourier(value->subs(speeds), *m_.symbols, 400);
+        return f ? text(readable(*f)) : fmt::format("{}(…)", name_of(program[id].op));
+    }
+
+    /// The critical functions of the scene's energies and loads, with the labels of these. Among them those in
+    /// `functions`, or all where these appear by differentiation alone, as sign(x) of abs(x), and no change where
+    /// there are none.
+    void in_the_scene(std::vector<std::string>& functions, std::vector<std::string>& labels) const {
+        std::vector<Part> parts;
+        for (const auto* list : {&m_.kinetic, &m_.potential})
+            parts.insert(parts.end(), list->begin(), list->end());
+        if (m_.given_lagrangian) parts.push_back({"the Lagrangian", *m_.given_lagrangian});
+        for (const Load& load : m_.loads)
+            for (const Load::Pair& pair : load.pairs)
+                for (const GiNaC::ex& value : {pair.force, pair.velocity}) parts.push_back({load.label, value});
+        std::vector<GiNaC::ex> values;
+        for (const Part& part : parts) values.push_back(part.value);
+        Program program = begun(m_);
+        const std::vector<int> nodes = lower_expressions(program, m_, values);
+        State<Germ> state;
+        const auto about = [](long double x) { return Germ(x, 1e-13L * std::max(1.0L, std::abs(x))); };
+        for (const long double x : at_.parameters) state.parameters.push_back(Germ(x));
+        for (const long double x : at_.q) state.q.push_back(about(x));
+        for (const int node : r_.rate) state.qdot.push_back(about(point_[node].at(0).value));
+        state.t = Germ(at_.t);
+        const std::vector<Germ> value = interpret(program, state);
+        std::vector<std::pair<std::string, std::string>> found;  // function, label
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            for (const int id : critical_nodes(program, std::vector<int>{nodes[k]}, value))
+                found.emplace_back(text_of(program, id), parts[k].label);
+        const auto is_known = [&](const auto& item) {
+            return std::find(functions.begin(), functions.end(), item.first) != functions.end();
+        };
+        if (std::any_of(found.begin(), found.end(), is_known))
+            std::erase_if(found, [&](const auto& item) { return !is_known(item); });
+        if (!found.empty()) functions.clear();
+        for (const auto& [function, label] : found) add(functions, function), add(labels, label);
+    }
+
+    /// "x = 0, y' = 1": of the variables in these functions.
+    std::string place(const std::vector<int>& nodes) const {
+        std::vector<std::string> result;
+        for (const int id : r_.program.needed(nodes)) {
+            const Variable& v = r_.program[id].variable;
+            if (r_.program[id].op != Op::variable) continue;
+            const auto i = static_cast<std::size_t>(v.index);
+            if (v.kind == Variable::Kind::coordinate)
+                result.push_back(fmt::format("{} = {}", m_.q[i].get_name(), number(at_.q[i])));
+            if (v.kind == Variable::Kind::rate)
+                result.push_back(fmt::format("{} = {}", speed(v.index), number(at_.u[i])));
+            if (v.kind == Variable::Kind::unknown)
+                result.push_back(fmt::format("{} = {}", input(v.index), number(point_[id].at(0).value)));
+        }
+        return result.empty() ? "this state" : fmt::format("{}", fmt::join(result, ", "));
+    }
+
+    std::string speed(int i) const { return e_.u[i].get_name(); }
+    std::string input(int k) const {
+        return m_.inputs[k / 3].derivative[0].get_name() + std::string(static_cast<std::size_t>(k % 3), '\'');
+    }
+
+    const Residuals& r_;
+    const Instant<long double>& at_;
+    const std::vector<Germ>& point_;
+    const Mechanism& m_;
+    const Equations& e_;
+};
+
+}  // namespace
+
+std::string no_derivative(const KinkPlace& place, const std::vector<int>& nodes, const std::string& fault) {
+    return Message(place).about(nodes, fault);
+}
+
+}  // namespace alembert

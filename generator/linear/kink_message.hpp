@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Why a state cannot be linearized about, in the words of the scene: which function of which energy or load, and
+/// where.
+///
+///     throw ModelError(no_derivative({residuals, at, value, mechanism, equations}, {node}, "f has an infinite
+///     slope"));
+
+#include <string>
+#include <vector>
+
+#include "linear/paths.hpp"
+
+namespace alembert {
+
+struct KinkPlace {
+    const Residuals& residuals;
+    const Instant<long double>& at;
+    const std::vector<Germ>& value;  ///< of all nodes at the state
+    const Mechanism& mechanism;
+    const Equations& equations;
+};
+
+/// `nodes`: the functions to blame, at critical points (paths.hpp). `fault`: a sentence without its full stop.
+std::string no_derivative(const KinkPlace& place, const std::vector<int>& nodes, const std::string& fault);
+
+}  // namespace alembert

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "linear/linearize.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "alembert/error.hpp"
+#include "linear/kinks.hpp"
+#include "linear/tangent.hpp"
+
+namespace alembert {
+
+using Index = Eigen::Index;
+using Matrix = Eigen::MatrixXd;
+
+namespace {
+
+constexpr long double nothing = 1e-9L;  // of the largest element: what does not count as a dependence
+constexpr int random_states = 3;
+
+template <typename Real>
+Instant<Real> instant_of(const Residuals& residuals, const State<double>& state) {
+    Instant<Real> at{.parameters = {state.parameters.begin(), state.parameters.end()},
+                     .q = {state.q.begin(), state.q.end()},
+                     .u = {state.qdot.begin(), state.qdot.end()},
+                     .inputs = {},
+                     .t = state.t};
+    State<Real> only{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
+    only.unknown.resize(residuals.inputs.empty() ? 0 : residuals.inputs.back() + 1);
+    const std::vector<Real> value = interpret(residuals.program, only);
+    for (const int k : residuals.inputs) at.inputs.push_back(value[residuals.input_values[k]]);
+    return at;
+}
+
+/// Which element of (w', r') depends on which of (r, w, t): not zero at one of a few states near the given one.
+Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> dependences(const Residuals& residuals, const Split& split,
+                                                                const Instant<long double>& at) {
+    const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size()), columns = nr + p + 1;
+    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> result(p + nr, columns);
+    result.setConstant(false);
+    const auto note = [&](const Tangent<long double>& here) {
+        MatrixOf<long double> all(p + nr, columns);
+        all.topRows(p) = here.speed_rates_by.leftCols(columns);
+        all.bottomRows(nr) = here.rates_by.leftCols(columns);
+        if (all.size() == 0 || !all.allFinite()) return false;
+        const long double scale = std::max(1.0L, all.cwiseAbs().maxCoeff());
+        result = result.array() || (all.array().abs() > nothing * scale);
+        return true;
+    };
+    note(tangent(residuals, split, at));
+    std::mt19937_64 random(20260);
+    const auto about = [&](long double x, long double size) {
+        const long double unit = static_cast<long double>(random() >> 11) / 4503599627370496.0L - 1;
+        return x + size * std::max(1.0L, std::abs(x)) * unit;
+    };
+    for (int found = 0, tries = 0; found < random_states && tries < 8 * random_states; ++tries) {
+        const long double size = 0.3L / (1 + tries);
+        Instant<long double> other = at;
+        for (const int i : split.q) other.q[i] = about(at.q[i], size);
+        for (const int i : split.u) other.u[i] = about(at.u[i], size);
+        other.t = about(at.t, size);
+        if (settle(residuals, split, other) && note(tangent(residuals, split, other))) ++found;
+    }
+    return result;
+}
+
+/// Rounding instead of zero: what differs between two precisions as much as it amounts to.
+Matrix clean(const MatrixOf<long double>& exact, const Matrix& rough) {
+    Matrix result = exact.cast<double>();
+    const double largest = result.size() == 0 ? 0 : result.cwiseAbs().maxCoeff();
+    for (Index i = 0; i < result.rows(); ++i)
+        for (Index j = 0; j < result.cols(); ++j) {
+            const long double value = exact(i, j);
+            if (std::abs(value) < 1e-9L * largest && std::abs(value - rough(i, j)) > 1e-4L * std::abs(value)) result(i, j) = 0;
+            if (std::abs(value) < 1e-16L * largest) result(i, j) = 0;
+        }
+    return result;
+}
+
+template <typename M>
+M symmetric(const M& m) {
+    return (m + m.transpose()) / 2;
+}
+template <typename M>
+M skew(const M& m) {
+    return (m - m.transpose()) / 2;
+}
+
+/// States that nothing depends on and states that do not change have eigenvalue 0, and can be struck out exactly.
+std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A) {
+    std::vector<Index> left;
+    for (Index i = 0; i < A.rows(); ++i) left.push_back(i);
+    std::vector<std::complex<double>> result;
+    for (bool again = true; again;) {
+        again = false;
+        for (std::size_t k = 0; k < left.size() && !again; ++k) {
+            const auto zero = [&](bool row) {
+                return std::all_of(left.begin(), left.end(), [&](Index i) { return (row ? A(left[k], i) : A(i, left[k])) == 0; });
+            };
+            if (!zero(true) && !zero(false)) continue;
+            left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+            result.emplace_back(0, 0);
+            again = true;
+        }
+    }
+    if (!left.empty()) {
+        MatrixOf<long double> rest(left.size(), left.size());
+        for (std::size_t i = 0; i < left.size(); ++i)
+            for (std::size_t j = 0; j < left.size(); ++j) rest(static_cast<Index>(i), static_cast<Index>(j)) = A(left[i], left[j]);
+        const Eigen::RealSchur<MatrixOf<long double>> schur(rest, false);
+        if (schur.info() != Eigen::Success) throw IntegrationError("the eigenvalues do not converge", 0, {});
+        const long double size = rest.cwiseAbs().maxCoeff();
+        const auto keep = [&](long double real, long double imaginary) {
+            const auto rounded = [&](long double x) { return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x); };
+            result.emplace_back(rounded(real), rounded(imaginary));
+        };
+        const MatrixOf<long double>& T = schur.matrixT();
+        for (Index i = 0; i < T.rows(); ++i) {
+            if (i + 1 == T.rows() || T(i + 1, i) == 0) {
+                keep(T(i, i), 0);
+                continue;
+            }
+            const long double half = (T(i, i) - T(i + 1, i + 1)) / 2, middle = T(i + 1, i + 1) + half;  // a pair that is not real
+            const long double turn = std::sqrt(std::abs(half * half + T(i + 1, i) * T(i, i + 1)));
+            keep(middle, turn);
+            keep(middle, -turn);
+            ++i;
+        }
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
+    });
+    return result;
+}
+
+class Linearizing {
+public:
+    Linearizing(const Mechanism& m, const Equations& e, const Start& start)
+        : m_(m), e_(e), residuals_(m, e), state_(state_of(start, m, e)), at_(instant_of<long double>(residuals_, state_)) {}
+
+    Linearization go() {
+        std::vector<bool> guessed(residuals_.s, false);
+        if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
+        split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
+        if (!settle(residuals_, split_, at_))
+            throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state", state_.t, state_.q);
+        here_ = tangent(residuals_, split_, at_);
+        check_differentiable(residuals_, split_, at_, here_, m_, e_);
+        p_ = static_cast<Index>(split_.u.size());
+        nr_ = static_cast<Index>(split_.q.size());
+        if (!here_.speed_rates.allFinite() || !here_.speed_rates_by.allFinite())
+            throw IntegrationError("the mass matrix, constraints eliminated, is singular or not finite at this state", state_.t, state_.q);
+        depends_ = dependences(residuals_, split_, at_);
+        const std::vector<bool> essential = held();
+        check_time(essential);
+        find_motion(essential);
+        fill();
+        return std::move(result_);
+    }
+
+private:
+    std::string coordinate(Index j) const { return m_.q[split_.q[j]].get_name(); }
+    std::string speed(Index i) const { return e_.u[split_.u[i]].get_name(); }
+
+    void check_time(const std::vector<bool>& essential) const {
+        for (Index i = 0; i < p_ + nr_; ++i)
+            if (depends_(i, nr_ + p_) && (i < p_ || essential[i - p_]))
+                throw ModelError(fmt::format("the equations change with time ({}' holds t, and not through inputs); there is no "
+                                             "equilibrium or steady motion to linearize about",
+                                             i < p_ ? speed(i) : coordinate(i - p_)));
+    }
+
+    /// Coordinates that the speeds' rates hold, and those that the rates of these hold, and so on.
+    std::vector<bool> held() const {
+        std::vector<bool> result(nr_, false);
+        for (bool again = true; again;) {
+            again = false;
+            for (Index j = 0; j < nr_; ++j) {
+                if (result[j]) continue;
+                bool is_held = false;
+                for (Index i = 0; i < p_ + nr_; ++i) is_held = is_held || ((i < p_ || result[i - p_]) && depends_(i, j));
+                if (is_held) result[j] = again = true;
+            }
+        }
+        return result;
+    }
+
+    void find_motion(const std::vector<bool>& essential) {
+        const auto tolerance = [&](const auto& row) {  // what an error of 1e-9 of the state may do
+            long double sum = 1e-12L;
+            for (Index j = 0; j < nr_; ++j) sum += 1e-9L * std::abs(row[j]) * std::max(1.0L, std::abs(at_.q[split_.q[j]]));
+            for (Index j = 0; j < p_; ++j) sum += 1e-9L * std::abs(row[nr_ + j]) * std::max(1.0L, std::abs(at_.u[split_.u[j]]));
+            return sum;
+        };
+        std::vector<std::string> residual;
+        for (Index i = 0; i < p_; ++i)
+            if (std::abs(here_.speed_rates[i]) > tolerance(here_.speed_rates_by.row(i)))
+                residual.push_back(fmt::format("{}' = {:.6g}", speed(i), static_cast<double>(here_.speed_rates[i])));
+        std::vector<bool> moves(nr_);
+        for (Index j = 0; j < nr_; ++j) {
+            moves[j] = std::abs(here_.rates[j]) > tolerance(here_.rates_by.row(j));
+            if (moves[j] && essential[j])
+                residual.push_back(fmt::format("{}' = {:.6g}, and {} is not cyclic", coordinate(j), static_cast<double>(here_.rates[j]), coordinate(j)));
+            else if (moves[j])
+                result_.moving.push_back(coordinate(j));
+        }
+        if (!residual.empty())
+            throw ModelError(fmt::format("this state is no equilibrium and no steady motion: {}; expected zeros. Give one with --at, or as "
+                                         "initial values",
+                                         fmt::join(residual, "; ")));
+        // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then only what is held is a state.
+        bool constant = true;
+        for (Index j = 0; j < nr_; ++j)
+            for (Index i = 0; i < p_ + nr_; ++i) constant = constant && !(moves[j] && depends_(i, j));
+        for (Index j = 0; j < nr_; ++j) {
+            if (constant || essential[j])
+                kept_.push_back(j);
+            else
+                result_.left_out.push_back(coordinate(j));
+        }
+    }
+
+    void fill() {
+        Linearization& r = result_;
+        for (Index i = 0; i < p_; ++i) r.speeds.push_back(speed(i));
+        for (Index j = 0; j < nr_; ++j) r.coordinates.push_back(coordinate(j));
+        for (const int i : split_.q_dependent) r.dependent.push_back(m_.q[i].get_name());
+        for (const int i : split_.u_dependent) r.dependent.push_back(e_.u[i].get_name());
+        for (const int k : residuals_.inputs)
+            r.inputs.push_back(m_.inputs[k / 3].derivative[0].get_name() + std::string(static_cast<std::size_t>(k % 3), '\''));
+
+        const Instant<double> near{.parameters = {at_.parameters.begin(), at_.parameters.end()},
+                                   .q = {at_.q.begin(), at_.q.end()},
+                                   .u = {at_.u.begin(), at_.u.end()},
+                                   .inputs = {at_.inputs.begin(), at_.inputs.end()},
+                                   .t = static_cast<double>(at_.t)};
+        const Tangent<double> rough = tangent(residuals_, split_, near);
+        const auto both = [&](auto part) { return clean(part(here_), part(rough)); };
+        r.M = both([](const auto& t) { return t.mass; });
+        const auto damping = [&](const auto& t) { return t.force.middleCols(nr_, p_).eval(); };
+        r.D = both(damping);
+        r.C = both([&](const auto& t) { return symmetric(damping(t)); });
+        r.G = both([&](const auto& t) { return skew(damping(t)); });
+        r.P = both([&](const auto& t) { return t.force.leftCols(nr_).eval(); });
+
+        // Coordinates that belong to the speeds.
+        std::vector<Index> of_speed(p_, -1);
+        std::vector<bool> belongs(nr_, false);
+        for (Index i = 0; i < p_ && residuals_.rates_are_speeds; ++i)
+            if (const auto found = std::find(split_.q.begin(), split_.q.end(), split_.u[i]); found != split_.q.end()) {
+                of_speed[i] = found - split_.q.begin();
+                belongs[of_speed[i]] = true;
+            }
+        r.paired = residuals_.rates_are_speeds;
+        for (Index j = 0; j < nr_; ++j) r.paired = r.paired && (belongs[j] || r.P.col(j).isZero(0));
+        const auto stiffness = [&](const auto& t) {
+            auto result = t.mass;
+            result.setZero();
+            for (Index i = 0; i < p_; ++i)
+                if (of_speed[i] >= 0) result.col(i) = t.force.col(of_speed[i]);
+            return result;
+        };
+        if (r.paired) {
+            r.K = both([&](const auto& t) { return symmetric(stiffness(t)); });
+            r.N = both([&](const auto& t) { return skew(stiffness(t)); });
+        }
+
+        const Index size = static_cast<Index>(kept_.size()) + p_, inputs = static_cast<Index>(r.inputs.size());
+        for (const Index j : kept_) r.states.push_back(coordinate(j));
+        r.states.insert(r.states.end(), r.speeds.begin(), r.speeds.end());
+        const auto rows = [&](const auto& t) {
+            auto result = t.rates_by;
+            result.resize(size, t.rates_by.cols());
+            for (std::size_t i = 0; i < kept_.size(); ++i) result.row(static_cast<Index>(i)) = t.rates_by.row(kept_[i]);
+            result.bottomRows(p_) = t.speed_rates_by;
+            return result;
+        };
+        const auto A = [&](const auto& t) {
+            const auto all = rows(t);
+            auto result = all;
+            result.resize(size, size);
+            for (std::size_t j = 0; j < kept_.size(); ++j) result.col(static_cast<Index>(j)) = all.col(kept_[j]);
+            result.rightCols(p_) = all.middleCols(nr_, p_);
+            return result;
+        };
+        r.A = both(A);
+        r.B = both([&](const auto& t) { return rows(t).rightCols(inputs).eval(); });
+        MatrixOf<long double> exact = A(here_);
+        for (Index i = 0; i < size; ++i)
+            for (Index j = 0; j < size; ++j)
+                if (r.A(i, j) == 0) exact(i, j) = 0;
+        r.eigenvalues = eigenvalues_of(exact);
+    }
+
+    const Mechanism& m_;
+    const Equations& e_;
+    Residuals residuals_;
+    State<double> state_;
+    Instant<long double> at_;
+    Split split_;
+    Tangent<long double> here_;
+    Index p_ = 0, nr_ = 0;
+    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> depends_;
+    std::vector<Index> kept_;
+    Linearization result_;
+};
+
+}  // namespace
+
+Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start) {
+    return Linearizing(mechanism, equations, start).go();
+}
+
+}  // namespace alembert

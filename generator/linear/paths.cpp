@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "linear/paths.hpp"
+
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+constexpr long double known_to = 1e-13L;  // of max(1, |x|): the state
+constexpr long double parameter_known_to = 1e-15L;
+constexpr long double equal_to = 1e-10L;  // slopes
+
+/// Does the function of this node have its argument where it is not analytic, or has no value? `value`: at a
+/// single point.
+bool is_critical(const Program& program, int id, const std::vector<Germ>& value) {
+    const Node& node = program[id];
+    if (node.is_constant() || node.args.empty()) return false;
+    for (const int arg : node.args)
+        if (!value[arg].defined()) return false;
+    if (!value[id].defined()) return true;
+    const Germ& x = value[node.args[0]];
+    switch (node.op) {
+        case Op::abs:
+        case Op::sign:
+        case Op::sqrt:
+            return x.side() == 0;
+        case Op::pow: {
+            const long double exponent = value[node.args[1]].at(0).value;
+            return x.side() == 0 &&
+                   (exponent < 0 || exponent != std::floor(exponent) || !program[node.args[1]].is_constant());
+        }
+        case Op::min:
+        case Op::max:
+            return (x - value[node.args[1]]).side() == 0;
+        case Op::atan2:
+            return x.side() == 0 && value[node.args[1]].side() <= 0;
+        case Op::asin:
+        case Op::acos:
+            return ((1 - x) * (1 + x)).side() == 0;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+std::vector<Germ> on_path(const Residuals& r, const Instant<long double>& at, const VectorOf<long double>& d,
+                          const VectorOf<long double>& c) {
+    Eigen::Index next = 0;
+    const auto variable = [&](long double x) {
+        const long double first = d[next], second = c.size() > 0 ? c[next] : 0;
+        ++next;
+        return Germ::path(x, known_to * std::max(1.0L, std::abs(x)), {first, second});
+    };
+    State<Germ> state;
+    for (const long double x : at.parameters)
+        state.parameters.push_back(Germ(x, parameter_known_to * std::abs(x)));
+    for (const long double x : at.q) state.q.push_back(variable(x));
+    for (const long double x : at.u) state.qdot.push_back(variable(x));
+    state.t = variable(at.t);
+    if (!r.inputs.empty()) state.unknown.resize(static_cast<std::size_t>(r.inputs.back()) + 1);
+    for (std::size_t k = 0; k < r.inputs.size(); ++k)
+        state.unknown[static_cast<std::size_t>(r.inputs[k])] = variable(at.inputs[k]);
+    return interpret(r.program, state);
+}
+
+std::vector<int> critical_nodes(const Program& program, std::span<const int> nodes,
+                                const std::vector<Germ>& value) {
+    std::vector<int> result;
+    for (const int id : program.needed(nodes))
+        if (is_critical(program, id, value)) result.push_back(id);
+    return result;
+}
+
+bool has_kinks(const Program& program) {
+    for (int id = 0; id < program.size(); ++id) switch (program[id].op) {
+            case Op::abs:
+            case Op::sign:
+            case Op::sqrt:
+            case Op::pow:
+            case Op::min:
+            case Op::max:
+            case Op::atan2:
+            case Op::asin:
+            case Op::acos:
+                return true;
+            default:
+                break;
+        }
+    return false;
+}
+
+std::optional<long double> slope(const Germ& there, const Germ& back) {
+    for (const Germ* side : {&there, &back}) {
+        if (!side->defined() || side->order() <= 1) return {};
+        for (const Germ::Term& term : side->terms())
+            if (term.value != 0 && term.exponent < 1 - 1e-9 && std::abs(term.exponent) > 1e-9) return {};
+    }
+    const auto agree = [](const Germ::Term& a, const Germ::Term& b, int sign) {
+        return std::abs(a.value - sign * b.value) <=
+               a.error + b.error + equal_to * (std::abs(a.value) + std::abs(b.value));
+    };
+    if (!agree(there.at(0), back.at(0), 1) || !agree(there.at(1), back.at(1), -1)) return {};
+    return there.at(1).value;
+}
+
+}  // namespace alembert

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// All values of the equations of motion on a path that leaves a state, as series (lower/germ.hpp).
+///
+///     const std::vector<Germ> value = on_path(residuals, instant, d, c);   // x₀ + ε d + ε² c
+///     value[residuals.forcing[0]].at(1).value                             // one-sided derivative of f₀ along d
+///
+/// Columns of d and c: q, u, t, inputs. The state is taken to be known to 1e-13 of max(1, |x|), parameters to
+/// rounding: an argument that is 6e-17 because π is not exact is zero.
+
+#include <optional>
+#include <span>
+
+#include "linear/tangent.hpp"
+#include "program/germ.hpp"
+
+namespace alembert {
+
+/// c may be empty: zeros.
+std::vector<Germ> on_path(const Residuals& residuals, const Instant<long double>& at,
+                          const VectorOf<long double>& d, const VectorOf<long double>& c = {});
+
+/// Nodes at a critical point: functions whose argument is where they are not analytic (abs, sign and roots at 0,
+/// min and max of equal arguments, atan2 on its cut, asin and acos at ±1), and what has no value. `value`: on a
+/// path that stays at the point.
+std::vector<int> critical_nodes(const Program& program, std::span<const int> nodes,
+                                const std::vector<Germ>& value);
+
+/// Has this program a function that can be critical otherwise than by having no value?
+bool has_kinks(const Program& program);
+
+/// The derivative of this value along the path `there` if `back`, of the opposite path, gives the opposite one and
+/// both leave from the same value; nothing where the function has a kink, a jump, an infinite slope or no value
+/// there.
+std::optional<long double> slope(const Germ& there, const Germ& back);
+
+}  // namespace alembert

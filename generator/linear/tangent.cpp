@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Notation of linear/linearize.hpp; e stands for t and the inputs. Tangent directions of the constraints:
+//   δq = Q δr + Qe δe,   Q_dep = −φ_dep⁻¹ φ_ind,   δu = S δr + U δw + Se δe,   U_dep = −ν_dep⁻¹ ν_ind.
+// U spans the null space of A. With c, the u' that A u' = γ asks for where w' = 0:
+//   (UᵀMU) w' = Uᵀ(f − M c),   A_depᵀ λ = (M u' − f)_dep.
+#include "linear/tangent.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "alembert/error.hpp"
+#include "linear/paths.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using Index = Eigen::Index;
+
+Residuals::Residuals(const Mechanism& m, const Equations& e)
+    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.h.empty()) {
+    Program all;
+    all.source_labels = m.z->source_labels();
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (int i = 0; i < s; ++i) given.emplace_back(e.u[i], all.variable({Variable::Kind::rate, i}));
+    for (std::size_t i = 0; i < m.inputs.size(); ++i)
+        for (int order = 0; order < 3; ++order)
+            given.emplace_back(m.inputs[i].derivative[order],
+                               all.variable({Variable::Kind::unknown, 3 * static_cast<int>(i) + order}));
+    std::vector<std::pair<Group, ex>> wanted;
+    for (int i = 0; i < s; ++i) {
+        for (int j = 0; j <= i; ++j) wanted.emplace_back(Group::mass, e.M(i, j));
+        wanted.emplace_back(Group::forcing, e.forcing(i));
+    }
+    for (int k = 0; k < kept; ++k) {
+        for (const ex& entry : e.A[k]) wanted.emplace_back(Group::row, entry);
+        wanted.emplace_back(Group::gamma, e.gamma[k]);
+    }
+    const auto rate_of = [&](int i) { return e.h.empty() ? ex(m.qdot[i]) : e.h[i]; };
+    for (int i = 0; i < n; ++i) wanted.emplace_back(Group::rate, rate_of(i));
+    for (const Mechanism::Constraint& c : m.constraints)
+        if (c.position) {
+            wanted.emplace_back(Group::position, *c.position);
+            ++holonomic;
+        }
+    for (const int k : e.kept(m)) {
+        const Mechanism::Constraint& c = m.constraints[k];
+        GiNaC::exvector terms{c.drift};
+        for (int i = 0; i < n; ++i) terms.push_back(c.row[i] * rate_of(i));
+        wanted.emplace_back(Group::velocity, m.z->name(GiNaC::add(std::move(terms))));
+    }
+    std::vector<ex> values;
+    for (const auto& [group, value] : wanted) values.push_back(value);
+    const std::vector<int> nodes = lower_expressions(all, m, values, given);
+    for (std::size_t i = 0; i < nodes.size(); ++i) all.roots.push_back({wanted[i].first, "", nodes[i]});
+    std::vector<ex> input_symbols;
+    for (const Mechanism::Input& input : m.inputs)
+        input_symbols.insert(input_symbols.end(), input.derivative.begin(), input.derivative.end());
+    for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({Group::input, "", id});
+    program = all.canonical();
+    for (const auto& [group, list] : {std::pair{Group::mass, &mass}, {Group::forcing, &forcing}, {Group::row, &row}, {Group::gamma, &gamma}, {Group::rate, &rate},
+                                      {Group::position, &position}, {Group::velocity, &velocity}, {Group::input, &input_values}})
+        *list = program.nodes_of(group);
+    for (int id = 0; id < program.size(); ++id)
+        if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
+            inputs.push_back(program[id].variable.index);
+    std::sort(inputs.begin(), inputs.end());
+}
+
+namespace {
+
+/// Values and derivatives of all nodes; columns: q, u, t, inputs.
+template <typename Real>
+struct Values {
+    Values(const Residuals& r, const Instant<Real>& at) : r_(r) {
+        const std::size_t width = at.q.size() + at.u.size() + 1 + r.inputs.size();
+        std::size_t next = 0;
+        const auto variable = [&](Real x) {
+            std::vector<Real> d(width, Real(0));
+            d[next++] = Real(1);
+            return Jet<Real>(x, std::move(d));
+        };
+        State<Jet<Real>> state;
+        for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
+        for (const Real x : at.q) state.q.push_back(variable(x));
+        for (const Real x : at.u) state.qdot.push_back(variable(x));
+        state.t = variable(at.t);
+        if (!r.inputs.empty()) state.unknown.resize(r.inputs.back() + 1);
+        for (std::size_t k = 0; k < r.inputs.size(); ++k) state.unknown[r.inputs[k]] = variable(at.inputs[k]);
+        value_ = interpret(r.program, state);
+        columns = static_cast<Index>(width);
+        repair(at);
+    }
+    VectorOf<Real> vector(const std::vector<int>& nodes) const {
+        VectorOf<Real> result(static_cast<Index>(nodes.size()));
+        for (std::size_t i = 0; i < nodes.size(); ++i) result[static_cast<Index>(i)] = value_[nodes[i]].value;
+        return result;
+    }
+    MatrixOf<Real> jacobian(const std::vector<int>& nodes) const {
+        MatrixOf<Real> result(static_cast<Index>(nodes.size()), columns);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (Index k = 0; k < columns; ++k)
+                result(static_cast<Index>(i), k) = value_[nodes[i]].derivative(static_cast<std::size_t>(k));
+        return result;
+    }
+    const Jet<Real>& operator[](int node) const { return value_[node]; }
+    Index columns = 0;
+
+private:
+    /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of sides: then the
+    /// derivatives are those of the root itself, in each direction in which both of its sides agree.
+    void repair(const Instant<Real>& at) {
+        if (!has_kinks(r_.program)) return;
+        const Instant<long double> point{.parameters = {at.parameters.begin(), at.parameters.end()},
+                                         .q = {at.q.begin(), at.q.end()},
+                                         .u = {at.u.begin(), at.u.end()},
+                                         .inputs = {at.inputs.begin(), at.inputs.end()},
+                                         .t = static_cast<long double>(at.t)};
+        const std::vector<Germ> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
+        std::vector<int> broken, all;
+        for (const Root& root : r_.program.roots) all.push_back(root.node);
+        if (critical_nodes(r_.program, all, here).empty()) return;
+        for (const Root& root : r_.program.roots)
+            if (root.group != "input" && !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty()) broken.push_back(root.node);
+        for (Index k = 0; k < columns; ++k) {
+            const VectorOf<long double> d = VectorOf<long double>::Unit(columns, k);
+            const std::vector<Germ> there = on_path(r_, point, d), back = on_path(r_, point, -d);
+            for (const int node : broken)
+                if (const auto found = slope(there[node], back[node])) {
+                    value_[node].d.resize(static_cast<std::size_t>(columns), Real(0));
+                    value_[node].d[static_cast<std::size_t>(k)] = static_cast<Real>(*found);
+                }
+        }
+    }
+
+    const Residuals& r_;
+    std::vector<Jet<Real>> value_;
+};
+
+/// The columns of pivots of an elimination of `rows`, from the first class that has one that will do; fewer than rows where none is left.
+std::vector<int> pivots(MatrixOf<long double> rows, const std::vector<int>& order_class) {
+    constexpr long double good = 1e-6L, some = 1e-12L;  // of the row at the start
+    std::vector<int> result;
+    std::vector<long double> size;
+    for (Index r = 0; r < rows.rows(); ++r) size.push_back(rows.row(r).size() > 0 ? rows.row(r).cwiseAbs().maxCoeff() : 0);
+    std::vector<bool> done(rows.rows(), false);
+    const int classes = order_class.empty() ? 0 : *std::max_element(order_class.begin(), order_class.end()) + 1;
+    for (Index step = 0; step < rows.rows(); ++step) {
+        std::tuple<long double, Index, int> best{0, 0, 0};
+        for (int c = 0; c <= classes && std::get<0>(best) < good; ++c)  // the last round: any
+            for (Index r = 0; r < rows.rows(); ++r)
+                for (Index j = 0; j < rows.cols(); ++j) {
+                    if (done[r] || size[r] == 0 || (c < classes && order_class[j] != c)) continue;
+                    const long double pivot = std::abs(rows(r, j)) / size[r];
+                    if (pivot > std::get<0>(best) * (1 + 1e-9L)) best = {pivot, r, static_cast<int>(j)};
+                }
+        const auto [pivot, r, j] = best;
+        if (!(pivot > some)) break;
+        done[r] = true;
+        result.push_back(j);
+        for (Index other = 0; other < rows.rows(); ++other)
+            if (!done[other]) {
+                rows.row(other) -= rows(other, j) / rows(r, j) * rows.row(r);
+                rows(other, j) = 0;
+            }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+std::vector<int> others(const std::vector<int>& chosen, int n) {
+    std::vector<int> result;
+    for (int i = 0; i < n; ++i)
+        if (!std::binary_search(chosen.begin(), chosen.end(), i)) result.push_back(i);
+    return result;
+}
+
+template <typename Real>
+MatrixOf<Real> columns_of(const MatrixOf<Real>& from, const std::vector<int>& which) {
+    MatrixOf<Real> result(from.rows(), static_cast<Index>(which.size()));
+    for (std::size_t j = 0; j < which.size(); ++j) result.col(static_cast<Index>(j)) = from.col(which[j]);
+    return result;
+}
+
+/// A x = b. Columns of b are right-hand sides.
+template <typename Real>
+MatrixOf<Real> solution(const MatrixOf<Real>& A, const MatrixOf<Real>& b) {
+    return A.partialPivLu().solve(b);
+}
+
+/// [Solution of dependent·x = right, zeros for independent ones] as rows of all.
+template <typename Real>
+MatrixOf<Real> spread(const MatrixOf<Real>& solution, const std::vector<int>& rows, Index n) {
+    MatrixOf<Real> result = MatrixOf<Real>::Zero(n, solution.cols());
+    for (std::size_t k = 0; k < rows.size(); ++k) result.row(rows[k]) = solution.row(static_cast<Index>(k));
+    return result;
+}
+
+}  // namespace
+
+Split split_of(const Residuals& r, const Instant<long double>& at, const std::vector<bool>& preferred_q,
+               const std::vector<bool>& preferred_u) {
+    const Values<long double> value(r, at);
+    const auto refuse = [&](const char* which, std::size_t rank, int rows) {
+        throw IntegrationError(std::string("the ") + which + " constraints depend on each other at this state: rank " + std::to_string(rank) +
+                                   " of " + std::to_string(rows) + "; choose a state off the singular pose",
+                               static_cast<double>(at.t), {at.q.begin(), at.q.end()});
+    };
+    Split split;
+    std::vector<int> order;
+    for (int i = 0; i < r.n; ++i) order.push_back(preferred_q[i] ? 0 : 1);
+    split.q_dependent = pivots(value.jacobian(r.position).leftCols(r.n), order);
+    if (static_cast<int>(split.q_dependent.size()) < r.holonomic) refuse("holonomic", split.q_dependent.size(), r.holonomic);
+    split.q = others(split.q_dependent, r.n);
+    order.clear();
+    for (int i = 0; i < r.s; ++i) {
+        const bool follows = r.rates_are_speeds && std::binary_search(split.q_dependent.begin(), split.q_dependent.end(), i);
+        order.push_back(follows ? 0 : preferred_u[i] ? 1 : 2);
+    }
+    split.u_dependent = pivots(value.jacobian(r.velocity).middleCols(r.n, r.s), order);
+    if (static_cast<int>(split.u_dependent.size()) < r.kept) refuse("velocity", split.u_dependent.size(), r.kept);
+    split.u = others(split.u_dependent, r.s);
+    return split;
+}
+
+template <typename Real>
+Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at) {
+    using Matrix = MatrixOf<Real>;
+    using Vector = VectorOf<Real>;
+    const Values<Real> value(r, at);
+    const Index n = r.n, s = r.s, extra = value.columns - n - s, nr = static_cast<Index>(split.q.size()),
+                p = static_cast<Index>(split.u.size());
+    Tangent<Real> result;
+
+    // Directions: columns r, w, e.
+    const Matrix phi = value.jacobian(r.position), nu = value.jacobian(r.velocity);
+    Matrix along = Matrix::Zero(n + s + extra, nr + p + extra);
+    for (Index j = 0; j < nr; ++j) along(split.q[j], j) = 1;
+    for (Index j = 0; j < p; ++j) along(n + split.u[j], nr + j) = 1;
+    along.bottomRightCorner(extra, extra).setIdentity();
+    result.position = value.vector(r.position);
+    if (r.holonomic > 0) {
+        const Matrix dependent = columns_of<Real>(phi.leftCols(n), split.q_dependent);
+        along.topRows(n) += spread<Real>(solution<Real>(dependent, -phi * along), split.q_dependent, n);
+        result.to_position = solution<Real>(dependent, -result.position);
+    }
+    result.velocity = value.vector(r.velocity);
+    const Matrix A = nu.middleCols(n, s);
+    const Matrix dependent = columns_of<Real>(A, split.u_dependent);
+    const auto particular = [&](const Matrix& right) -> Matrix {  // A x = right, independent ones 0
+        if (r.kept == 0) return Matrix::Zero(s, right.cols());
+        return spread<Real>(solution<Real>(dependent, right), split.u_dependent, s);
+    };
+    along.middleRows(n, s) += particular(-nu * along);
+    result.to_velocity = r.kept > 0 ? Vector(solution<Real>(dependent, -result.velocity)) : Vector(0);
+    const Matrix U = along.block(n, nr, s, p);
+
+    // u' and λ of the undisturbed motion.
+    Matrix M(s, s);
+    for (Index i = 0, next = 0; i < s; ++i)
+        for (Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value;
+    const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
+    Vector udot = particular(gamma).col(0);
+    result.mass = U.transpose() * M * U;
+    result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, U.transpose() * (f - M * udot))) : Vector(0);
+    udot += U * result.speed_rates;
+    Vector lambda(r.kept);
+    if (r.kept > 0) {
+        const Vector reaction = M * udot - f;
+        Vector on_dependent(r.kept);
+        for (Index k = 0; k < r.kept; ++k) on_dependent[k] = reaction[split.u_dependent[k]];
+        lambda = solution<Real>(dependent.transpose(), on_dependent);
+    }
+
+    // Residuals' derivatives with u' and λ held.
+    const Matrix df = value.jacobian(r.forcing), dgamma = value.jacobian(r.gamma);
+    Matrix R = -df, Gamma = -dgamma;
+    for (Index i = 0, next = 0; i < s; ++i)
+        for (Index j = 0; j <= i; ++j) {
+            const Jet<Real>& entry = value[r.mass[next++]];
+            for (Index k = 0; k < value.columns; ++k) {
+                const Real d = entry.derivative(static_cast<std::size_t>(k));
+                R(i, k) += d * udot[j];
+                if (i != j) R(j, k) += d * udot[i];
+            }
+        }
+    for (Index k = 0; k < r.kept; ++k)
+        for (Index i = 0; i < s; ++i) {
+            const Jet<Real>& entry = value[r.row[k * s + i]];
+            for (Index c = 0; c < value.columns; ++c) {
+                const Real d = entry.derivative(static_cast<std::size_t>(c));
+                R(i, c) -= d * lambda[k];
+                Gamma(k, c) += d * udot[i];
+            }
+        }
+    const Matrix forced = particular(-Gamma * along);
+    result.force = U.transpose() * (R * along + M * forced);
+    result.speed_rates_by = p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
+
+    result.along = along;
+    result.udot = udot;
+    result.lambda = lambda;
+    const Vector rates = value.vector(r.rate);
+    const Matrix rates_by = value.jacobian(r.rate) * along;
+    result.rates.resize(nr);
+    result.rates_by.resize(nr, along.cols());
+    for (Index j = 0; j < nr; ++j) {
+        result.rates[j] = rates[split.q[j]];
+        result.rates_by.row(j) = rates_by.row(split.q[j]);
+    }
+    return result;
+}
+
+template <typename Real>
+bool settle(const Residuals& r, const Split& split, Instant<Real>& at) {
+    const auto size = [](const auto& v) { return v.size() == 0 ? Real(0) : v.cwiseAbs().maxCoeff(); };
+    for (int step = 0; step < 30; ++step) {
+        const Tangent<Real> here = tangent(r, split, at);
+        const Real move_q = size(here.to_position), move_u = size(here.to_velocity);
+        if (!std::isfinite(move_q) || !std::isfinite(move_u)) return false;
+        for (std::size_t k = 0; k < split.q_dependent.size(); ++k) at.q[split.q_dependent[k]] += here.to_position[static_cast<Index>(k)];
+        for (std::size_t k = 0; k < split.u_dependent.size(); ++k) at.u[split.u_dependent[k]] += here.to_velocity[static_cast<Index>(k)];
+        if (move_q < Real(1e-14) && move_u < Real(1e-14)) return true;
+    }
+    return split.q_dependent.empty() && split.u_dependent.empty();
+}
+
+template Tangent<double> tangent(const Residuals&, const Split&, const Instant<double>&);
+template Tangent<long double> tangent(const Residuals&, const Split&, const Instant<long double>&);
+template bool settle(const Residuals&, const Split&, Instant<long double>&);
+
+}  // namespace alembert

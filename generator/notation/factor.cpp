@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+//
+// P = a·v + b, linear in v, has the factors of gcd(a, b) and one more. That settles nearly every coefficient of a
+// mechanism; only what is linear in nothing goes to GiNaC's factor (square-free, then multivariate Hensel lifting;
+// Geddes, Czapor & Labahn, Algorithms for Computer Algebra (1992), chapters 6 and 8).
+#include "notation/factor.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+namespace alembert {
+
+namespace {
+
+/// Terms times variables: below a millisecond or so. (a+b·sin θ)² has 9; hundreds can take a second.
+constexpr std::size_t most_for_ginac = 100;
+
+struct AtomLess {
+    bool operator()(const Atom& a, const Atom& b) const { return compare(a, b) < 0; }
+};
+
+/// How often each atom occurs, and its highest exponent.
+struct Occurrence {
+    int terms = 0;
+    Rational highest = 0;
+    Rational unit = 1;  ///< 1/n; every exponent is a multiple of it
+};
+using Occurrences = std::map<Atom, Occurrence, AtomLess>;
+
+Occurrences occurrences(const Polynomial& polynomial) {
+    Occurrences result;
+    for (const Term& term : polynomial.terms()) {
+        for (const Factor& factor : term.monomial) {
+            Occurrence& found = result[factor.atom];
+            found.unit = common_divisor(found.unit, factor.exponent);
+            ++found.terms;
+            if (factor.exponent > found.highest) found.highest = factor.exponent;
+        }
+    }
+    return result;
+}
+
+/// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
+/// term.
+std::optional<Polynomial> exact_quotient(const Polynomial& dividend, const Polynomial& divisor) {
+    const Term& lead = divisor.terms()[0];
+    Polynomial rest = dividend;
+    std::vector<Term> quotient;
+    while (!rest.is_zero()) {
+        const Term& first = rest.terms()[0];
+        Monomial ratio = first.monomial * power(lead.monomial, -1);
+        if (std::any_of(ratio.begin(), ratio.end(), [](const Factor& factor) { return factor.exponent < 0; }))
+            return std::nullopt;
+        quotient.push_back({std::move(ratio), first.coefficient / lead.coefficient});
+        rest = rest - Polynomial::collect({quotient.back()}) * divisor;
+    }
+    return Polynomial::collect(std::move(quotient));
+}
+
+/// a·x² + b·y² with a, b > 0 has no factors over the rationals.
+bool is_sum_of_squares(const Polynomial& polynomial) {
+    const auto is_square = [](const Monomial& monomial) {
+        return monomial.size() <= 1 && (monomial.empty() || monomial[0].exponent == 2);
+    };
+    return polynomial.size() == 2 && is_square(polynomial.terms()[0].monomial) &&
+           is_square(polynomial.terms()[1].monomial) &&
+           polynomial.terms()[0].coefficient * polynomial.terms()[1].coefficient > 0;
+}
+
+/// A polynomial in stand-in symbols, each for the smallest power of an atom that occurs.
+class Translation {
+public:
+    explicit Translation(const Occurrences& atoms) {
+        for (const auto& [atom, occurrence] : atoms) {
+            const GiNaC::symbol stand_in;
+            meaning_.emplace(stand_in.gethash(), Factor{atom, occurrence.unit});
+            stand_in_.emplace(atom, std::pair(stand_in, occurrence.unit));
+        }
+    }
+
+    GiNaC::ex to(const Polynomial& polynomial) const {
+        GiNaC::exvector terms;
+        for (const Term& term : polynomial.terms()) {
+            GiNaC::exvector factors{expression(term.coefficient)};
+            for (const Factor& factor : term.monomial) {
+                const auto& [symbol, unit] = stand_in_.at(factor.atom);
+                factors.push_back(GiNaC::pow(symbol, expression(Rational(factor.exponent / unit))));
+            }
+            terms.push_back(GiNaC::mul(factors));
+        }
+        return GiNaC::add(terms);
+    }
+
+    Polynomial from(const GiNaC::ex& e) const {
+        if (GiNaC::is_a<GiNaC::numeric>(e)) return cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(e).to_cl_N());
+        if (GiNaC::is_a<GiNaC::symbol>(e)) {
+            const Factor& factor = meaning_.at(GiNaC::ex_to<GiNaC::symbol>(e).gethash());
+            return Polynomial(factor.atom, factor.exponent);
+        }
+        if (GiNaC::is_a<GiNaC::power>(e))
+            return power(from(e.op(0)), GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int());
+        Polynomial result = GiNaC::is_a<GiNaC::add>(e) ? Rational(0) : Rational(1);
+        for (std::size_t i = 0; i < e.nops(); ++i)
+            result = GiNaC::is_a<GiNaC::add>(e) ? result + from(e.op(i)) : result * from(e.op(i));
+        return result;
+    }
+
+private:
+    std::unordered_map<unsigned, Factor> meaning_;
+    std::map<Atom, std::pair<GiNaC::symbol, Rational>, AtomLess> stand_in_;
+};
+
+Polynomial with_positive_lead(const Polynomial& polynomial) {
+    const Rational c = content(polynomial);
+    return (1 / (polynomial.terms()[0].coefficient < 0 ? Rational(-c) : c)) * polynomial;
+}
+
+/// Of a primitive polynomial with positive lead and no monomial factor.
+Factorization factors_by_ginac(const Polynomial& polynomial, const Occurrences& atoms) {
+    Factorization result;
+    const Translation translation(atoms);
+    const GiNaC::ex factored = GiNaC::factor(translation.to(polynomial));
+    const auto add = [&](const GiNaC::ex& e) {
+        const bool is_power = GiNaC::is_a<GiNaC::power>(e);
+        const Polynomial base = translation.from(is_power ? e.op(0) : e);
+        if (base.is_constant()) return;
+        const int exponent = is_power ? GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int() : 1;
+        result.sums.emplace_back(with_positive_lead(base), exponent);
+    };
+    if (GiNaC::is_a<GiNaC::mul>(factored))
+        for (std::size_t i = 0; i < factored.nops(); ++i) add(factored.op(i));
+    else
+        add(factored);
+    return result;
+}
+
+}  // namespace
+
+Factorization Factorizer::operator()(const Polynomial& polynomial) {
+    Factorization result;
+    result.monomial = common_monomial(polynomial);
+    result.unit = content(polynomial);
+    Polynomial primitive = divide(polynomial, result.monomial, result.unit);
+    if (primitive.terms()[0].coefficient < 0) {
+        primitive = -primitive;
+        result.unit = -result.unit;
+    }
+    if (primitive.size() == 1) return result;
+    auto found = memo_.find(primitive);
+    if (found == memo_.end()) found = memo_.emplace(primitive, irreducible_factors(primitive)).first;
+    result.unit = result.unit * found->second.unit;
+    result.sums = found->second.sums;
+    return result;
+}
+
+Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
+    Factorization result;
+    if (polynomial.size() > 60 || is_sum_of_squares(polynomial)) {
+        result.sums.emplace_back(polynomial, 1);
+        return result;
+    }
+    const Occurrences atoms = occurrences(polynomial);
+    const AtomNode* linear = nullptr;
+    int fewest = 0;
+    for (const auto& [atom, occurrence] : atoms) {
+        if (occurrence.highest != occurrence.unit || (linear && occurrence.terms >= fewest)) continue;
+        linear = atom.get();
+        fewest = occurrence.terms;
+    }
+    if (linear)
+        split_linear(polynomial, *linear, result);
+    else if (polynomial.size() * atoms.size() <= most_for_ginac)
+        result = factors_by_ginac(polynomial, atoms);
+    else
+        result.sums.emplace_back(polynomial, 1);
+    std::sort(result.sums.begin(), result.sums.end(),
+              [](const auto& a, const auto& b) { return compare(a.first, b.first) < 0; });
+    // The factors are known up to signs; the product of the leads settles the unit.
+    Polynomial check = Rational(1);
+    for (const auto& [sum, exponent] : result.sums) check = check * power(sum, exponent);
+    result.unit = polynomial.terms()[0].coefficient / check.terms()[0].coefficient;
+    return result;
+}
+
+void Factorizer::split_linear(const Polynomial& polynomial, const AtomNode& linear, Factorization& result) {
+    std::vector<Term> with, without;
+    for (const Term& term : polynomial.terms()) {
+        const bool has = std::any_of(term.monomial.begin(), term.monomial.end(),
+                                     [&](const Factor& factor) { return compare(*factor.atom, linear) == 0; });
+        (has ? with : without).push_back(term);
+    }
+    Polynomial rest = polynomial;
+    if (with.size() > 1) {
+        const Polynomial b = Polynomial::collect(std::move(without));
+        Polynomial left = b;
+        for (const auto& [sum, exponent] : (*this)(Polynomial::collect(std::move(with))).sums) {
+            int times = 0;
+            while (times < exponent) {
+                const std::optional<Polynomial> quotient = exact_quotient(left, sum);
+                if (!quotient) break;
+                left = *quotient;
+                rest = *exact_quotient(rest, sum);
+                ++times;
+            }
+            if (times > 0) result.sums.emplace_back(sum, times);
+        }
+    }
+    result.sums.emplace_back(with_positive_lead(rest), 1);
+}
+
+}  // namespace alembert

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "notation/lettering.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace alembert {
+
+namespace {
+
+struct Greek {
+    std::string_view name, letter, latex;
+};
+
+// Greek capitals that look Latin have no command of their own.
+constexpr std::array<Greek, 56> greek{{
+    {"alpha", "α", "\\alpha"},
+    {"beta", "β", "\\beta"},
+    {"gamma", "γ", "\\gamma"},
+    {"delta", "δ", "\\delta"},
+    {"epsilon", "ε", "\\varepsilon"},
+    {"zeta", "ζ", "\\zeta"},
+    {"eta", "η", "\\eta"},
+    {"theta", "θ", "\\theta"},
+    {"iota", "ι", "\\iota"},
+    {"kappa", "κ", "\\kappa"},
+    {"lambda", "λ", "\\lambda"},
+    {"mu", "μ", "\\mu"},
+    {"nu", "ν", "\\nu"},
+    {"xi", "ξ", "\\xi"},
+    {"omicron", "ο", "o"},
+    {"pi", "π", "\\pi"},
+    {"rho", "ρ", "\\rho"},
+    {"sigma", "σ", "\\sigma"},
+    {"tau", "τ", "\\tau"},
+    {"upsilon", "υ", "\\upsilon"},
+    {"phi", "φ", "\\varphi"},
+    {"chi", "χ", "\\chi"},
+    {"psi", "ψ", "\\psi"},
+    {"omega", "ω", "\\omega"},
+    {"Gamma", "Γ", "\\Gamma"},
+    {"Delta", "Δ", "\\Delta"},
+    {"Theta", "Θ", "\\Theta"},
+    {"Lambda", "Λ", "\\Lambda"},
+    {"Xi", "Ξ", "\\Xi"},
+    {"Pi", "Π", "\\Pi"},
+    {"Sigma", "Σ", "\\Sigma"},
+    {"Upsilon", "Υ", "\\Upsilon"},
+    {"Phi", "Φ", "\\Phi"},
+    {"Psi", "Ψ", "\\Psi"},
+    {"Omega", "Ω", "\\Omega"},
+    {"Alpha", "Α", "\\mathrm{A}"},
+    {"Beta", "Β", "\\mathrm{B}"},
+    {"Epsilon", "Ε", "\\mathrm{E}"},
+    {"Zeta", "Ζ", "\\mathrm{Z}"},
+    {"Eta", "Η", "\\mathrm{H}"},
+    {"Iota", "Ι", "\\mathrm{I}"},
+    {"Kappa", "Κ", "\\mathrm{K}"},
+    {"Mu", "Μ", "\\mathrm{M}"},
+    {"Nu", "Ν", "\\mathrm{N}"},
+    {"Omicron", "Ο", "\\mathrm{O}"},
+    {"Rho", "Ρ", "\\mathrm{P}"},
+    {"Tau", "Τ", "\\mathrm{T}"},
+    {"Chi", "Χ", "\\mathrm{X}"},
+    {"varphi", "φ", "\\varphi"},
+    {"vartheta", "ϑ", "\\vartheta"},
+    {"varepsilon", "ε", "\\varepsilon"},
+    {"varrho", "ϱ", "\\varrho"},
+    {"varsigma", "ς", "\\varsigma"},
+    {"", "µ", "\\mu"},
+    {"", "ϕ", "\\phi"},
+    {"", "ϵ", "\\epsilon"},
+}};
+
+const Greek* find_name(std::string_view name) {
+    for (const Greek& entry : greek)
+        if (!name.empty() && entry.name == name) return &entry;
+    return nullptr;
+}
+
+const Greek* find_letter(std::string_view letter) {
+    for (const Greek& entry : greek)
+        if (entry.letter == letter) return &entry;
+    return nullptr;
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+bool is_continuation(char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+}
+
+std::vector<std::string_view> letters_of(std::string_view text) {
+    std::vector<std::string_view> result;
+    for (std::size_t start = 0; start < text.size();) {
+        std::size_t end = start + 1;
+        while (end < text.size() && is_continuation(text[end])) ++end;
+        result.push_back(text.substr(start, end - start));
+        start = end;
+    }
+    return result;
+}
+
+std::string to_greek(const std::string& word) {
+    const Greek* entry = find_name(word);
+    return entry ? std::string(entry->letter) : word;
+}
+
+unsigned code_point(std::string_view letter) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
+    const unsigned lead = byte(0);
+    unsigned value = lead < 0x80 ? lead : lead < 0xE0 ? lead & 0x1F : lead < 0xF0 ? lead & 0x0F : lead & 0x07;
+    for (std::size_t i = 1; i < letter.size(); ++i) value = value << 6 | (byte(i) & 0x3F);
+    return value;
+}
+
+/// A letter inside \mathrm{…}; what pdflatex cannot set is named by its number.
+std::string latex_plain(std::string_view letter) {
+    if (letter == "_") return "\\_";
+    if (letter.size() == 1) return std::string(letter);
+    const unsigned code = code_point(letter);
+    if (code >= 0xC0 && code <= 0x17F && code != 0xD7 && code != 0xF7) return fmt::format("\\text{{{}}}", letter);
+    return fmt::format("U{:X}", code);
+}
+
+}  // namespace
+
+Lettering lettering(const std::string& name) {
+    const std::size_t bar = name.find('_', 1);
+    std::string stem = name.substr(0, bar);
+    std::string index = bar == std::string::npos ? "" : name.substr(bar + 1);
+    std::size_t digits = stem.size();
+    while (digits > 1 && is_digit(stem[digits - 1])) --digits;
+    if (digits < stem.size() && stem[0] != '_') {
+        const std::string number = stem.substr(digits);
+        stem.resize(digits);
+        index = index.empty() ? number : fmt::format("{},{}", number, index);
+    }
+    if (stem == "_") return {name, ""};
+    return {to_greek(stem), to_greek(index)};
+}
+
+bool is_word(const std::string& letters) {
+    return letters_of(letters).size() > 1;
+}
+
+std::string latex_letters(const std::string& letters) {
+    if (const std::size_t comma = letters.find(','); comma != std::string::npos)
+        return fmt::format("{},{}", latex_letters(letters.substr(0, comma)),
+                           latex_letters(letters.substr(comma + 1)));
+    if (letters.find_first_not_of("0123456789") == std::string::npos) return letters;
+    const std::vector<std::string_view> each = letters_of(letters);
+    if (each.size() == 1 && each[0].size() == 1 && each[0] != "_") return letters;
+    std::string result;
+    std::string upright;
+    const auto flush = [&] {
+        if (!upright.empty()) result += fmt::format("\\mathrm{{{}}}", upright);
+        upright.clear();
+    };
+    for (const std::string_view letter : each) {
+        if (const Greek* entry = letter.size() > 1 ? find_letter(letter) : nullptr) {
+            flush();
+            result += std::string(entry->latex);
+        } else {
+            upright += latex_plain(letter);
+        }
+    }
+    flush();
+    return result;
+}
+
+std::string xml_escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '"':
+                result += "&quot;";
+                break;
+            default:
+                result += c;
+        }
+    }
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "notation/text.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include <cln/integer.h>
+#include <cln/integer_io.h>
+
+namespace alembert {
+
+namespace {
+
+using Kind = Phrase::Kind;
+
+std::string write(const Phrase& phrase);
+
+std::string enclosed(const Phrase& phrase, bool parentheses) {
+    return parentheses ? fmt::format("({})", write(phrase)) : write(phrase);
+}
+
+bool is_signed_or_sum(const Phrase& phrase) {
+    return phrase.kind == Kind::sum || phrase.kind == Kind::negative;
+}
+
+std::string number_text(const Phrase& phrase) {
+    if (std::string plain = digits(phrase); !plain.empty()) return plain;
+    std::ostringstream stream;
+    stream << cln::numerator(phrase.value) << '/' << cln::denominator(phrase.value);
+    return stream.str();
+}
+
+bool is_fraction(const Phrase& phrase) {
+    return phrase.kind == Kind::number && digits(phrase).empty();
+}
+
+std::string write_sum(const Phrase& phrase, const char* plus, const char* minus) {
+    std::string result;
+    for (const Phrase& term : phrase.args) {
+        const bool is_negative = term.kind == Kind::negative;
+        const Phrase& value = is_negative ? term.args[0] : term;
+        const char* first = is_negative ? "-" : "";
+        const char* next = is_negative ? minus : plus;
+        result += result.empty() ? first : next;
+        result += enclosed(value, is_signed_or_sum(value));
+    }
+    return result;
+}
+
+std::string write_product(const Phrase& phrase) {
+    std::string result;
+    for (const Phrase& factor : phrase.args) {
+        if (!result.empty()) result += '*';
+        result += enclosed(factor, is_signed_or_sum(factor));
+    }
+    return result;
+}
+
+/// As the scene language calls a function of GiNaC.
+std::string language_name(const std::string& name) {
+    return name == "csgn" ? "sign" : name == "minimum" ? "min" : name == "maximum" ? "max" : name;
+}
+
+std::string write_call(const Phrase& phrase) {
+    std::string args;
+    for (const Phrase& arg : phrase.args) args += fmt::format("{}{}", args.empty() ? "" : ",", write(arg));
+    return fmt::format("{}({})", language_name(phrase.name), args);
+}
+
+std::string write(const Phrase& phrase) {
+    switch (phrase.kind) {
+        case Kind::number:
+            return number_text(phrase);
+        case Kind::symbol:
+            return phrase.info.text();
+        case Kind::sum:
+            return write_sum(phrase, "+", "-");
+        case Kind::product:
+            return write_product(phrase);
+        case Kind::quotient: {
+            const Phrase& below = phrase.args[1];
+            const bool compound = is_signed_or_sum(below) || is_fraction(below) || below.kind == Kind::product ||
+                                  below.kind == Kind::quotient;
+            return fmt::format("{}/{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])),
+                               enclosed(below, compound));
+        }
+        case Kind::power: {
+            const Phrase& base = phrase.args[0];
+            const Phrase& exponent = phrase.args[1];
+            const bool simple = base.kind == Kind::symbol || base.kind == Kind::call ||
+                                (base.kind == Kind::number && !is_fraction(base));
+            const bool flat = exponent.kind == Kind::symbol || exponent.kind == Kind::call ||
+                              (exponent.kind == Kind::number && !is_fraction(exponent));
+            return fmt::format("{}^{}", enclosed(base, !simple), enclosed(exponent, !flat));
+        }
+        case Kind::call:
+            return write_call(phrase);
+        case Kind::negative:
+            return fmt::format("-{}", enclosed(phrase.args[0], is_signed_or_sum(phrase.args[0])));
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string text(const Phrase& phrase) {
+    return phrase.kind == Kind::sum ? write_sum(phrase, " + ", " - ") : write(phrase);
+}
+
+}  // namespace alembert

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A formula in the expression language of a scene: what is printed can be typed into a claim.
+///
+///     (m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2)
+
+#include <string>
+
+#include "notation/phrase.hpp"
+
+namespace alembert {
+
+/// Blanks stand around the signs of the outermost sum only.
+std::string text(const Phrase& phrase);
+
+}  // namespace alembert

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Series in ε with leading term c ε^v:  (c ε^v (1 + r))^a = c^a ε^(va) Σ binomial(a, k) r^k,   f(c + δ) = Σ
+// f^(k)(c)/k! δ^k. Taylor coefficients of tanh and atan come from y' = 1 − y² and y' (1 + x²) = 1.
+#include "program/germ.hpp"
+
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+using Real = Germ::Real;
+
+constexpr double known_to = 6;       // power of ε up to which a series is kept
+constexpr std::size_t longest = 14;  // Taylor coefficients
+constexpr double same = 1e-9;        // exponents that differ by less are equal
+constexpr Real rounding = std::numeric_limits<Real>::epsilon();
+
+/// Of sin(c + s), or cos with a quarter turn more.
+std::vector<Real> of_sine(Real sine, Real cosine) {
+    std::vector<Real> result;
+    Real factorial = 1;
+    for (std::size_t k = 0; k < longest; ++k) {
+        if (k > 0) factorial *= static_cast<Real>(k);
+        const Real cycle[] = {sine, cosine, -sine, -cosine};
+        result.push_back(cycle[k % 4] / factorial);
+    }
+    return result;
+}
+
+/// Of e^(c + s)·a + e^−(c + s)·b, given the value and the derivative: they alternate.
+std::vector<Real> of_hyperbolic(Real value, Real derivative) {
+    std::vector<Real> result;
+    Real factorial = 1;
+    for (std::size_t k = 0; k < longest; ++k) {
+        if (k > 0) factorial *= static_cast<Real>(k);
+        result.push_back((k % 2 == 0 ? value : derivative) / factorial);
+    }
+    return result;
+}
+
+}  // namespace
+
+Germ Germ::undefined() {
+    Germ result;
+    result.defined_ = false;
+    return result;
+}
+
+Germ Germ::path(Real x, Real error, const std::vector<Real>& steps) {
+    Germ result(x, error);
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        if (steps[k] != 0)
+            result.terms_.push_back({static_cast<double>(k + 1), steps[k], rounding * std::abs(steps[k])});
+    return result;
+}
+
+Germ::Term Germ::at(double exponent) const {
+    for (const Term& term : terms_)
+        if (std::abs(term.exponent - exponent) < same) return term;
+    return {exponent, 0, 0};
+}
+
+const Germ::Term* Germ::leading() const {
+    for (const Term& term : terms_)
+        if (term.value != 0) return &term;
+    return nullptr;
+}
+
+int Germ::side() const {
+    const Term* first = leading();
+    return !defined_ || first == nullptr ? 0 : first->value < 0 ? -1 : 1;
+}
+
+double Germ::valuation() const {
+    const Term* first = leading();
+    return first == nullptr ? order_ : first->exponent;
+}
+
+bool Germ::is_number() const {
+    return order_ == exact && (terms_.empty() || (terms_.size() == 1 && terms_[0].exponent == 0));
+}
+
+/// Terms in order, equal exponents together, nothing past what is known, zero for what its error covers.
+void Germ::tidy() {
+    std::sort(terms_.begin(), terms_.end(), [](const Term& a, const Term& b) { return a.exponent < b.exponent; });
+    std::vector<Term> kept;
+    for (const Term& term : terms_) {
+        if (term.exponent > known_to && (term.value != 0 || term.error != 0)) order_ = std::min(order_, known_to);
+        if (!kept.empty() && term.exponent - kept.back().exponent < same) {
+            kept.back().value += term.value;
+            kept.back().error += term.error + rounding * std::abs(kept.back().value);
+        } else {
+            kept.push_back(term);
+        }
+    }
+    terms_.clear();
+    for (Term& term : kept) {
+        if (!std::isfinite(term.value) || !std::isfinite(term.error)) {
+            *this = undefined();
+            return;
+        }
+        if (std::abs(term.value) <= term.error) term.value = 0;
+        if (term.exponent < order_ - same && (term.value != 0 || term.error != 0)) terms_.push_back(term);
+    }
+}
+
+Germ& Germ::operator+=(const Germ& b) {
+    if (!defined_ || !b.defined_) return *this = undefined();
+    terms_.insert(terms_.end(), b.terms_.begin(), b.terms_.end());
+    order_ = std::min(order_, b.order_);
+    tidy();
+    return *this;
+}
+
+Germ& Germ::operator*=(const Germ& b) {
+    if (!defined_ || !b.defined_) return *this = undefined();
+    Germ result;
+    const bool is_zero = valuation() == exact || b.valuation() == exact;
+    if (!is_zero) result.order_ = std::min(valuation() + b.order_, b.valuation() + order_);
+    for (const Term& x : terms_)
+        for (const Term& y : b.terms_) {
+            const Real value = x.value * y.value;
+            const Real error = std::abs(x.value) * y.error + std::abs(y.value) * x.error + x.error * y.error;
+            result.terms_.push_back({x.exponent + y.exponent, value, error + rounding * std::abs(value)});
+        }
+    result.tidy();
+    return *this = std::move(result);
+}
+
+Germ operator-(const Germ& a, const Germ& b) {
+    return a + Germ(-1) * b;
+}
+
+Germ Germ::shifted(double exponent) const {
+    Germ result = *this;
+    for (Term& term : result.terms_) term.exponent += exponent;
+    result.order_ += exponent;
+    return result;
+}
+
+Germ Germ::to_the(Real a) const {
+    if (!defined_) return undefined();
+    const Term* first = leading();
+    if (first == nullptr) {
+        if (a < 0) return undefined();
+        Germ result(a == 0 ? 1 : 0);
+        if (a > 0 && order_ != exact) result.order_ = order_ * static_cast<double>(a);
+        return result;
+    }
+    const bool is_whole = a == std::floor(a);
+    if (first->value < 0 && !is_whole) return undefined();
+    const double exponent = first->exponent;
+    const Real c = first->value;
+    Germ unit = *this;  // 1 + r; what stands before the leading term is zero within its error
+    std::erase_if(unit.terms_, [&](const Term& term) { return term.exponent < exponent; });
+    for (Term& term : unit.terms_) {
+        term.value /= c;
+        term.error = term.error / std::abs(c) + rounding * std::abs(term.value);
+    }
+    unit = unit.shifted(-exponent);
+    std::vector<Real> binomial{1};
+    for (std::size_t k = 1; k < longest; ++k)
+        binomial.push_back(binomial.back() * (a - static_cast<Real>(k - 1)) / static_cast<Real>(k));
+    Germ result = unit.through(binomial) * Germ(std::pow(c, a));
+    result = result.shifted(exponent * static_cast<double>(a));
+    result.tidy();
+    return result;
+}
+
+Germ operator/(const Germ& a, const Germ& b) {
+    return a * b.to_the(-1);
+}
+
+Germ Germ::through(const std::vector<Real>& taylor) const {
+    if (!defined_ || valuation() < -same) return undefined();
+    Germ rest = *this;
+    const Real error = at(0).error;
+    std::erase_if(rest.terms_, [](const Term& term) { return term.exponent < same; });
+    // f(c ± e): the error of the constant coefficient goes through the slope.
+    Germ result(taylor.back());
+    for (std::size_t k = taylor.size() - 1; k-- > 0;) {
+        const Real next = taylor[k + 1] * static_cast<Real>(k + 1);
+        result = result * rest + Germ(taylor[k], std::abs(next) * error + 4 * rounding * std::abs(taylor[k]));
+    }
+    if (rest.leading() != nullptr || rest.order_ != exact)
+        result.order_ = std::min(result.order_, rest.valuation() * static_cast<double>(taylor.size()));
+    result.tidy();
+    return result;
+}
+
+Germ sin(const Germ& a) {
+    const Real c = a.at(0).value;
+    return a.through(of_sine(std::sin(c), std::cos(c)));
+}
+Germ cos(const Germ& a) {
+    const Real c = a.at(0).value;
+    return a.through(of_sine(std::cos(c), -std::sin(c)));
+}
+Germ tan(const Germ& a) {
+    return sin(a) / cos(a);
+}
+Germ sinh(const Germ& a) {
+    const Real c = a.at(0).value;
+    return a.through(of_hyperbolic(std::sinh(c), std::cosh(c)));
+}
+Germ cosh(const Germ& a) {
+    const Real c = a.at(0).value;
+    return a.through(of_hyperbolic(std::cosh(c), std::sinh(c)));
+}
+Germ exp(const Germ& a) {
+    const Real c = a.at(0).value;
+    return a.through(of_hyperbolic(std::exp(c), std::exp(c)));
+}
+
+Germ tanh(const Germ& a) {
+    std::vector<Real> taylor{std::tanh(a.at(0).value)};
+    while (taylor.size() < longest) {
+        const std::size_t k = taylor.size() - 1;
+        Real square = 0;
+        for (std::size_t i = 0; i <= k; ++i) square += taylor[i] * taylor[k - i];
+        taylor.push_back(((k == 0 ? 1 : 0) - square) / static_cast<Real>(k + 1));
+    }
+    return a.through(taylor);
+}
+
+Germ atan(const Germ& a) {
+    const Real c = a.at(0).value;
+    std::vector<Real> taylor{std::atan(c)}, slope;
+    while (taylor.size() < longest) {
+        const std::size_t k = slope.size();
+        const Real before = k > 0 ? slope[k - 1] : 0, two_before = k > 1 ? slope[k - 2] : 0;
+        slope.push_back(((k == 0 ? 1 : 0) - 2 * c * before - two_before) / (1 + c * c));
+        taylor.push_back(slope.back() / static_cast<Real>(k + 1));
+    }
+    return a.through(taylor);
+}
+
+Germ asin(const Germ& a) {
+    return atan2(a, sqrt((1 - a) * (1 + a)));
+}
+Germ acos(const Germ& a) {
+    return atan2(sqrt((1 - a) * (1 + a)), a);
+}
+
+Germ log(const Germ& a) {
+    const Real c = a.at(0).value;
+    if (!a.defined_ || c <= 0) return Germ::undefined();
+    std::vector<Real> taylor{std::log(c)};
+    Real power = -1;
+    for (std::size_t k = 1; k < longest; ++k) {
+        power /= -c;
+        taylor.push_back(power / static_cast<Real>(k));
+    }
+    return a.through(taylor);
+}
+
+Germ sqrt(const Germ& a) {
+    return a.to_the(0.5L);
+}
+
+Germ abs(const Germ& a) {
+    return a.side() < 0 ? Germ(-1) * a : a;
+}
+
+Germ pow(const Germ& a, const Germ& b) {
+    return b.is_number() ? a.to_the(b.at(0).value) : exp(b * log(a));
+}
+
+Germ atan2(const Germ& y, const Germ& x) {
+    if (!y.defined_ || !x.defined_) return Germ::undefined();
+    const Real pi = std::acos(Real(-1));
+    const Germ::Term *first_y = y.leading(), *first_x = x.leading();
+    if (first_y == nullptr && first_x == nullptr) return Germ(0);
+    if (first_y == nullptr) return x.side() < 0 ? Germ(pi) : Germ(0);
+    const bool steep =
+        first_x == nullptr || first_y->exponent < first_x->exponent - same ||
+        (first_y->exponent < first_x->exponent + same && std::abs(first_y->value) > std::abs(first_x->value));
+    if (steep) return Germ(y.side() * pi / 2, rounding) - atan(x / y);
+    return x.side() > 0 ? atan(y / x) : Germ(y.side() * pi, rounding) + atan(y / x);
+}
+
+}  // namespace alembert

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "program/partials.hpp"
+
+#include <algorithm>
+#include <map>
+#include <queue>
+#include <set>
+#include <tuple>
+
+namespace alembert {
+
+namespace {
+
+/// ∂node/∂argument k, as a node.
+class Label {
+public:
+    explicit Label(Program& program) : p_(program) {}
+
+    int operator()(int id, std::size_t k) {
+        const Node node = p_[id];  // a copy: new nodes move the old ones
+        const int x = node.args[k];
+        switch (node.op) {
+            case Op::sum: return p_.number(node.coefficients[k]);
+            case Op::product: return of_product(node, id, k);
+            case Op::sin: return p_.call(Op::cos, {x});
+            case Op::cos: return times(-1, {{p_.call(Op::sin, {x}), 1}});
+            case Op::tan: return p_.sum(1, {{1, power(id, 2)}});
+            case Op::asin: return p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2);
+            case Op::acos: return times(-1, {{p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2), 1}});
+            case Op::atan: return p_.power(p_.sum(1, {{1, power(x, 2)}}), -1);
+            case Op::sinh: return p_.call(Op::cosh, {x});
+            case Op::cosh: return p_.call(Op::sinh, {x});
+            case Op::tanh: return p_.sum(1, {{-1, power(id, 2)}});
+            case Op::exp: return id;
+            case Op::log: return power(x, -1);
+            case Op::sqrt: return times(Rational(1) / 2, {{id, -1}});
+            case Op::abs: return p_.call(Op::sign, {x});
+            case Op::pow: return of_power(node, id, k);
+            case Op::atan2: {  // atan2(y, x)
+                const int square = p_.sum(0, {{1, power(node.args[0], 2)}, {1, power(node.args[1], 2)}});
+                return times(k == 0 ? 1 : -1, {{node.args[1 - k], 1}, {square, -1}});
+            }
+            case Op::min: case Op::max: {  // (1 ∓ sign(x − other))/2
+                const int above = p_.call(Op::sign, {p_.sum(0, {{1, x}, {-1, node.args[1 - k]}})});
+                const Rational half = Rational(1) / 2;
+                return p_.sum(half, {{node.op == Op::min ? -half : half, above}});
+            }
+            case Op::number: case Op::pi: case Op::variable: case Op::sign: break;
+        }
+        return p_.number(0);
+    }
+
+private:
+    int times(const Rational& c, const std::vector<Program::Factor>& factors) { return p_.product(c, factors); }
+    int power(int base, int exponent) { return p_.product(1, {{base, exponent}}); }
+
+    int of_product(const Node& node, int id, std::size_t k) {
+        if (node.is_reciprocal()) return times(-1, {{id, 2}});
+        std::vector<Program::Factor> others;
+        for (std::size_t i = 0; i < node.args.size(); ++i)
+            others.emplace_back(node.args[i], node.exponents[i] - (i == k ? 1 : 0));
+        return times(node.exponents[k], others);
+    }
+
+    int of_power(const Node& node, int id, std::size_t k) {
+        const int base = node.args[0], exponent = node.args[1];
+        if (k == 1) return times(1, {{p_.call(Op::log, {base}), 1}, {id, 1}});
+        const int less = p_.sum(-1, {{1, exponent}});
+        return times(1, {{exponent, 1}, {p_.call(Op::pow, {base, less}), 1}});
+    }
+
+    Program& p_;
+};
+
+class Graph {
+public:
+    Graph(Program& program, std::span<const int> outputs, std::span<const int> inputs)
+        : p_(program), outputs_(outputs), inputs_(inputs) {
+        const int size = program.size();
+        is_input_.assign(static_cast<std::size_t>(size), 0);
+        for (const int id : inputs) is_input_[static_cast<std::size_t>(id)] = 1;
+        const std::vector<char> active = active_nodes();
+        before_.resize(static_cast<std::size_t>(size) + outputs.size());
+        after_.resize(before_.size());
+        Label label(program);
+        for (int id = 0; id < size; ++id) {
+            if (!active[static_cast<std::size_t>(id)] || is_input(id)) continue;
+            inner_.push_back(id);
+            const std::vector<int> args = program[id].args;
+            for (std::size_t k = 0; k < args.size(); ++k)
+                if (active[static_cast<std::size_t>(args[k])]) add(args[k], id, label(id, k));
+        }
+        for (std::size_t k = 0; k < outputs.size(); ++k)
+            if (active[static_cast<std::size_t>(outputs[k])]) add(outputs[k], size + static_cast<int>(k), program.number(1));
+        first_output_ = size;
+    }
+
+    bool eliminate(Elimination order, long budget) {
+        left_ = budget;
+        if (order == Elimination::least_fill) return eliminate_least_fill();
+        if (order == Elimination::reverse) std::reverse(inner_.begin(), inner_.end());
+        return std::all_of(inner_.begin(), inner_.end(), [&](int v) { return eliminate(v); });
+    }
+
+    std::vector<Partial> result() {
+        std::vector<Partial> list;
+        for (std::size_t k = 0; k < outputs_.size(); ++k)
+            for (std::size_t j = 0; j < inputs_.size(); ++j) {
+                auto& edges = before_[static_cast<std::size_t>(first_output_) + k];
+                const auto found = edges.find(inputs_[j]);
+                if (found == edges.end()) continue;
+                const int node = value(found->second);
+                if (!p_.is_zero(node)) list.push_back({static_cast<int>(k), static_cast<int>(j), node});
+            }
+        return list;
+    }
+
+private:
+    /// What has been added up on an edge; one node as soon as somebody reads it.
+    using Edge = std::vector<Program::Term>;
+
+    bool is_input(int id) const { return is_input_[static_cast<std::size_t>(id)] != 0; }
+
+    /// Nodes on a way from an input to an output.
+    std::vector<char> active_nodes() const {
+        std::vector<char> wanted(is_input_.size(), 0), active(is_input_.size(), 0);
+        for (const int id : outputs_) wanted[static_cast<std::size_t>(id)] = 1;
+        for (int id = p_.size() - 1; id >= 0; --id)
+            if (wanted[static_cast<std::size_t>(id)] && !is_input(id))
+                for (const int arg : p_[id].args) wanted[static_cast<std::size_t>(arg)] = 1;
+        for (int id = 0; id < p_.size(); ++id) {
+            const auto k = static_cast<std::size_t>(id);
+            if (!wanted[k]) continue;
+            active[k] = is_input(id) ? 1 : 0;
+            for (const int arg : p_[id].args) active[k] |= active[static_cast<std::size_t>(arg)];
+        }
+        return active;
+    }
+
+    void add(int from, int to, int label) {
+        if (p_.is_zero(label)) return;
+        before_[static_cast<std::size_t>(to)][from].emplace_back(1, label);
+        after_[static_cast<std::size_t>(from)].insert(to);
+    }
+
+    int value(Edge& edge) {
+        if (edge.size() != 1 || !cln::equal(edge[0].first, 1)) edge = {{1, p_.sum(0, edge)}};
+        return edge[0].second;
+    }
+
+    bool eliminate(int v) {
+        auto& before = before_[static_cast<std::size_t>(v)];
+        auto& after = after_[static_cast<std::size_t>(v)];
+        left_ -= static_cast<long>(before.size() * after.size());
+        if (left_ < 0) return false;
+        for (const int i : after) {
+            auto& of_i = before_[static_cast<std::size_t>(i)];
+            const int out = value(of_i[v]);
+            of_i.erase(v);
+            if (p_.is_zero(out)) continue;
+            for (auto& [j, edge] : before)
+                if (const int in = value(edge); !p_.is_zero(in)) {
+                    of_i[j].emplace_back(1, p_.product(1, {{out, 1}, {in, 1}}));
+                    after_[static_cast<std::size_t>(j)].insert(i);
+                }
+        }
+        for (const auto& [j, edge] : before) after_[static_cast<std::size_t>(j)].erase(v);
+        before.clear();
+        after.clear();
+        return true;
+    }
+
+    bool eliminate_least_fill() {
+        using Entry = std::tuple<std::size_t, int>;  // pairs, vertex
+        const auto pairs = [&](int v) {
+            return before_[static_cast<std::size_t>(v)].size() * after_[static_cast<std::size_t>(v)].size();
+        };
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        std::vector<std::size_t> known(before_.size(), 0);
+        std::vector<char> is_left(before_.size(), 0);
+        const auto enter = [&](int v) { queue.emplace(known[static_cast<std::size_t>(v)] = pairs(v), v); };
+        for (const int v : inner_) is_left[static_cast<std::size_t>(v)] = 1, enter(v);
+        while (!queue.empty()) {
+            const auto [count, v] = queue.top();
+            queue.pop();
+            if (!is_left[static_cast<std::size_t>(v)] || count != known[static_cast<std::size_t>(v)]) continue;
+            std::vector<int> neighbours(after_[static_cast<std::size_t>(v)].begin(), after_[static_cast<std::size_t>(v)].end());
+            for (const auto& [j, edge] : before_[static_cast<std::size_t>(v)]) neighbours.push_back(j);
+            is_left[static_cast<std::size_t>(v)] = 0;
+            if (!eliminate(v)) return false;
+            for (const int w : neighbours)
+                if (is_left[static_cast<std::size_t>(w)] && pairs(w) != known[static_cast<std::size_t>(w)]) enter(w);
+        }
+        return true;
+    }
+
+    Program& p_;
+    std::span<const int> outputs_, inputs_;
+    std::vector<char> is_input_;
+    std::vector<std::map<int, Edge>> before_;  ///< of each vertex: where its edges come from
+    std::vector<std::set<int>> after_;
+    std::vector<int> inner_;
+    int first_output_ = 0;
+    long left_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs, std::span<const int> inputs,
+                                             Elimination order, long budget) {
+    Graph graph(program, outputs, inputs);
+    if (!graph.eliminate(order, budget)) return std::nullopt;
+    return graph.result();
+}
+
+}  // namespace alembert

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The field of exact arithmetic: a + b·i with a, b whole numbers modulo the prime p = 2⁶¹ − 1.
+///
+///     Prime(3) * Prime(3).inverse() == 1;
+///     *Prime::from(Rational(1) / 3) == Prime(3).inverse();
+///     Prime::root_of(3)->power(2) == 3;        // √3, an i times a root of −3
+///
+/// p is 3 modulo 4: −1 is no square of a plain number (b = 0), and the root of a square a that is a square itself is
+/// a^((p+1)/4). All that is random is plain; i comes in with the square roots of those numbers, such as 3 and 5, that
+/// have none among the plain.
+
+#include <cln/integer.h>
+
+#include <cstdint>
+#include <optional>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+class Prime {
+public:
+    static constexpr std::uint64_t modulus = (std::uint64_t{1} << 61) - 1;
+
+    constexpr Prime() = default;
+    constexpr Prime(std::int64_t n)  // NOLINT: a number is a number
+        : n_(n >= 0 ? reduced(static_cast<std::uint64_t>(n)) : negative(reduced(0 - static_cast<std::uint64_t>(n)))) {}
+    static constexpr Prime from_bits(std::uint64_t bits) {
+        Prime result;
+        result.n_ = reduced(bits);
+        return result;
+    }
+    static constexpr Prime i() {
+        Prime result;
+        result.i_ = 1;
+        return result;
+    }
+    /// Nothing if the modulus divides the denominator.
+    static std::optional<Prime> from(const Rational& r) {
+        const auto residue = [](const cln::cl_I& n) {
+            return from_bits(cln::cl_I_to_UQ(cln::mod(n, cln::cl_I(static_cast<unsigned long>(modulus)))));
+        };
+        const Prime below = residue(cln::denominator(r));
+        if (below.is_zero()) return std::nullopt;
+        return residue(cln::numerator(r)) * below.inverse();
+    }
+    /// √r of a positive number: the product of the roots of its prime factors, so that √(ab) = √a √b. Nothing if a factor is
+    /// beyond the table of small primes.
+    static std::optional<Prime> root_of(const Rational& r) {
+        constexpr int largest = 1000;
+        const auto below = from(cln::denominator(r));
+        if (!below || below->is_zero()) return std::nullopt;
+        Prime result = below->inverse();
+        cln::cl_I rest = cln::numerator(r) * cln::denominator(r);
+        for (int factor = 2; factor <= largest && rest != 1; ++factor)
+            while (cln::zerop(cln::mod(rest, cln::cl_I(factor)))) {
+                rest = cln::exquo(rest, cln::cl_I(factor));
+                const Prime plain = factor;
+                result *= plain.is_square() ? plain.root() : i() * (-plain).root();
+            }
+        cln::cl_I root;
+        if (!cln::sqrtp(rest, &root)) return std::nullopt;
+        return result * *from(root);
+    }
+
+    /// Of a plain number: the number; of any other a hash.
+    constexpr std::uint64_t bits() const { return n_ ^ (i_ * 0x9e3779b97f4a7c15ULL); }
+    constexpr bool is_zero() const { return n_ == 0 && i_ == 0; }
+    constexpr bool is_plain() const { return i_ == 0; }
+    friend constexpr bool operator==(Prime, Prime) = default;
+    friend constexpr auto operator<=>(Prime, Prime) = default;
+
+    friend constexpr Prime operator+(Prime a, Prime b) { return {reduced(a.n_ + b.n_), reduced(a.i_ + b.i_)}; }
+    friend constexpr Prime operator-(Prime a, Prime b) { return {reduced(a.n_ + modulus - b.n_), reduced(a.i_ + modulus - b.i_)}; }
+    friend constexpr Prime operator-(Prime a) { return {negative(a.n_), negative(a.i_)}; }
+    friend constexpr Prime operator*(Prime a, Prime b) {
+        if ((a.i_ | b.i_) == 0) return {product(a.n_, b.n_), 0};
+        return {reduced(product(a.n_, b.n_) + modulus - product(a.i_, b.i_)), reduced(product(a.n_, b.i_) + product(a.i_, b.n_))};
+    }
+    constexpr Prime& operator+=(Prime other) { return *this = *this + other; }
+    constexpr Prime& operator-=(Prime other) { return *this = *this - other; }
+    constexpr Prime& operator*=(Prime other) { return *this = *this * other; }
+
+    constexpr Prime power(std::uint64_t exponent) const {
+        Prime result = 1, square = *this;
+        for (; exponent != 0; exponent >>= 1, square *= square)
+            if ((exponent & 1U) != 0) result *= square;
+        return result;
+    }
+    /// Of zero: zero.
+    constexpr Prime inverse() const {
+        if (is_plain()) return power(modulus - 2);
+        const Prime over = norm().inverse();
+        return {product(n_, over.n_), product(negative(i_), over.n_)};
+    }
+    /// Of a plain number: among the plain ones. 0 is a square.
+    constexpr bool is_square() const { return is_plain() ? power((modulus - 1) / 2).n_ <= 1 : norm().is_square(); }
+    /// A root of a square; of a plain one that which is a square itself.
+    constexpr Prime root() const {
+        if (is_plain()) return power((modulus + 1) / 4);
+        const Prime half = Prime(2).inverse(), size = norm().root(), own{n_, 0};
+        Prime square = (own + size) * half;
+        if (!square.is_square()) square = (own - size) * half;
+        const Prime root = square.root();
+        return root + Prime{i_, 0} * (2 * root).inverse() * i();
+    }
+
+private:
+    constexpr Prime(std::uint64_t n, std::uint64_t i) : n_(n), i_(i) {}
+    constexpr Prime norm() const { return {reduced(product(n_, n_) + product(i_, i_)), 0}; }
+    static constexpr std::uint64_t reduced(std::uint64_t n) {
+        n = (n & modulus) + (n >> 61);
+        return n >= modulus ? n - modulus : n;
+    }
+    static constexpr std::uint64_t negative(std::uint64_t n) { return n == 0 ? 0 : modulus - n; }
+    static constexpr std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+        __extension__ using Wide = unsigned __int128;
+        const Wide wide = static_cast<Wide>(a) * b;
+        return reduced((static_cast<std::uint64_t>(wide) & modulus) + static_cast<std::uint64_t>(wide >> 61));
+    }
+    std::uint64_t n_ = 0, i_ = 0;
+};
+
+}  // namespace alembert

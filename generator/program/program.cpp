@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "program/program.hpp"
+
+#include <cln/integer.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <stdexcept>
+
+namespace alembert {
+
+namespace {
+
+constexpr std::array op_names{"number", "pi",   "variable", "sum",  "product", "sin",  "cos",  "tan",
+                              "asin",   "acos", "atan",     "sinh", "cosh",    "tanh", "exp",  "log",
+                              "sqrt",   "abs",  "sign",     "pow",  "atan2",   "min",  "max"};
+
+bool is_odd_function(Op op) {
+    switch (op) {
+        case Op::sin: case Op::tan: case Op::asin: case Op::atan: case Op::sinh: case Op::tanh: case Op::sign:
+            return true;
+        default: return false;
+    }
+}
+
+bool is_even_function(Op op) { return op == Op::cos || op == Op::cosh || op == Op::abs; }
+
+std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // splitmix64's finalizer over a running sum
+    h += value + 0x9e3779b97f4a7c15ULL;
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
+    return h ^ (h >> 31);
+}
+
+std::uint64_t hash_of(const Rational& r) { return cln::equal_hashcode(r); }
+
+bool same(const Node& a, const Node& b) {
+    return a.op == b.op && a.variable == b.variable && a.args == b.args && a.exponents == b.exponents &&
+           cln::equal(a.number, b.number) && a.coefficients.size() == b.coefficients.size() &&
+           std::equal(a.coefficients.begin(), a.coefficients.end(), b.coefficients.begin(),
+                      [](const Rational& x, const Rational& y) { return cln::equal(x, y); });
+}
+
+}  // namespace
+
+const char* name_of(Op op) { return op_names[static_cast<std::size_t>(op)]; }
+
+int Program::intern(Node node) {
+    std::uint64_t h = mix(static_cast<std::uint64_t>(node.op), static_cast<std::uint64_t>(node.variable.kind));
+    h = mix(mix(h, static_cast<std::uint64_t>(node.variable.index)), hash_of(node.number));
+    node.lead = 1 << 30;
+    for (std::size_t i = 0; i < node.args.size(); ++i) {
+        const Node& arg = nodes_[node.args[i]];
+        h = mix(h, arg.hash);
+        if (!node.coefficients.empty()) h = mix(h, hash_of(node.coefficients[i]));
+        if (!node.exponents.empty()) h = mix(h, static_cast<std::uint64_t>(node.exponents[i] + 1000));
+        node.depends |= arg.depends;
+        node.lead = std::min(node.lead, arg.lead);
+        node.size += arg.size;
+    }
+    if (node.op == Op::variable) {
+        node.depends = 1U << static_cast<unsigned>(node.variable.kind);
+        node.lead = static_cast<int>(node.variable.kind) * 100000 + node.variable.index;
+    }
+    node.hash = h;
+    std::vector<int>& bucket = known_[h];
+    for (const int id : bucket)
+        if (same(nodes_[id], node)) return id;
+    node.sources = sources_;
+    nodes_.push_back(std::move(node));
+    bucket.push_back(size() - 1);
+    return bucket.back();
+}
+
+bool Program::before(int a, int b) const {
+    if (a == b) return false;
+    const Node &x = nodes_[a], &y = nodes_[b];
+    if ((x.op == Op::variable) != (y.op == Op::variable)) {
+        if (x.is_constant() != y.is_constant()) return x.is_constant();
+        return x.op == Op::variable;
+    }
+    if (x.is_constant() != y.is_constant()) return x.is_constant();
+    if (x.lead != y.lead) return x.lead < y.lead;
+    if (x.size != y.size) return x.size < y.size;
+    if (x.op != y.op) return x.op < y.op;
+    return x.hash < y.hash;
+}
+
+int Program::number(const Rational& value) {
+    Node node;
+    node.number = value;
+    return intern(std::move(node));
+}
+
+int Program::pi() { return intern(Node{.op = Op::pi}); }
+
+int Program::variable(Variable variable) { return intern(Node{.op = Op::variable, .variable = variable}); }
+
+int Program::scaled(const Rational& coefficient, int id) {
+    if (cln::equal(coefficient, 1)) return id;
+    if (nodes_[id].is_number()) return number(coefficient * nodes_[id].number);
+    if (nodes_[id].is_scaled()) return scaled(coefficient * nodes_[id].coefficients[0], nodes_[id].args[0]);
+    return intern(Node{.op = Op::sum, .args = {id}, .coefficients = {coefficient}});
+}
+
+int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
+    Rational rest = constant;
+    std::map<int, Rational> by_node;
+    for (auto [coefficient, id] : terms) {
+        if (nodes_[id].is_scaled()) {
+            coefficient = coefficient * nodes_[id].coefficients[0];
+            id = nodes_[id].args[0];
+        }
+        if (nodes_[id].is_number())
+            rest = rest + coefficient * nodes_[id].number;
+        else
+            by_node[id] = by_node[id] + coefficient;
+    }
+    std::vector<Term> kept, constants;
+    for (const auto& [id, coefficient] : by_node)
+        if (!cln::zerop(coefficient)) (nodes_[id].is_constant() ? constants : kept).emplace_back(coefficient, id);
+    if (!kept.empty() && constants.size() + (cln::zerop(rest) ? 0 : 1) > 1) {
+        const int gathered = sum(rest, constants);
+        if (nodes_[gathered].is_number()) return sum(nodes_[gathered].number, kept);
+        rest = 0;
+        // A numeric factor of the gathered constant stays inside it, but for the sign, which costs nothing.
+        const bool flip = nodes_[gathered].is_scaled() && cln::minusp(nodes_[gathered].coefficients[0]);
+        constants = {{flip ? -1 : 1, flip ? scaled(-1, gathered) : gathered}};
+    } else if (!kept.empty() && constants.size() == 1) {
+        constants = {{cln::signum(constants[0].first), scaled(cln::abs(constants[0].first), constants[0].second)}};
+    }
+    kept.insert(kept.end(), constants.begin(), constants.end());
+    if (kept.empty()) return number(rest);
+    if (kept.size() == 1 && cln::zerop(rest)) return scaled(kept[0].first, kept[0].second);
+
+    std::sort(kept.begin(), kept.end(), [&](const Term& a, const Term& b) { return before(a.second, b.second); });
+    Rational content = cln::minusp(kept[0].first) ? -1 : 1;
+    const bool all_equal = std::all_of(kept.begin(), kept.end(), [&](const Term& term) {
+        return cln::equal(cln::abs(term.first), cln::abs(kept[0].first));
+    });
+    if (all_equal && cln::zerop(rest)) content = kept[0].first;
+    Node node{.op = Op::sum, .number = rest / content};
+    for (const auto& [coefficient, id] : kept) {
+        node.args.push_back(id);
+        node.coefficients.push_back(coefficient / content);
+    }
+    return scaled(content, intern(std::move(node)));
+}
+
+int Program::product(const Rational& coefficient, const std::vector<Factor>& factors) {
+    Rational content = coefficient;
+    std::map<int, int> by_node;
+    for (auto [id, exponent] : factors) {
+        if (exponent == 0) continue;
+        if (nodes_[id].is_scaled()) {
+            content = content * cln::expt(nodes_[id].coefficients[0], exponent);
+            id = nodes_[id].args[0];
+        }
+        if (nodes_[id].is_reciprocal()) {
+            id = nodes_[id].args[0];
+            exponent = -exponent;
+        }
+        if (nodes_[id].is_number()) {
+            if (cln::zerop(nodes_[id].number) && exponent < 0) throw std::domain_error("division by zero");
+            content = content * cln::expt(nodes_[id].number, exponent);
+        } else {
+            by_node[id] += exponent;
+        }
+    }
+    if (cln::zerop(content)) return number(0);
+    // √x · √x = x
+    for (auto it = by_node.begin(); it != by_node.end(); ++it)
+        if (nodes_[it->first].op == Op::sqrt && (it->second > 1 || it->second < -1)) {
+            std::vector<Factor> again(by_node.begin(), by_node.end());
+            again.emplace_back(nodes_[it->first].args[0], it->second / 2);
+            again.emplace_back(it->first, -2 * (it->second / 2));
+            return product(content, again);
+        }
+    std::vector<Factor> kept, constants;
+    for (const auto& [id, exponent] : by_node)
+        if (exponent != 0) (nodes_[id].is_constant() ? constants : kept).emplace_back(id, exponent);
+    if (!kept.empty() && !constants.empty()) {
+        const Rational size = cln::abs(content);
+        if (constants.size() > 1 || !cln::equal(size, 1) || constants[0].second != 1) {
+            constants = {{product(size, constants), 1}};
+            content = cln::signum(content);
+        }
+    }
+    kept.insert(kept.end(), constants.begin(), constants.end());
+    if (kept.empty()) return number(content);
+
+    if (kept.size() == 1 && kept[0].second == -1)
+        return scaled(content, intern(Node{.op = Op::product, .args = {kept[0].first}, .exponents = {-1}}));
+    for (auto& [id, exponent] : kept)
+        if (exponent < 0) {  // one division, shared by all who divide by it
+            id = product(1, {{id, -1}});
+            exponent = -exponent;
+        }
+    std::sort(kept.begin(), kept.end(), [&](const Factor& a, const Factor& b) { return before(a.first, b.first); });
+    Node node{.op = Op::product};
+    for (auto [id, exponent] : kept) {
+        if (exponent > 3) {  // by repeated squaring, the squares shared
+            const int half = product(1, {{id, exponent / 2}});
+            node.args.push_back(half);
+            node.exponents.push_back(2);
+            exponent %= 2;
+            if (exponent == 0) continue;
+        }
+        node.args.push_back(id);
+        node.exponents.push_back(exponent);
+    }
+    if (node.args.size() == 1 && node.exponents[0] == 1) return scaled(content, node.args[0]);
+    return scaled(content, intern(std::move(node)));
+}
+
+int Program::power(int base, const Rational& exponent) {
+    const cln::cl_I denominator = cln::denominator(exponent);
+    if (denominator == 1) return product(1, {{base, cln::cl_I_to_int(cln::numerator(exponent))}});
+    if (denominator == 2) {
+        const int numerator = cln::cl_I_to_int(cln::numerator(exponent));
+        return product(1, {{call(Op::sqrt, {base}), numerator}});
+    }
+    return call(Op::pow, {base, number(exponent)});
+}
+
+int Program::call(Op op, std::vector<int> args) {
+    const Node& arg = nodes_[args[0]];
+    if (args.size() == 1 && arg.is_number()) {
+        if (cln::zerop(arg.number)) {
+            if (op == Op::cos || op == Op::cosh || op == Op::exp) return number(1);
+            if (is_odd_function(op) || op == Op::sqrt || op == Op::abs) return number(0);
+        }
+        Rational root;
+        if (op == Op::sqrt && !cln::minusp(arg.number) && cln::sqrtp(arg.number, &root)) return number(root);
+        if (op == Op::abs) return number(cln::abs(arg.number));
+        if (op == Op::sign) return number(cln::signum(arg.number));
+        if (op == Op::log && cln::equal(arg.number, 1)) return number(0);
+    }
+    const bool negative = (arg.is_scaled() && cln::minusp(arg.coefficients[0])) ||
+                          (arg.is_number() && cln::minusp(arg.number));
+    if (negative && (is_odd_function(op) || is_even_function(op))) {
+        const int turned = scaled(-1, args[0]);
+        return is_even_function(op) ? call(op, {turned}) : scaled(-1, call(op, {turned}));
+    }
+    return intern(Node{.op = op, .args = std::move(args)});
+}
+
+std::vector<int> Program::needed(std::span<const int> roots) const {
+    std::vector<char> wanted(nodes_.size(), 0);
+    for (const int root : roots) wanted[root] = 1;
+    std::vector<int> result;
+    for (int id = size() - 1; id >= 0; --id) {
+        if (!wanted[id]) continue;
+        for (const int arg : nodes_[id].args) wanted[arg] = 1;
+        result.push_back(id);
+    }
+    std::reverse(result.begin(), result.end());
+    return result;
+}
+
+std::vector<int> Program::right_hand_side() const {
+    std::vector<int> nodes = nodes_of(Group::acceleration);
+    const std::vector<int> rates = nodes_of(Group::rate);
+    nodes.insert(nodes.end(), rates.begin(), rates.end());
+    return nodes;
+}
+
+Program Program::shell() const {
+    Program result;
+    result.source_labels = source_labels;
+    result.name = name;
+    result.parameters = parameters;
+    result.coordinates = coordinates;
+    result.speeds = speeds;
+    result.formulation = formulation;
+    result.is_textbook = is_textbook;
+    result.singular = singular;
+    return result;
+}
+
+Program Program::canonical() const {
+    Program result = shell();
+    std::vector<int> image(nodes_.size(), -1);
+    std::vector<std::pair<int, std::size_t>> stack;  // a node, and how many of its arguments are done
+    for (const Root& root : roots) {
+        stack.emplace_back(root.node, 0);
+        while (!stack.empty()) {
+            auto& [id, done] = stack.back();
+            const Node& node = nodes_[id];
+            if (image[id] < 0 && done < node.args.size()) {
+                const int next = node.args[done++];
+                if (image[next] < 0) stack.emplace_back(next, 0);
+                continue;
+            }
+            if (image[id] < 0) {
+                Node copy = node;
+                copy.size = 1;
+                copy.depends = 0;
+                for (int& arg : copy.args) arg = image[arg];
+                result.set_sources(node.sources);
+                image[id] = result.intern(std::move(copy));
+            }
+            stack.pop_back();
+        }
+        Root& copy = result.roots.emplace_back(root);
+        copy.node = image[root.node];
+    }
+    result.set_sources({0});
+    return result;
+}
+
+std::vector<int> Program::nodes_of(Group group) const {
+    std::vector<int> result;
+    for (const Root& root : roots)
+        if (root.group == group) result.push_back(root.node);
+    return result;
+}
+
+std::vector<int> Program::kept_constraints() const {
+    std::vector<int> result;
+    for (const Root& root : roots)
+        if (root.group == Group::gamma) result.push_back(root.constraint);
+    return result;
+}
+
+Operations Program::count(std::span<const int> wanted) const {
+    Operations operations;
+    for (const int id : needed(wanted)) {
+        const Node& node = nodes_[id];
+        if (node.is_constant()) continue;
+        if (node.op == Op::sum) {
+            operations.additions += static_cast<int>(node.args.size()) - (cln::zerop(node.number) ? 1 : 0);
+            for (const Rational& c : node.coefficients)
+                if (!cln::equal(cln::abs(c), 1)) ++operations.multiplications;
+        } else if (node.op == Op::product) {
+            int factors = 0;
+            for (const int e : node.exponents) factors += e;
+            if (node.is_reciprocal())
+                ++operations.divisions;
+            else
+                operations.multiplications += factors - 1;
+        } else if (node.op != Op::variable && node.op != Op::number && node.op != Op::pi) {
+            ++operations.functions;
+        }
+    }
+    return operations;
+}
+
+}  // namespace alembert

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Copies a program node by node; `rebuilt` decides what becomes of each.
+///
+///     Rewriting rewriting(old);
+///     return rewriting.finish([&](int id) { return rewriting.plain(id); });      // the same again
+
+#include <functional>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+class Rewriting {
+public:
+    explicit Rewriting(const Program& old) : old_(old), made_(old.shell()), image_(old.size(), -1) {
+        std::vector<int> roots;
+        for (const Root& root : old.roots) roots.push_back(root.node);
+        needed = old.needed(roots);
+    }
+
+    int plain(int id) {
+        const Node& node = old_[id];
+        switch (node.op) {
+            case Op::number: return made_.number(node.number);
+            case Op::pi: return made_.pi();
+            case Op::variable: return made_.variable(node.variable);
+            case Op::sum: {
+                std::vector<Program::Term> terms;
+                for (std::size_t k = 0; k < node.args.size(); ++k)
+                    terms.emplace_back(node.coefficients[k], image_[node.args[k]]);
+                return made_.sum(node.number, terms);
+            }
+            case Op::product: {
+                std::vector<Program::Factor> factors;
+                for (std::size_t k = 0; k < node.args.size(); ++k)
+                    factors.emplace_back(image_[node.args[k]], node.exponents[k]);
+                return made_.product(1, factors);
+            }
+            default: {
+                std::vector<int> args;
+                for (const int arg : node.args) args.push_back(image_[arg]);
+                return made_.call(node.op, std::move(args));
+            }
+        }
+    }
+
+    Program finish(const std::function<int(int)>& rebuilt) {
+        for (const int id : needed) {
+            made_.set_sources(old_[id].sources);
+            image_[id] = rebuilt(id);
+        }
+        made_.set_sources({0});
+        for (const Root& root : old_.roots) {
+            made_.roots.push_back(root);
+            made_.roots.back().node = image_[root.node];
+        }
+        return std::move(made_);
+    }
+
+    int image(int id) const { return image_[id]; }
+    Program& made() { return made_; }
+
+    std::vector<int> needed;
+
+private:
+    const Program& old_;
+    Program made_;
+    std::vector<int> image_;
+};
+
+}  // namespace alembert

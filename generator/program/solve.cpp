@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// M = L D Lᵀ:  d_k = M_kk,  l_ik = M_ik / d_k,  M_ij ← M_ij − l_ik M_jk;  then L y = f, z = D⁻¹ y, Lᵀ x = z
+// (Golub & Van Loan, Matrix Computations, §4.1).
+#include "program/solve.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace alembert {
+
+namespace {
+
+class Elimination {
+public:
+    Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides, int preferred)
+        : p_(program), preferred_(preferred), n_(static_cast<int>(sides[0].size())), b_(std::move(sides)), rows_(n_, std::vector<int>(n_)), later_pivots_(n_ - preferred, -1) {
+        for (int i = 0, k = 0; i < n_; ++i)
+            for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
+    }
+
+    std::optional<std::vector<std::vector<int>>> solve() {
+        std::vector<int> left(n_);
+        for (int i = 0; i < n_; ++i) left[i] = i;
+        while (!left.empty()) {
+            const int place = next_pivot(left);
+            if (place < 0) return with_exchanges(left);
+            const int k = left[place];
+            if (k >= preferred_) later_pivots_[k - preferred_] = p_.product(-1, {{rows_[k][k], 1}});
+            left.erase(left.begin() + place);
+            eliminate(k, left);
+            order_.push_back(k);
+        }
+        return back_substituted({b_.size(), std::vector<int>(n_, -1)});
+    }
+
+    /// After `solve`.
+    const std::vector<int>& later_pivots() const { return later_pivots_; }
+
+private:
+    int times(int a, int b) { return p_.product(1, {{a, 1}, {b, 1}}); }
+    int minus(int a, int b) { return p_.sum(0, {{1, a}, {-1, b}}); }
+    bool zero(int i, int j) const { return p_.is_zero(rows_[i][j]); }
+
+    /// The position in `left` of the regular pivot with the fewest neighbours; the last of equals, so that a chain
+    /// is eliminated from its tip.
+    int next_pivot(const std::vector<int>& left) const {
+        int best = -1, fewest = 0;
+        for (std::size_t place = 0; place < left.size(); ++place) {
+            const int k = left[place];
+            if (zero(k, k)) continue;
+            int neighbours = 0;
+            for (const int i : left) neighbours += i != k && !zero(i, k) ? 1 : 0;
+            const bool is_first = k < preferred_, best_is_first = best >= 0 && left[best] < preferred_;
+            if (best >= 0 && best_is_first && !is_first) continue;
+            if (best < 0 || neighbours <= fewest || (is_first && !best_is_first)) best = static_cast<int>(place), fewest = neighbours;
+        }
+        return best;
+    }
+
+    void eliminate(int k, const std::vector<int>& left) {
+        const int inverse = p_.product(1, {{rows_[k][k], -1}});
+        for (const int i : left) {
+            if (zero(i, k)) continue;
+            const int l = times(rows_[i][k], inverse);
+            for (const int j : left)
+                if (j <= i && !zero(j, k))
+                    rows_[i][j] = rows_[j][i] = minus(rows_[i][j], times(l, rows_[j][k]));
+            for (auto& b : b_) b[i] = minus(b[i], times(l, b[k]));
+        }
+        for (const int i : left)
+            if (!zero(i, k)) rows_[k][i] = times(rows_[k][i], inverse);  // now Lᵀ
+        for (auto& b : b_) b[k] = times(b[k], inverse);
+    }
+
+    /// Lᵀ x = z for the rows in `order_`, last first; `x` holds what is known already.
+    std::vector<std::vector<int>> back_substituted(std::vector<std::vector<int>> solutions) {
+        for (std::size_t side = 0; side < b_.size(); ++side)
+            for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
+                std::vector<int>& x = solutions[side];
+                std::vector<Program::Term> terms{{1, b_[side][*k]}};
+                for (int i = 0; i < n_; ++i)
+                    if (i != *k && x[i] >= 0 && !zero(*k, i)) terms.emplace_back(-1, times(rows_[*k][i], x[i]));
+                x[*k] = p_.sum(0, terms);
+            }
+        return solutions;
+    }
+
+    /// Gaussian elimination with row exchanges on the rows and columns in `left`.
+    std::optional<std::vector<std::vector<int>>> with_exchanges(const std::vector<int>& left) {
+        std::vector<int> rows = left;
+        for (std::size_t c = 0; c < left.size(); ++c) {
+            std::size_t r = c;
+            while (r < rows.size() && zero(rows[r], left[c])) ++r;
+            if (r == rows.size()) return std::nullopt;
+            std::swap(rows[c], rows[r]);
+            const int inverse = p_.product(1, {{rows_[rows[c]][left[c]], -1}});
+            for (std::size_t i = c + 1; i < rows.size(); ++i) {
+                if (zero(rows[i], left[c])) continue;
+                const int factor = times(rows_[rows[i]][left[c]], inverse);
+                for (std::size_t j = c; j < left.size(); ++j)
+                    rows_[rows[i]][left[j]] = minus(rows_[rows[i]][left[j]], times(factor, rows_[rows[c]][left[j]]));
+                for (auto& b : b_) b[rows[i]] = minus(b[rows[i]], times(factor, b[rows[c]]));
+            }
+        }
+        std::vector<std::vector<int>> solutions(b_.size(), std::vector<int>(n_, -1));
+        for (std::size_t side = 0; side < b_.size(); ++side)
+            for (std::size_t c = left.size(); c-- > 0;) {
+                std::vector<int>& x = solutions[side];
+                std::vector<Program::Term> terms{{1, b_[side][rows[c]]}};
+                for (std::size_t j = c + 1; j < left.size(); ++j)
+                    terms.emplace_back(-1, times(rows_[rows[c]][left[j]], x[left[j]]));
+                x[left[c]] = p_.product(1, {{p_.sum(0, terms), 1}, {rows_[rows[c]][left[c]], -1}});
+            }
+        return back_substituted(std::move(solutions));
+    }
+
+    Program& p_;
+    int preferred_;
+    int n_;
+    std::vector<std::vector<int>> b_;  // right-hand sides, one after the other
+    std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
+    std::vector<int> order_;
+    std::vector<int> later_pivots_;  // with the sign changed; −1 where rows were exchanged
+};
+
+}  // namespace
+
+std::optional<std::vector<int>> solve_symmetric(Program& program, const std::vector<int>& lower,
+                                                const std::vector<int>& f, int preferred) {
+    auto solutions = Elimination(program, lower, {f}, preferred).solve();
+    if (!solutions) return std::nullopt;
+    return std::move(solutions->front());
+}
+
+std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, int size, int preferred) {
+    Elimination elimination(program, lower, {std::vector<int>(size, program.number(0))}, preferred);
+    elimination.solve();
+    std::vector<int> pivots = elimination.later_pivots();
+    if (std::count(pivots.begin(), pivots.end(), -1) > 0) pivots.clear();
+    return pivots;
+}
+
+std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
+                                                             const std::vector<std::vector<int>>& sides, int preferred) {
+    return Elimination(program, lower, sides, preferred).solve();
+}
+
+}  // namespace alembert

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/agree.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace alembert {
+
+namespace {
+
+const char* word(Agreement::Verdict verdict) {
+    return std::array{"proved", "refuted", "undecided"}[static_cast<std::size_t>(verdict)];
+}
+
+std::string how_it_was_proved(const Agreement& a) {
+    if (a.normal_form)
+        return fmt::format("The normal forms of all entries of M and f are equal; so are the accelerations at {} random points modulo 2^61 - 1\n",
+                           a.points);
+    return fmt::format("The accelerations are equal at {} random points modulo 2^61 - 1; the chance that a difference was missed is below 2^{:.0f}\n",
+                       a.points, a.failure);
+}
+
+}  // namespace
+
+Json as_json(const Agreed& agreed) {
+    const Agreement& a = agreed.agreement;
+    Json json;
+    json["formalisms"] = Json::array();
+    for (const Equations& e : agreed.derivations.equations) json["formalisms"].push_back(e.formalism);
+    json["verdict"] = word(a.verdict);
+    json["method"] = a.normal_form ? "proved" : "sampled";
+    json["points"] = a.points;
+    json["failure_bound_log2"] = a.failure;
+    json["refused"] = Json::object();
+    for (const auto& [name, reason] : agreed.derivations.refused) json["refused"][name] = reason;
+    if (!a.reason.empty()) json["reason"] = a.reason;
+    json["seconds"] = agreed.seconds;
+    return json;
+}
+
+std::string as_text(const Agreed& agreed) {
+    const Agreement& a = agreed.agreement;
+    std::string names;
+    for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
+    std::string text = fmt::format("{}: {}\n", names, word(a.verdict));
+    text += a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason + "\n";
+    for (const auto& [name, reason] : agreed.derivations.refused) text += fmt::format("{} does not apply: {}\n", name, reason);
+    return text + fmt::format("{:.3f} s\n", agreed.seconds);
+}
+
+}  // namespace alembert

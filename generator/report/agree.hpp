@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "agree/agree.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const Agreed& agreed);
+std::string as_text(const Agreed& agreed);
+
+}  // namespace alembert

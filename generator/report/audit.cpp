@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/audit.hpp"
+
+#include <fmt/format.h>
+
+#include "notation/text.hpp"
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+const char* answer(const std::optional<bool>& value) { return value ? (*value ? "yes" : "no") : "undecided"; }
+
+}  // namespace
+
+Json as_json(const Audited& audited) {
+    const Audit& audit = audited.audit;
+    const Mechanism& m = audited.mechanism;
+    Json json;
+    json["constraints"] = Json::array();
+    for (const AuditedConstraint& c : audit.constraints) {
+        Json one;
+        one["name"] = c.name;
+        one["kind"] = c.holonomic ? "holonomic" : "nonholonomic";
+        one["rheonomic"] = c.rheonomic;
+        one["integrable"] = or_null(c.integrable);
+        one["integrable_alone"] = or_null(c.alone);
+        one["integral"] = c.integral ? Json(text(*c.integral)) : Json(nullptr);
+        one["redundant"] = c.redundant;
+        one["residual"] = c.residual;
+        one["notes"] = c.notes;
+        json["constraints"].push_back(one);
+    }
+    json["identities"] = m.identities;
+    json["rank"] = audit.rank;
+    json["degrees_of_freedom"] = audit.degrees_of_freedom;
+    json["coordinates_free"] = audit.integrals ? Json(m.size() - *audit.integrals) : Json(nullptr);
+    json["contradictory"] = Json::array();
+    for (const int k : audit.contradictory) json["contradictory"].push_back(audit.constraints[k].name);
+    json["generic_rank"] = or_null(audit.generic_rank);
+    json["rank_is_exact"] = audit.exact_rank;
+    json["failure_bound_log2"] = audit.failure < 0 ? Json(audit.failure) : Json(nullptr);
+    json["integrable_combinations"] = Json::array();
+    for (const auto& [name, integral] : audit.combinations)
+        json["integrable_combinations"].push_back({{"combination", name}, {"integral", integral ? Json(text(*integral)) : Json(nullptr)}});
+    json["adjusted"] = Json::array();
+    for (const Adjusted& a : audit.adjusted) json["adjusted"].push_back({{"name", a.name}, {"from", a.from}, {"to", a.to}});
+    json["singular_poses"] = Json::array();
+    for (const SingularPose& pose : audit.singular_poses) {
+        Json one;
+        one["coordinates"] = Json::object();
+        for (int i = 0; i < m.size(); ++i) one["coordinates"][m.q[i].get_name()] = pose.q[i];
+        one["rank"] = pose.rank;
+        one["initial"] = pose.given;
+        one["among"] = Json::array();
+        for (const int k : pose.among) one["among"].push_back(m.constraints[k].name);
+        json["singular_poses"].push_back(one);
+    }
+    json["notes"] = audit.notes;
+    if (!audit.problem.empty()) json["problem"] = audit.problem;
+    return json;
+}
+
+std::string as_text(const Audited& audited) {
+    const Audit& audit = audited.audit;
+    const Mechanism& m = audited.mechanism;
+    std::string page;
+    put(page, "{} coordinate{}, rank {}: {} degree{} of freedom", m.size(), m.size() == 1 ? "" : "s", audit.rank, audit.degrees_of_freedom,
+               audit.degrees_of_freedom == 1 ? "" : "s");
+    if (audit.integrals && m.size() - *audit.integrals != audit.degrees_of_freedom)
+        put(page, " (independent rates), {} coordinates that can be reached", m.size() - *audit.integrals);
+    put(page, "\n");
+    if (!m.identities.empty())
+        put(page, "Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
+    if (audit.constraints.empty()) {
+        put(page, "There are no constraints.\n");
+        return page;
+    }
+    std::size_t width = 10;
+    for (const AuditedConstraint& c : audit.constraints) width = std::max(width, c.name.size());
+    put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", "constraint", width, "kind", "time",
+               "integrable", "alone", "redundant", "position", "velocity");
+    for (const AuditedConstraint& c : audit.constraints)
+        put(page, "{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9.2g}\n", c.name, width,
+                   c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? "rheonomic" : "scleronomic",
+                   answer(c.integrable), answer(c.alone), c.redundant ? "yes" : "no",
+                   c.holonomic ? fmt::format("{:.2g}", c.residual[0]) : "-", c.residual[1]);
+    put(page, "\n");
+    for (const AuditedConstraint& c : audit.constraints) {
+        if (c.integral) put(page, "{}: {} = const\n", c.name, text(*c.integral));
+        for (const std::string& note : c.notes) put(page, "{}: {}\n", c.name, note);
+    }
+    for (const auto& [name, integral] : audit.combinations)
+        put(page, "{} is integrable{}\n", name, integral ? fmt::format(": {} = const", text(*integral)) : "");
+    for (const std::string& note : audit.notes) put(page, "{}\n", note);
+    for (const Adjusted& a : audit.adjusted) put(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
+    for (const SingularPose& pose : audit.singular_poses) {
+        std::string where, among;
+        for (int i = 0; i < m.size(); ++i) where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
+        for (const int k : pose.among) among += fmt::format("{}'{}'", among.empty() ? "" : ", ", m.constraints[k].name);
+        put(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank, pose.given ? "at the initial state, " : "", where, among,
+                   pose.among.size() == 1 ? "has no row left" : "become dependent");
+    }
+    put(page, "The rank is that at states which obey the constraints, with the scene's parameters{}.\n",
+               audit.exact_rank ? "; exact arithmetic modulo 2^61 - 1 finds the same" : ", in floating point");
+    if (audit.failure < 0)
+        put(page, "Integrable: Frobenius' condition, exactly, for general parameters; the chance of a wrong yes is below 2^{:.0f}.\n", audit.failure);
+    return page;
+}
+
+}  // namespace alembert

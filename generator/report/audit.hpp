@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "audit/audit.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const Audited& audited);
+std::string as_text(const Audited& audited);
+
+}  // namespace alembert

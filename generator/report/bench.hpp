@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "report/json.hpp"
+#include "run/bench.hpp"
+
+namespace alembert {
+
+Json as_json(const Bench& bench);
+std::string as_text(const Bench& bench);
+std::string as_csv(const Bench& bench);
+/// Time against error (work_precision.hpp).
+std::string as_svg(const Bench& bench);
+
+}  // namespace alembert

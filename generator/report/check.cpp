@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/check.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace alembert {
+
+namespace {
+
+const char* name_of(Verdict verdict) {
+    return std::array{"proved", "refuted", "undecided", "vacuous"}[static_cast<std::size_t>(verdict)];
+}
+
+Json json_of(const Claim& claim, const CheckedClaim& checked) {
+    Json json;
+    json["equation"] = text_of(claim.equation);
+    json["line"] = claim.place.line;
+    if (!claim.source.empty()) json["source"] = claim.source;
+    json["at"] = claim.at;
+    json["verdict"] = name_of(checked.verdict);
+    json["method"] = checked.normal_form ? "proved" : "sampled";
+    if (checked.verdict == Verdict::proved && !checked.normal_form) json["failure_bound_log2"] = checked.failure;
+    json["counterexample"] = Json::object();
+    for (const auto& [name, value] : checked.counterexample) json["counterexample"][name] = value;
+    json["residual"] = checked.residual.empty() ? Json(nullptr) : Json(checked.residual_value);
+    if (!checked.residual.empty()) json["residual_text"] = checked.residual;
+    json["difference"] = checked.difference;
+    if (!checked.nearest.empty()) json["nearest"] = checked.nearest;
+    json["likely"] = nullptr;
+    if (checked.verdict == Verdict::refuted) {
+        const Slip slip = checked.likely.value_or(Slip{});
+        json["likely"] = {{"kind", slip.kind}, {"term", slip.term}};
+        if (!slip.repair.empty()) json["likely"]["repair"] = slip.repair;
+    }
+    if (!checked.reason.empty()) json["reason"] = checked.reason;
+    return json;
+}
+
+std::string words_of(const Slip& slip) {
+    if (slip.kind == "sign") return "a sign: of the term " + slip.term;
+    if (slip.kind == "factor") return "a factor: in the term " + slip.term;
+    if (slip.kind == "lost_dot") return "a lost dot or square: in the term " + slip.term;
+    if (slip.kind == "missing_term") return "a term is missing: " + slip.term;
+    if (slip.kind == "extra_term") return "a term too many: " + slip.term;
+    if (slip.kind == "swapped_trig") return "sine and cosine exchanged: in the term " + slip.term;
+    if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
+    if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
+    if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
+    return "unknown";
+}
+
+std::string text_of(const Claim& claim, const CheckedClaim& c) {
+    std::string page = fmt::format("{:<9}  {}\n", name_of(c.verdict), text_of(claim.equation));
+    const auto line = [&page](const std::string& label, const std::string& text) { page += fmt::format("{:<9}  {}{}\n", "", label, text); };
+    if (!claim.source.empty()) line("", claim.source);
+    if (!c.reason.empty()) line("", c.reason);
+    if (c.verdict != Verdict::refuted) return page;
+    if (!c.nearest.empty()) line("nearest right equation: ", c.nearest);
+    if (!c.difference.empty()) line("the claim has beyond that: ", c.difference);
+    if (c.likely) {
+        line("likely ", words_of(*c.likely));
+        line("right is: ", c.likely->repair);
+    }
+    if (!c.counterexample.empty()) {
+        std::string state;
+        for (const auto& [name, value] : c.counterexample) state += (state.empty() ? "" : ", ") + name + " = " + value;
+        line("it fails at ", state);
+        line("where left - right = ", c.residual);
+    }
+    return page;
+}
+
+}  // namespace
+
+Json as_json(const CheckedScene& checked) {
+    Json json;
+    json["claims"] = Json::array();
+    for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
+        json["claims"].push_back(json_of(checked.scene.claims[k], checked.checked.claims[k]));
+    json["complete"] = checked.checked.complete;
+    return json;
+}
+
+std::string as_text(const CheckedScene& checked) {
+    std::string page;
+    for (std::size_t k = 0; k < checked.checked.claims.size(); ++k) page += text_of(checked.scene.claims[k], checked.checked.claims[k]);
+    return page + (checked.checked.complete ? "With the constraints, the claims that hold determine the motion.\n"
+                                            : "The claims that hold do not determine the motion.\n");
+}
+
+}  // namespace alembert

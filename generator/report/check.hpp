@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "check/check.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const CheckedScene& checked);
+std::string as_text(const CheckedScene& checked);
+
+}  // namespace alembert

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/evaluation.hpp"
+
+#include <algorithm>
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+Json object_of(const Evaluation::Named& values) {
+    Json object = Json::object();
+    for (const auto& [name, value] : values) object[name] = value;
+    return object;
+}
+
+std::size_t widest_name(const Evaluation& e) {
+    std::size_t width = 16;
+    for (const std::string& name : e.coordinates) width = std::max(width, name.size() + 1);
+    for (const auto& [name, value] : e.multipliers) width = std::max(width, name.size() + 1);
+    for (const JointLoad& load : e.joint_loads) width = std::max(width, load.joint.size() + 1);
+    return width;
+}
+
+}  // namespace
+
+Json as_json(const Evaluation& e, bool reactions) {
+    Json result;
+    result["time"] = e.time;
+    result["coordinates"] = by_name(e.coordinates, e.q);
+    result["rates"] = by_name(e.coordinates, e.rates);
+    result["accelerations"] = by_name(e.coordinates, e.accelerations);
+    result["speeds"] = e.speeds.empty() ? result["rates"] : object_of(e.speeds);
+    result["speed_rates"] = e.speed_rates.empty() ? result["accelerations"] : object_of(e.speed_rates);
+    result["multipliers"] = object_of(e.multipliers);
+    result["kinetic"] = e.kinetic;
+    result["potential"] = e.potential;
+    result["energy"] = e.energy;
+    result["residuals"] = Json::object();
+    for (const auto& [name, residual] : e.residuals) result["residuals"][name] = residual;
+    if (e.closed) result["closed"] = *e.closed;
+    if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
+    result["outputs"] = object_of(e.outputs);
+    if (!reactions) return result;
+    result["reactions"] = Json::object();
+    for (const Evaluation::Reaction& r : e.reactions) result["reactions"][r.constraint][r.coordinate] = r.force;
+    result["joint_reactions"] = Json::object();
+    for (const JointLoad& load : e.joint_loads) result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
+    return result;
+}
+
+std::string as_text(const Evaluation& e) {
+    const std::size_t width = widest_name(e);
+    std::string page;
+    put(page, "t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", e.time, "", width, "value", "rate", "acceleration");
+    for (std::size_t i = 0; i < e.coordinates.size(); ++i)
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", e.coordinates[i], width, e.q[i], e.rates[i], e.accelerations[i]);
+    for (std::size_t k = 0; k < e.speeds.size() && k < e.speed_rates.size(); ++k)
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second, e.speed_rates[k].second);
+    for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
+    for (const std::string& line : e.adjusted) put(page, "adjusted {}\n", line);
+    put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
+    for (const auto& [name, value] : e.outputs) put(page, "{} = {:.16g}\n", name, value);
+    if (!e.joint_loads.empty()) page += "\nJoints exert on their children, along the joint's axes:\n";
+    for (const JointLoad& load : e.joint_loads)
+        for (const auto& [what, v] : {std::pair("force", &load.force), std::pair("moment", &load.moment)})
+            put(page, "{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1], (*v)[2]);
+    return page;
+}
+
+}  // namespace alembert

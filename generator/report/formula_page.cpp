@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/formula_page.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "notation/latex.hpp"
+#include "notation/mathml.hpp"
+#include "notation/text.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// What `mathml` puts into its <math> element.
+std::string mathml_row(const Phrase& phrase) {
+    const std::string whole = mathml(phrase);
+    const std::size_t begin = whole.find('>') + 1, end = whole.rfind("</math>");
+    return whole.substr(begin, end - begin);
+}
+
+constexpr char formula_begins = '\x01', formula_ends = '\x02';  // around LaTeX among words
+
+std::string escaped(const std::string& words, bool xml) {
+    std::string result;
+    bool in_formula = false;
+    for (const char c : words) {
+        if (c == formula_begins || c == formula_ends) {
+            in_formula = c == formula_begins;
+            result += '$';
+            continue;
+        }
+        if (in_formula) {
+            result += c;
+            continue;
+        }
+        if (xml && c == '&') result += "&amp;";
+        else if (xml && c == '<') result += "&lt;";
+        else if (xml && c == '>') result += "&gt;";
+        else if (!xml && std::string("_&%#${}").find(c) != std::string::npos) result += std::string("\\") + c;
+        else if (!xml && c == '^') result += "\\^{}";
+        else if (!xml && c == '~') result += "\\~{}";
+        else if (!xml && c == '\\') result += "\\textbackslash{}";
+        else result += c;
+    }
+    return result;
+}
+
+std::string text_left(const Statement& s) {
+    switch (s.kind) {
+        case Statement::Kind::partial: return fmt::format("d{}/d({})", s.letter, text(*s.by));
+        case Statement::Kind::force: return fmt::format("{}({})", s.letter, text(*s.by));
+        case Statement::Kind::work: return fmt::format("Q({}) of {}", text(*s.by), s.of);
+        default: return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
+    }
+}
+
+/// w_x, the component of an angular velocity, is ω_x in print.
+bool is_angular(const std::string& letter) { return letter.size() == 3 && letter[0] == 'w' && letter[1] == '_'; }
+
+std::string latex_letter(const std::string& letter) { return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter; }
+
+std::string mathml_letter(const std::string& letter) {
+    return is_angular(letter) ? "<msub><mi>ω</mi><mi>" + letter.substr(2) + "</mi></msub>" : "<mi>" + letter + "</mi>";
+}
+
+std::string latex_left(const Statement& s) {
+    const std::string of = s.of.empty() ? "" : fmt::format("^{{\\text{{{}}}}}", escaped(s.of, false));
+    switch (s.kind) {
+        case Statement::Kind::partial:
+            return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
+        case Statement::Kind::force:
+        case Statement::Kind::work: return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
+        default: return latex_letter(s.letter) + of;
+    }
+}
+
+std::string mathml_left(const Statement& s) {
+    const std::string letter = mathml_letter(s.letter);
+    const std::string of = "<mtext>" + escaped(s.of, true) + "</mtext>";
+    switch (s.kind) {
+        case Statement::Kind::partial:
+            return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) + "</mrow></mfrac>";
+        case Statement::Kind::force: return "<msub>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow></msub>";
+        case Statement::Kind::work:
+            return "<msubsup>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow>" + of + "</msubsup>";
+        default: return s.of.empty() ? letter : "<msup>" + letter + of + "</msup>";
+    }
+}
+
+std::string text_page(const std::vector<Block>& blocks) {
+    std::string page;
+    for (const Block& block : blocks) {
+        page += (page.empty() ? "" : "\n") + block.words + "\n";
+        for (const auto& [left, right] : block.equalities) page += "  " + left + " = " + right + "\n";
+    }
+    return page;
+}
+
+constexpr int line_width = 75;  // letters of a formula that fit on a page
+
+/// Letters that a reader sees, roughly: a command is one, braces are none.
+int visible(const std::string& formula) {
+    int count = 0;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+        if (formula[i] == '\\')
+            while (i + 1 < formula.size() && std::isalpha(static_cast<unsigned char>(formula[i + 1])) != 0) ++i;
+        if (std::string("{}_ ").find(formula[i]) == std::string::npos) ++count;
+    }
+    return count;
+}
+
+/// A long sum over several lines, broken before its outermost signs.
+std::string broken(const std::string& formula) {
+    std::string lines, line;
+    int depth = 0;
+    for (std::size_t i = 0; i < formula.size(); ++i) {
+        const char c = formula[i];
+        if (c == '{' || c == '(') ++depth;
+        if (c == '}' || c == ')') --depth;
+        const bool is_sign = depth == 0 && c == ' ' && i + 2 < formula.size() &&
+                             (formula[i + 1] == '+' || formula[i + 1] == '-') && formula[i + 2] == ' ';
+        std::size_t next = i + 2;  // where the term that begins here ends
+        for (int inside = 0; is_sign && next < formula.size(); ++next) {
+            if (formula[next] == '{' || formula[next] == '(') ++inside;
+            if (formula[next] == '}' || formula[next] == ')') --inside;
+            if (inside == 0 && next > i + 3 && formula[next] == ' ' && next + 2 < formula.size() &&
+                (formula[next + 1] == '+' || formula[next + 1] == '-') && formula[next + 2] == ' ')
+                break;
+        }
+        if (is_sign && visible(line) + visible(formula.substr(i, next - i)) > line_width) {
+            lines += line + " \\\\\n  &\\quad ";
+            line.clear();
+            continue;
+        }
+        line += c;
+    }
+    return lines + line;
+}
+
+std::string latex_equality(const std::string& left, const std::string& right) {
+    if (visible(left) + visible(right) <= line_width) return "  " + left + " &= " + right;
+    if (visible(left) > line_width / 2) return "  &" + broken(left + " = " + right);
+    return "  " + left + " &= " + broken(right);
+}
+
+std::string latex_page(const std::vector<Block>& blocks) {
+    std::string page;
+    for (const Block& block : blocks) {
+        page += (page.empty() ? "" : "\n") + escaped(block.words, false) + "\n";
+        if (block.equalities.empty()) continue;
+        page += "\\begin{align*}\n";
+        for (std::size_t i = 0; i < block.equalities.size(); ++i)
+            page += latex_equality(block.equalities[i].first, block.equalities[i].second) +
+                    (i + 1 < block.equalities.size() ? " \\\\\n" : "\n");
+        page += "\\end{align*}\n";
+    }
+    return page;
+}
+
+std::string mathml_page(const std::vector<Block>& blocks) {
+    std::string page =
+        "<math display=\"block\" xmlns=\"http://www.w3.org/1998/Math/MathML\">\n<mtable displaystyle=\"true\">\n";
+    for (const Block& block : blocks) {
+        page += "<mtr><mtd columnspan=\"3\"><mtext>" + escaped(block.words, true) + "</mtext></mtd></mtr>\n";
+        for (const auto& [left, right] : block.equalities)
+            page += "<mtr><mtd><mrow>" + left + "</mrow></mtd><mtd><mo>=</mo></mtd><mtd><mrow>" + right +
+                    "</mrow></mtd></mtr>\n";
+    }
+    return page + "</mtable>\n</math>\n";
+}
+
+}  // namespace
+
+Notation notation_of(const std::string& format) {
+    const auto plain = [](const Phrase& p) { return text(p); };
+    if (format == "latex")
+        return {[](const Phrase& p) { return latex(p); },
+                [](const Phrase& p) { return formula_begins + latex(p) + formula_ends; }, latex_left, latex_page};
+    if (format == "mathml") return {mathml_row, plain, mathml_left, mathml_page};
+    return {plain, plain, text_left, text_page};
+}
+
+}  // namespace alembert

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Formulas among words, as text, LaTeX or MathML.
+///
+///     const Notation n = notation_of("latex");
+///     n.page({{"Kinetic energy:", {{n.left(statement), n.phrase(statement.value)}}}});
+
+#include "formalism/derivation.hpp"
+
+namespace alembert {
+
+/// Words, then what they announce.
+struct Block {
+    std::string words;
+    std::vector<std::pair<std::string, std::string>> equalities;
+};
+
+/// How one format writes formulas, left sides of statements, and blocks.
+struct Notation {
+    std::string (*phrase)(const Phrase&);
+    std::string (*inline_phrase)(const Phrase&);  ///< for use among words
+    std::string (*left)(const Statement&);
+    std::string (*page)(const std::vector<Block>&);
+};
+
+/// `format`: text, latex or mathml; text for any other.
+Notation notation_of(const std::string& format);
+
+}  // namespace alembert

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/inverse.hpp"
+
+#include <algorithm>
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+Json as_json(const InverseLoads& needed) {
+    Json result;
+    result["time"] = needed.time;
+    result["coordinates"] = by_name(needed.coordinates, needed.q);
+    result["rates"] = by_name(needed.coordinates, needed.rates);
+    result["accelerations"] = by_name(needed.coordinates, needed.accelerations);
+    result["loads"] = by_name(needed.coordinates, needed.loads);
+    result["multipliers"] = Json::object();
+    for (const auto& [name, value] : needed.multipliers) result["multipliers"][name] = value;
+    return result;
+}
+
+std::string as_text(const InverseLoads& needed) {
+    std::size_t width = 16;
+    for (const std::string& name : needed.coordinates) width = std::max(width, name.size() + 1);
+    std::string page;
+    put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, "value", "rate", "acceleration", "load");
+    for (std::size_t i = 0; i < needed.coordinates.size(); ++i)
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i], needed.rates[i],
+            needed.accelerations[i], needed.loads[i]);
+    for (std::size_t k = 0; k < needed.multipliers.size(); ++k)
+        put(page, "{}{} = {:.16g}\n", k == 0 ? "\n" : "", needed.multipliers[k].first, needed.multipliers[k].second);
+    return page;
+}
+
+}  // namespace alembert

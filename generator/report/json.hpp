@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Results as JSON: what all reports share.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace alembert {
+
+using Json = nlohmann::ordered_json;
+
+/// null where there is no value.
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+/// {name: value}; as many values as names.
+template <typename Names, typename Values>
+Json by_name(const Names& names, const Values& values) {
+    Json object = Json::object();
+    std::size_t i = 0;
+    for (const auto& name : names) object[name] = values[i++];
+    return object;
+}
+
+}  // namespace alembert

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/linearization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+Json json_of(const Matrix& matrix) {
+    Json rows = Json::array();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        Json row = Json::array();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j) + 0.0);  // no −0
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Columns of equal width, under their names where these are given.
+void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows, const std::vector<std::string>& columns) {
+    std::size_t label = 0, width = 10;
+    for (const std::string& name : rows) label = std::max(label, name.size());
+    for (const std::string& name : columns) width = std::max(width, name.size());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) width = std::max(width, fmt::format("{:.8g}", matrix(i, j) + 0.0).size());
+    put(page, "{:<{}}", fmt::format("  {}", letter), label + 4);
+    for (const std::string& name : columns) put(page, "  {:>{}}", name, width);
+    put(page, "\n");
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+        put(page, "    {:<{}}", rows[i], label);
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) put(page, "  {:>{}}", fmt::format("{:.8g}", matrix(i, j) + 0.0), width);
+        put(page, "\n");
+    }
+    put(page, "\n");
+}
+
+void add_matrices(std::string& page, const Linearization& near) {
+    std::vector<std::string> own, rates;  // the speeds' coordinates, the speeds' rates
+    for (const std::string& name : near.speeds) {
+        own.push_back(name.substr(0, name.find('\'')));
+        rates.push_back(name + "'");
+    }
+    std::vector<std::string> zeros;
+    const auto show = [&](const char* letter, const Matrix& m, const std::vector<std::string>& columns) {
+        if (m.isZero(0))
+            zeros.emplace_back(letter);
+        else
+            add(page, letter, m, near.speeds, columns);
+    };
+    const bool full = near.speeds.size() == near.coordinates.size() && near.paired;
+    put(page, "{} = 0 for small deviations, with\n\n", full           ? "M q'' + (C + G) q' + (K + N) q"
+                                                    : near.paired ? "M r'' + (C + G) r' + (K + N) r"
+                                                                  : "M w' + (C + G) w + P r");
+    show("M", near.M, rates);
+    show("C", near.C, near.speeds);
+    show("G", near.G, near.speeds);
+    if (near.paired) {
+        show("K", near.K, own);
+        show("N", near.N, own);
+    } else {
+        show("P", near.P, near.coordinates);
+    }
+    if (!zeros.empty()) put(page, "  {} = 0\n\n", fmt::join(zeros, " = "));
+    put(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : " + B (inputs)");
+    add(page, "A", near.A, near.states, near.states);
+    if (!near.inputs.empty()) add(page, "B", near.B, near.states, near.inputs);
+}
+
+void add_eigenvalues(std::string& page, const Linearization& near) {
+    put(page, "{:>24}{:>24}{:>16}{:>16}\n", "eigenvalue, real", "imaginary", "period", "damping ratio");
+    for (const std::complex<double>& value : near.eigenvalues) {
+        if (value.imag() < 0) continue;
+        put(page, "{:>24.16g}{:>24}", value.real() + 0.0, value.imag() == 0 ? "" : fmt::format("+-{:.16g}", value.imag()));
+        if (value.imag() != 0) put(page, "{:>16.8g}{:>16.8g}", 2 * M_PI / value.imag(), -value.real() / std::abs(value) + 0.0);
+        put(page, "\n");
+    }
+}
+
+void add(std::string& page, const decltype(LinearizedScene::symbols)& symbols) {
+    if (symbols.empty()) return;
+    put(page, "In the parameters:\n\n");
+    std::vector<std::string> zeros;
+    for (const auto& [name, rows] : symbols) {
+        std::size_t width = 1;
+        bool zero = true;
+        for (const auto& row : rows)
+            for (const std::string& element : row) width = std::max(width, element.size()), zero = zero && element == "0";
+        if (zero) {
+            zeros.push_back(name);
+            continue;
+        }
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            put(page, "  {:<4}", i == 0 ? name : "");
+            for (const std::string& element : rows[i]) put(page, "  {:>{}}", element, width);
+            put(page, "\n");
+        }
+        put(page, "\n");
+    }
+    if (!zeros.empty()) put(page, "  {} = 0\n\n", fmt::join(zeros, " = "));
+}
+
+}  // namespace
+
+Json as_json(const LinearizedScene& d) {
+    const Linearization& near = d.matrices;
+    const Start& start = d.start;
+    Json result;
+    result["formalism"] = d.equations.formalism;
+    result["time"] = start.t;
+    result["motion"] = near.moving.empty() ? "equilibrium" : "steady";
+    result["moving"] = near.moving;
+    result["coordinates"] = Json::object();
+    result["rates"] = Json::object();
+    for (int i = 0; i < d.mechanism.size(); ++i) {
+        result["coordinates"][d.mechanism.q[i].get_name()] = start.q[i];
+        result["rates"][d.mechanism.q[i].get_name()] = start.qdot[i];
+    }
+    result["rows"] = near.speeds;
+    result["columns"] = near.coordinates;
+    result["dependent"] = near.dependent;
+    result["states"] = near.states;
+    result["inputs"] = near.inputs;
+    Json& matrices = result["matrices"];
+    matrices["M"] = json_of(near.M);
+    matrices["C"] = json_of(near.C);
+    matrices["G"] = json_of(near.G);
+    matrices["K"] = near.paired ? json_of(near.K) : Json();
+    matrices["N"] = near.paired ? json_of(near.N) : Json();
+    matrices["P"] = json_of(near.P);
+    matrices["A"] = json_of(near.A);
+    matrices["B"] = json_of(near.B);
+    result["eigenvalues"] = Json::array();
+    for (const std::complex<double>& value : near.eigenvalues) result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
+    for (const auto& [name, rows] : d.symbols) result["symbolic"][name] = rows;
+    return result;
+}
+
+std::string as_text(const LinearizedScene& d) {
+    const Linearization& near = d.matrices;
+    const Start& start = d.start;
+    std::string page;
+    if (!d.scene.title.empty()) put(page, "{}\n\n", d.scene.title);
+    if (near.moving.empty())
+        put(page, "About the equilibrium\n");
+    else
+        put(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "), near.moving.size() == 1 ? "moves" : "move");
+    for (int i = 0; i < d.mechanism.size(); ++i) {
+        const auto shown = [](double x, bool guess) { return guess && std::abs(x) < 1e-14 ? 0.0 : x + 0.0; };
+        const double rate = shown(start.qdot[i], d.mechanism.qdot_is_guess[i]);
+        put(page, "  {} = {:.10g}", d.mechanism.q[i].get_name(), shown(start.q[i], d.mechanism.q_is_guess[i]));
+        if (rate != 0) put(page, ", {}' = {:.10g}", d.mechanism.q[i].get_name(), rate);
+        put(page, "\n");
+    }
+    if (!near.dependent.empty()) put(page, "eliminated: {}\n", fmt::join(near.dependent, ", "));
+    if (!near.left_out.empty()) put(page, "left out, as nothing else depends on {}: {}\n", near.left_out.size() == 1 ? "it" : "them", fmt::join(near.left_out, ", "));
+    put(page, "\n");
+    add_matrices(page, near);
+    add(page, d.symbols);
+    add_eigenvalues(page, near);
+    return page;
+}
+
+}  // namespace alembert

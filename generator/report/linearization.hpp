@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "linear/about.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const LinearizedScene& near);
+std::string as_text(const LinearizedScene& near);
+
+}  // namespace alembert

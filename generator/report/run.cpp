@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/run.hpp"
+
+#include <algorithm>
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr std::size_t most_lines = 20;
+
+const char* word(ContactEvent::Kind kind) {
+    switch (kind) {
+        case ContactEvent::Kind::impact: return "impact";
+        case ContactEvent::Kind::release: return "release";
+        default: return "rest";
+    }
+}
+
+Json json_of(const EventRecord& event, const Mechanism& m) {
+    const auto k = static_cast<std::size_t>(event.index);
+    Json result{{"name", m.events[k].label}, {"time", event.time}};
+    if (event.impulse.empty()) return result;
+    result["impulses"] = Json::object();
+    for (std::size_t i = 0; i < event.impulse.size(); ++i)
+        if (!m.occasions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
+    result["energy_gain"] = event.energy_gain;
+    return result;
+}
+
+std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) {
+    std::string text;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        if (i + 1 == most_lines && events.size() > most_lines) {
+            text += fmt::format("… and {} more, then\n", events.size() - most_lines);
+            i = events.size() - 1;
+        }
+        const EventRecord& event = events[i];
+        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].label, event.time,
+                            event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
+    }
+    return text;
+}
+
+Json json_of(const std::vector<ContactEvent>& events, const std::vector<std::string>& names) {
+    Json list = Json::array();
+    for (const ContactEvent& e : events)
+        list.push_back({{"time", e.time},
+                        {"name", names[static_cast<std::size_t>(e.contact)]},
+                        {"event", word(e.kind)},
+                        {"speed_before", e.speed_before},
+                        {"speed_after", e.speed_after},
+                        {"energy_loss", e.energy_loss},
+                        {"reaction_impulse", e.impulse}});
+    return list;
+}
+
+std::string text_of(const std::vector<ContactEvent>& events, const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(events.size(), most_lines); ++i) {
+        const ContactEvent& e = events[i];
+        text += fmt::format("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)], word(e.kind), e.time);
+        if (e.kind == ContactEvent::Kind::impact)
+            text += fmt::format(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after, e.energy_loss);
+        text += "\n";
+    }
+    if (events.size() > most_lines) text += fmt::format("… and {} more\n", events.size() - most_lines);
+    return text;
+}
+
+/// "radau from t = 0.31 on: …", for a person.
+std::string described(const Switch& s) {
+    return fmt::format("{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} s)",
+                       s.method, s.time, s.largest_eigenvalue, s.step);
+}
+
+Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
+    const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+    Json result{{"value", number(e.value)},
+                {"by", e.by},
+                {"trustworthy", reasons.empty()},
+                {"norm", "value: max |y - y2| / max(1, |y2|) of coordinates and speeds at the end; scaled: max |y - y2| / how far components of "
+                         "that unit move in the run"},
+                {"scaled", number(e.scaled)},
+                {"reasons", reasons}};
+    if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
+    if (e.horizon) result["no_digit_after"] = *e.horizon;
+    return result;
+}
+
+/// Why the result is not to be trusted; empty where nothing speaks against it.
+std::string warning_of(const Run& run) {
+    return run.doubts.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
+}
+
+/// The method, the end of the motion and who was in contact then.
+void add_motion(std::string& page, const Run& run) {
+    const Statistics& s = run.motion.statistics;
+    put(page, "{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", run.solver.formulation, s.method, s.steps, s.rejected,
+        s.evaluations, run.solver.operations);
+    if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
+    if (s.switched) put(page, "{}\n", described(*s.switched));
+    if (run.solver.jacobian_operations) put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
+    page += text_of(run.motion.events, run.mechanism);
+    page += text_of(run.motion.contacts, run.contacts);
+    put(page, "\nat t = {:.15g}\n", run.motion.final_time());
+    for (std::size_t i = 0; i < run.coordinates.size(); ++i)
+        put(page, "{:<16}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], run.final_coordinates[i], run.final_rates[i]);
+    for (std::size_t k = 0; k < run.speeds.size(); ++k) put(page, "{:<16}{:>24.16g}\n", run.speeds[k], run.final_speeds[k]);
+    if (run.contacts.empty()) return;
+    std::string closed;
+    for (const int k : run.motion.phases.back().closed) closed += (closed.empty() ? "" : ", ") + run.contacts[static_cast<std::size_t>(k)];
+    put(page, "closed: {}\n", closed.empty() ? "no contact" : closed);
+}
+
+/// How far the numbers can be trusted.
+void add_account(std::string& page, const Run& run) {
+    if (run.estimate && run.estimate->value) {
+        const ErrorEstimate& e = *run.estimate;
+        put(page, "\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *e.value, *e.scaled, e.by);
+        if (e.lyapunov) put(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *e.lyapunov, *e.horizon);
+    }
+    const EnergyAccount& energy = run.energy;
+    if (energy.impact_loss != 0) put(page, "\nlost in impacts {:.10g}", energy.impact_loss);
+    if (run.mechanism.has_kicks()) put(page, "\ngained by impulses {:.10g}", energy.impulse_work);
+    if (energy.conserved)
+        put(page, "\nenergy drift {:.2e}\n", energy.drift);
+    else
+        put(page, "\nenergy is not conserved; work balance {:.2e}\n", energy.balance);
+    if (energy.jacobi_conserved) put(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
+    if (run.is_constrained()) put(page, "constraint drift {:.2e}\n", run.constraint_drift);
+    for (const std::string& line : run.adjusted) put(page, "adjusted at the start: {}\n", line);
+    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.seconds.derive, run.seconds.emit,
+        run.seconds.compile, run.solver.from_cache ? " (cached)" : "", run.seconds.integrate);
+}
+
+}  // namespace
+
+Json as_json(const Run& run) {
+    const Statistics& s = run.motion.statistics;
+    const EnergyAccount& energy = run.energy;
+    Json result;
+    if (const std::string warning = warning_of(run); !warning.empty()) result["warning"] = warning;
+    result["final"] = {{"time", run.motion.final_time()},
+                       {"coordinates", by_name(run.coordinates, run.final_coordinates)},
+                       {"rates", by_name(run.coordinates, run.final_rates)}};
+    if (!run.speeds.empty()) result["final"]["speeds"] = by_name(run.speeds, run.final_speeds);
+    result["method"] = s.method;
+    if (!run.why_method.empty()) result["method_why"] = run.why_method;
+    if (s.switched)
+        result["switched"] = {{"time", s.switched->time},
+                              {"method", s.switched->method},
+                              {"largest_eigenvalue", s.switched->largest_eigenvalue},
+                              {"step", s.switched->step}};
+    if (run.solver.jacobian_operations) result["jacobian_operations"] = *run.solver.jacobian_operations;
+    result["formulation"] = run.solver.formulation;
+    result["steps"] = s.steps;
+    result["rejected"] = s.rejected;
+    result["evaluations"] = s.evaluations;
+    result["energy_drift"] = energy.conserved ? Json(energy.drift) : Json(nullptr);
+    if (!energy.conserved) result["work_balance"] = energy.balance;
+    if (energy.jacobi_conserved) result["jacobi_drift"] = energy.jacobi_drift;
+    result["constraint_drift"] = run.constraint_drift;
+    if (run.estimate) result["error_estimate"] = json_of(*run.estimate, run.doubts);
+    if (!run.adjusted.empty()) result["adjusted"] = run.adjusted;
+    result["events"] = Json::array();
+    for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));
+    if (run.mechanism.has_kicks()) result["impulse_work"] = energy.impulse_work;
+    if (!run.contacts.empty()) {
+        result["contacts"] = json_of(run.motion.contacts, run.contacts);
+        result["impact_loss"] = energy.impact_loss;
+    }
+    result["seconds"] = {{"derive", run.seconds.derive},
+                         {"emit", run.seconds.emit},
+                         {"compile", run.seconds.compile},
+                         {"integrate", run.seconds.integrate},
+                         {"estimate", run.seconds.estimate}};
+    result["completed"] = run.motion.ending != Ending::failed;
+    return result;
+}
+
+std::string as_text(const Run& run) {
+    std::string page;
+    if (const std::string warning = warning_of(run); !warning.empty()) put(page, "{}\n", warning);
+    add_motion(page, run);
+    add_account(page, run);
+    return page;
+}
+
+std::string as_csv(const Table& table) {
+    std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        for (std::size_t column = 0; column < table.columns.size(); ++column)
+            text += fmt::format("{:.17g}{}", table.at(row, column), column + 1 < table.columns.size() ? ',' : '\n');
+    return text;
+}
+
+}  // namespace alembert

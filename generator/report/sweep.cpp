@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/sweep.hpp"
+
+#include <algorithm>
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+const char* drift_name(const Sweep& s) { return s.conserved ? "energy_drift" : "work_balance"; }
+
+/// A field of a CSV file (RFC 4180), on one line.
+std::string quoted(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
+}  // namespace
+
+Json as_json(const Sweep& s) {
+    const SweepTotals sum = totals_of(s);
+    Json result;
+    result["members"] = s.grid.size();
+    result["failed"] = sum.failed;
+    for (const Axis& axis : s.grid.axes)
+        result["vary"].push_back({{"name", axis.name}, {"from", axis.from}, {"to", axis.to}, {"count", axis.count}});
+    result["method"] = s.method;
+    result["formulation"] = s.formulation;
+    result["side_by_side"] = s.packed ? 8 : 1;
+    result["threads"] = s.threads;
+    result["steps"] = sum.steps;
+    result["rejected"] = sum.rejected;
+    result["evaluations"] = sum.evaluations;
+    result[drift_name(s)] = sum.drift;
+    result["seconds"] = {{"derive", s.seconds}, {"compile", s.timings.compile}, {"start", s.timings.start}, {"integrate", s.timings.integrate}};
+    return result;
+}
+
+Json rows_as_json(const Sweep& s) {
+    Json rows = Json::array();
+    for (const Member& m : s.members) {
+        Json row;
+        row["varied"] = by_name(s.grid.names(), m.varied);
+        row["final"] = {{"time", m.time}, {"coordinates", by_name(s.coordinates, m.final_coordinates)}, {"rates", by_name(s.coordinates, m.final_rates)}};
+        if (!s.speeds.empty()) row["final"]["speeds"] = by_name(s.speeds, m.final_speeds);
+        row[drift_name(s)] = m.drift;
+        row["steps"] = m.steps;
+        row["rejected"] = m.rejected;
+        row["evaluations"] = m.evaluations;
+        row["status"] = m.status;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string as_csv(const Sweep& s) {
+    std::string text;
+    for (const Axis& axis : s.grid.axes) text += axis.name + ",";
+    text += "final_t";
+    for (const std::string& q : s.coordinates) text += ",final_" + q;
+    for (const std::string& q : s.coordinates) text += ",final_" + q + "'";
+    for (const std::string& u : s.speeds) text += ",final_" + u;
+    put(text, ",{},steps,rejected,evaluations,status\n", drift_name(s));
+    for (const Member& m : s.members) {
+        std::vector<double> numbers = m.varied;
+        numbers.push_back(m.time);
+        for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds}) numbers.insert(numbers.end(), part->begin(), part->end());
+        for (const double x : numbers) put(text, "{:.17g},", x);
+        put(text, "{:.17g},{},{},{},{}\n", m.drift, m.steps, m.rejected, m.evaluations, quoted(m.status));
+    }
+    return text;
+}
+
+std::string as_text(const Sweep& s) {
+    const SweepTotals sum = totals_of(s);
+    std::string page;
+    put(page, "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} {:.2e} at the most\n",
+        s.formulation, s.method, s.grid.size(), s.packed ? ", eight side by side" : "", s.threads, s.threads == 1 ? "" : "s", sum.steps,
+        sum.rejected, sum.evaluations, s.operations, s.conserved ? "energy drift" : "work balance", sum.drift);
+    put(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
+    return page;
+}
+
+}  // namespace alembert

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "report/json.hpp"
+#include "run/sweep.hpp"
+
+namespace alembert {
+
+/// All but the rows.
+Json as_json(const Sweep& sweep);
+/// One for each member.
+Json rows_as_json(const Sweep& sweep);
+std::string as_csv(const Sweep& sweep);
+/// What came of it, in a few lines.
+std::string as_text(const Sweep& sweep);
+
+}  // namespace alembert

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "alembert/compile.hpp"
+#include "emit/emit.hpp"
+#include "emit/taylor.hpp"
+#include "lower/lower.hpp"
+#include "lower/quick_times.hpp"
+#include "run/bounces.hpp"
+#include "run/canonical.hpp"
+#include "run/method.hpp"
+#include "run/modes.hpp"
+#include "run/peers.hpp"
+#include "run/separable.hpp"
+#include "state/assemble.hpp"
+#include "state/diagnose.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double most_seconds = 2;    // of one run; a method goes no further when a run has taken that
+constexpr int first_decade = 3, last_decade = 14;
+
+/// The end in double precision by two methods, where there is no better one; the digits in which they agree.
+std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
+    // Stiff systems are for the second pair.
+    for (const auto& [one, other, tolerance] : {std::tuple{Method::verner98, Method::dop853, 1e-14}, std::tuple{Method::radau13, Method::radau9, 1e-13}}) {
+        Options strict = options;
+        strict.tolerance = tolerance;
+        strict.method = one;
+        const auto first = bench.end_of(strict);
+        strict.method = other;
+        const auto second = first ? bench.end_of(strict) : std::nullopt;
+        if (!second) continue;
+        const double apart = std::max(error_against(*first, *second), 1e-16);
+        return Judgement{*first, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))),
+                     fmt::format("{} and {} at tolerance {:g}, doubles: no better reference in the time given", name(one), name(other), tolerance)};
+    }
+    return std::nullopt;
+}
+
+/// Runs of one method, from loose to strict, as long as it pays.
+std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess, const std::function<void(double)>& progress) {
+    std::vector<Measured> runs;
+    const long budget = options.budget;
+    options.budget = std::min(budget, static_cast<long>(most_seconds / each) + 1000);
+    double best = HUGE_VAL;
+    int worse = 0;
+    for (int k = 0; k < 24; ++k) {
+        progress(k / 24.0);
+        if (has_fixed_step(options.method)) {
+            options.step = options.duration / (static_cast<double>(guess) * std::ldexp(1.0, k));
+        } else {
+            if (k > last_decade - first_decade) break;
+            options.tolerance = std::pow(10.0, -first_decade - k);
+        }
+        runs.push_back(bench.measure(options));
+        const Measured& last = runs.back();
+        if (!has_fixed_step(options.method)) {
+            if (!last.failure.empty() || last.seconds > most_seconds / 2) break;
+            continue;
+        }
+        if (last.failure.find("not enough") != std::string::npos || last.seconds > most_seconds / 4) break;
+        if (!last.failure.empty() || !last.error) continue;
+        if (*last.error < 1e-13) break;
+        worse = *last.error > best / 1.5 && *last.error < 1e-6 ? worse + 1 : 0;  // rounding has the word
+        if (worse > 1) break;
+        best = std::min(best, *last.error);
+    }
+    return runs;
+}
+
+/// Null where the motion has no power series, or its method is not asked for.
+SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
+    if (!wishes.method.empty() && wishes.method != name(Method::taylor)) return nullptr;
+    try {
+        return load_series(
+            compile(emit_taylor(program, with_work).text, program.name + "_taylor", {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
+                .object);
+    } catch (const ModelError&) {
+        return nullptr;
+    }
+}
+
+/// Null where the scene has no such form, or no method that needs it is asked for.
+std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module, const std::vector<double>& parameters, const RunOptions& wishes) {
+    const auto asked = method_named(wishes.method);
+    if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
+    const Program form = canonical_form(d);
+    const Compiled compiled = compile(emit(form).text, form.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+    return make_canonical(module, load(compiled.object), parameters);
+}
+
+/// The solver of a scene with all that the methods measured need.
+struct Compilation {
+    Source source;
+    Compiled compiled;
+    Module module;
+    SeriesModule series, series_with_work;
+    std::shared_ptr<const Canonical> canonical;
+};
+
+Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved, const RunOptions& wishes) {
+    Compilation c;
+    c.source = emit(with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved));
+    c.compiled = compile(c.source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+    c.module = load(c.compiled.object);
+    c.series = series_of(program, false, wishes);
+    if (c.series && !conserved) c.series_with_work = series_of(program, true, wishes);
+    c.canonical = canonical_of(d, c.module, start.parameters, wishes);
+    return c;
+}
+
+class Benchmark {
+public:
+    Benchmark(Bench& result, const BenchOptions& options) : result_(result), options_(options), wishes_(options.wishes) {}
+
+    void run() {
+        const Mechanism& m = result_.mechanism;
+        const Energy energy = energy_of(m);
+        const Program program = lowered(result_).program;
+        name_everything(program);
+        start_ = start_of(m);
+        assemble(start_, m, lower_constraints(m), {});
+        const State<double> first = state_of(start_, m, result_.equations);
+        if (program.singular || massless_combination(program, first))
+            throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
+                                               failure_at(result_, first).value_or("the mass matrix is singular")),
+                                   start_.t, start_.q);
+        const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
+        if (has_jumps(m)) return measure_jumps(program, first);
+
+        const Compilation c = compilation_of(result_, program, start_, energy.conserved, wishes_);
+        result_.formulation = c.source.formulation;
+        result_.operations = c.source.operations.total();
+        result_.end = start_.t + duration;
+        std::vector<double> initial = start_.q;
+        initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
+        Workbench workbench({.derived = result_,
+                             .module = c.module,
+                             .series = c.series,
+                             .series_with_work = c.series_with_work,
+                             .canonical = c.canonical,
+                             .parameters = start_.parameters,
+                             .initial = initial,
+                             .conserved = energy.conserved});
+        const Options options{.start = start_.t,
+                              .duration = duration,
+                              .longest_step = longest_step(wishes_, start_),
+                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
+                              .budget = wishes_.budget};
+        find_reference(program, workbench, options, first);
+        workbench.set_reference(result_.reference.final);
+        measure(workbench, options, c);
+        if (options_.peers) measure_others(workbench, c, initial, duration);
+    }
+
+private:
+    void tell(std::string_view what, double part) const {
+        if (wishes_.progress) wishes_.progress(what, part);
+    }
+
+    void name_everything(const Program& program) {
+        for (const Quantity& q : program.coordinates) result_.coordinates.push_back(q.name);
+        for (const Quantity& u : program.speeds) result_.speeds.push_back(u.name);
+    }
+
+    void measure_jumps(const Program& program, const State<double>& first) {
+        Bounces bounces = measured_bounces(wishes_, result_, start_, first);
+        if (options_.peers) result_.warnings.emplace_back("no peers: none of them follows contacts or impulses\n");
+        result_.reference = {std::move(bounces.final), bounces.digits, std::move(bounces.by)};
+        result_.formulation = program.formulation;
+        result_.operations = program.count(program.right_hand_side()).total();
+        result_.end = bounces.end;
+        result_.runs = std::move(bounces.runs);
+    }
+
+    void find_reference(const Program& program, Workbench& workbench, const Options& options, const State<double>& first) {
+        const std::optional<double> duration = wishes_.duration >= 0 ? std::optional(options.duration) : std::nullopt;
+        result_.exact = reference(program, quad_start(result_.mechanism, result_.equations, start_, duration),
+                                  {.seconds = options_.reference_seconds, .progress = [&](double part) { tell("computing the reference", part); }});
+        if (result_.exact) {
+            result_.reference = {{}, result_.exact->digits, result_.exact->by};
+            for (const auto* list : {&result_.exact->coordinates, &result_.exact->rates})
+                for (const Quad& x : *list) result_.reference.final.push_back(static_cast<double>(x));
+            return;
+        }
+        if (auto judged = by_doubles(workbench, options)) {
+            result_.reference = *std::move(judged);
+            return;
+        }
+        Options easy = options;
+        easy.tolerance = 1e-9;
+        const Measured trial = workbench.measure(easy);
+        const std::optional<std::string> at_start = failure_at(result_, first);
+        throw IntegrationError(
+            fmt::format("no method reaches the end at a strict tolerance: there is nothing to measure against; {} at tolerance 1e-9: {}{}; a "
+                        "shorter duration ends before what stops it, a larger budget and more seconds for the reference let it take longer",
+                        trial.method, trial.failure.empty() ? "it does" : trial.failure, at_start ? ", there: " + *at_start : ""),
+            start_.t, start_.q);
+    }
+
+    void measure(Workbench& workbench, const Options& options, const Compilation& c) {
+        // One right-hand side, and how many steps a loose run takes: where fixed steps begin.
+        Options loose = options;
+        loose.tolerance = 1e-4;
+        const Measured trial = workbench.measure(loose);
+        const double each = std::max(trial.seconds / static_cast<double>(std::max(trial.evaluations, 1L)), 1e-9);
+        const long guess = std::max(16L, trial.steps);
+        const bool separable = !inseparable(result_);
+        const std::vector<Method> methods = all_methods();
+        for (std::size_t k = 0; k < methods.size(); ++k) {
+            if (needs_separable(methods[k]) && !separable) continue;
+            if (needs_series(methods[k]) && !c.series) continue;
+            if (needs_canonical(methods[k]) && !c.canonical) continue;
+            if (!wishes_.method.empty() && name(methods[k]) != wishes_.method) continue;
+            Options these = options;
+            these.method = methods[k];
+            const auto at = [&](double part) { tell("measuring", (static_cast<double>(k) + part) / static_cast<double>(methods.size())); };
+            for (Measured& run : ladder(workbench, these, each, guess, at)) result_.runs.push_back(std::move(run));
+        }
+    }
+
+    void measure_others(const Workbench& workbench, const Compilation& c, const std::vector<double>& initial, double duration) {
+        std::vector<double> tolerances;
+        for (int decade = first_decade; decade <= last_decade; ++decade) tolerances.push_back(std::pow(10.0, -decade));
+        const Peers peers = measure_peers({.object = c.compiled.object,
+                                           .parameters = start_.parameters,
+                                           .initial = initial,
+                                           .start = start_.t,
+                                           .duration = duration,
+                                           .tolerances = tolerances,
+                                           .most_seconds = most_seconds},
+                                          [&](const std::vector<double>& state) {
+                                              return error_against(result_.reference.final, coordinates_and_rates(workbench.rhs(), result_.end, state.data(),
+                                                                                                                  start_.q.size()));
+                                          });
+        if (!peers.missing.empty()) result_.warnings.push_back("no peers: " + peers.missing + "\n");
+        result_.runs.insert(result_.runs.end(), peers.runs.begin(), peers.runs.end());
+    }
+
+    Bench& result_;
+    const BenchOptions& options_;
+    const RunOptions& wishes_;
+    Start start_;
+};
+
+}  // namespace
+
+Bench bench(Scene scene, const BenchOptions& options) {
+    const std::string& method = options.wishes.method;
+    if (!method.empty() && !method_named(method))
+        throw ModelError(fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are measured as peers)",
+                                     method, method_names()));
+    Bench result{derived(std::move(scene), {.by = options.wishes.by, .use = Use::run})};
+    Benchmark(result, options).run();
+    return result;
+}
+
+}  // namespace alembert

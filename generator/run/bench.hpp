@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The verb `bench`: speed against error, every method over a range of tolerances against a reference of higher precision.
+///
+///     const Bench measured = bench(read_scene("scenes/benchmark/pleiades.toml"), {.wishes = {.duration = 3}});
+///     measured.runs[0].error, measured.runs[0].seconds;
+
+#include "derive/derived.hpp"
+#include "run/measure.hpp"
+#include "run/options.hpp"
+#include "run/reference.hpp"
+
+namespace alembert {
+
+struct BenchOptions {
+    RunOptions wishes = {};          ///< a method: that one alone
+    bool peers = false;              ///< other people's integrators too
+    double reference_seconds = 30;   ///< processor time for each of the reference's methods
+};
+
+/// What runs are held against.
+struct Judgement {
+    std::vector<double> final;  ///< coordinates, then rates
+    int digits = 0;
+    std::string by;
+};
+
+struct Bench : Derived {
+    std::optional<Reference> exact;  ///< in quadruple precision, where it was reached
+    Judgement reference;
+    std::vector<std::string> coordinates, speeds;
+    std::string formulation;
+    int operations = 0;              ///< of one right-hand side
+    double end = 0;                  ///< time of the end, s
+    std::vector<Measured> runs;
+};
+
+/// Throws what `derived` throws; ModelError for a method that is not measured; IntegrationError where nothing reaches the end.
+Bench bench(Scene scene, const BenchOptions& options = {});
+
+}  // namespace alembert

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alembert {
+
+namespace {
+
+constexpr double untrusted = 1e-2, no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8;
+
+struct Separation {
+    double time, size;
+};
+
+double apart(std::span<const double> a, std::span<const double> b, std::size_t compared) {
+    double largest = 0;
+    for (std::size_t i = 0; i < compared; ++i) largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1.0, std::abs(b[i])));
+    return largest;
+}
+
+/// Of the ends: |t − t₂| / max(1, |t₂|).
+double later(const PhasedMotion& a, const PhasedMotion& b) {
+    return std::abs(a.final_time() - b.final_time()) / std::max(1.0, std::abs(b.final_time()));
+}
+
+/// On the rows that both have.
+std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b, std::size_t compared) {
+    struct Row {
+        double time;
+        std::span<const double> state;
+    };
+    const auto rows = [](const PhasedMotion& motion) {
+        std::vector<Row> list;
+        for (const Phase& phase : motion.phases)
+            for (std::size_t k = 0; k < phase.motion.rows(); ++k) list.push_back({phase.motion.times[k], phase.motion.state(k)});
+        return list;
+    };
+    const std::vector<Row> left = rows(a), right = rows(b);
+    std::vector<Separation> result;
+    for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
+        const double near = 1e-12 * std::max(1.0, std::abs(left[i].time));
+        if (std::abs(left[i].time - right[j].time) <= near) {
+            result.push_back({left[i].time, apart(left[i].state, right[j].state, compared)});
+            ++i, ++j;
+        } else {
+            ++(left[i].time < right[j].time ? i : j);
+        }
+    }
+    return result;
+}
+
+/// Slope of ln size over the second half of what is below saturation; nothing where it does not gain e³ there.
+std::optional<double> exponent(std::vector<Separation> list) {
+    std::size_t count = 0;
+    while (count < list.size() && list[count].size < saturated) ++count;
+    list.resize(count);
+    std::erase_if(list, [](const Separation& s) { return !(s.size > 0); });
+    if (list.size() < 8) return std::nullopt;
+    const double middle = (list.front().time + list.back().time) / 2;
+    double n = 0, t = 0, l = 0, tt = 0, tl = 0;
+    for (const Separation& s : list) {
+        if (s.time < middle) continue;
+        const double x = s.time - middle, y = std::log(s.size);
+        n += 1, t += x, l += y, tt += x * x, tl += x * y;
+    }
+    const double below = n * tt - t * t;
+    if (!(below > 0)) return std::nullopt;
+    const double slope = (n * tl - t * l) / below;
+    return slope * (list.back().time - middle) > 3 ? std::optional(slope) : std::nullopt;
+}
+
+}  // namespace
+
+ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& given, const std::vector<double>& initial,
+                             std::size_t compared) {
+    Options options = given;
+    options.budget = std::min(given.budget, 4 * motion.statistics.evaluations + 10'000);
+    const bool fixed = has_fixed_step(options.method);
+    ErrorEstimate estimate;
+    std::optional<PhasedMotion> second;
+    for (const double factor : {0.1, 10.0}) {
+        if (fixed)
+            options.step = std::min(given.step, given.duration) * (factor < 1 ? 0.5 : 2);
+        else
+            options.tolerance = std::max(given.tolerance * factor, 1e-15);
+        if (!fixed && options.tolerance == given.tolerance) continue;
+        second = run(options, initial);
+        const bool stopped = motion.ending == Ending::stopped_by_event && second->ending == motion.ending;  // at times of their own
+        if (second->ending != Ending::failed && later(*second, motion) <= (stopped ? no_digit : 1e-6)) break;
+        second.reset();
+    }
+    if (!second) {
+        estimate.by = "no second run came to the same end";
+        estimate.trusted = false;
+        return estimate;
+    }
+    estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step) : fmt::format("a second run at tolerance {:g}", options.tolerance);
+    estimate.value = std::max(apart(motion.final_state(), second->final_state(), compared), later(*second, motion));
+    estimate.trusted = *estimate.value <= untrusted;
+    if (*estimate.value < (fixed ? 1e-6 : suspicious * given.tolerance)) return estimate;
+
+    std::vector<double> moved = initial;
+    for (std::size_t i = 0; i < compared; ++i) moved[i] += beside * (i % 2 == 0 ? 1 : -0.5);
+    Options third = given;
+    third.budget = 2 * motion.statistics.evaluations + 10'000;
+    const PhasedMotion neighbour = run(third, moved);
+    estimate.lyapunov = exponent(separations(neighbour, motion, compared));
+    if (!estimate.lyapunov) return estimate;
+    for (const Separation& s : separations(motion, *second, compared))
+        if (s.size > no_digit) {
+            estimate.horizon = s.time;
+            break;
+        }
+    if (!estimate.horizon) estimate.horizon = motion.final_time() + std::log(no_digit / *estimate.value) / *estimate.lyapunov;
+    return estimate;
+}
+
+}  // namespace alembert

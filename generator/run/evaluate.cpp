@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/error.hpp"
+#include "contact/contacts.hpp"
+#include "lower/lower.hpp"
+#include "state/assemble.hpp"
+#include "state/diagnose.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double closed_gap = 1e-9;  // · max(1, |q|), as much as the initial values of a constraint may be off
+
+Evaluation::Named named_values(const Program& program, const std::vector<double>& value, Group group) {
+    Evaluation::Named result;
+    for (const Root& root : program.roots)
+        if (root.group == group) result.emplace_back(root.name, value[root.node]);
+    return result;
+}
+
+std::vector<double> values_of(const Program& program, const std::vector<double>& value, Group group) {
+    std::vector<double> result;
+    for (const int id : program.nodes_of(group)) result.push_back(value[id]);
+    return result;
+}
+
+/// The accelerations at a state, or the reason why there are none.
+std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
+    std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
+    if (massless_combination(program, state) || !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
+        throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", state.t,
+                                           failure_at(d, state).value_or("the numbers overflow")),
+                               state.t, state.q);
+    return result;
+}
+
+/// Contacts that are closed at the state and stay so. Their mechanism takes the place of the free one in `d`.
+std::vector<int> close_contacts(Derived& d, const State<double>& state) {
+    need_rates(d);
+    const ContactView view(d.mechanism);
+    check_gaps(d.scene, d.mechanism, view, state, closed_gap);
+    const std::vector<int> closed = contacts_at_rest(view, state, closed_gap).closed;
+    if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
+    return closed;
+}
+
+}  // namespace
+
+Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
+    Evaluation e{derived(std::move(scene), {.by = options.by, .use = Use::asked, .reactions = options.reactions, .at = options.at})};
+    Start start = start_of(e.mechanism, options.at);
+    e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
+    State<double> state = state_of(start, e.mechanism, e.equations);
+    const Mechanism& m = e.mechanism;
+    if (!m.unilateral.empty()) {
+        e.closed.emplace();
+        for (const int k : close_contacts(e, state)) e.closed->push_back(m.unilateral[k].gap.name);
+    }
+    const Program program = lowered(e).program;
+    state.qddot = accelerations_at(e, program, state);
+    const std::vector<double> value = interpret(program, state);  // outputs may hold accelerations
+    const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
+
+    e.time = state.t;
+    e.q = state.q;
+    for (const Quantity& q : program.coordinates) e.coordinates.push_back(q.name);
+    const bool own_speeds = !program.speeds.empty();
+    e.rates = own_speeds ? values_of(program, value, Group::rate) : state.qdot;
+    e.accelerations = own_speeds ? values_of(program, value, Group::second_rate) : state.qddot;
+    e.speeds = named_values(program, value, Group::speed);
+    e.speed_rates = named_values(program, value, Group::speed_rate);
+    e.multipliers = named_values(program, value, Group::multiplier);
+    for (const Mechanism::Unilateral& contact : m.unilateral) {
+        const std::string name = contact.gap.multiplier.get_name();
+        if (std::none_of(e.multipliers.begin(), e.multipliers.end(), [&](const auto& known) { return known.first == name; }))
+            e.multipliers.emplace_back(name, 0.0);  // open
+    }
+    e.kinetic = single(Group::kinetic);
+    e.potential = single(Group::potential);
+    e.energy = single(Group::energy);
+    const std::vector<double> position = values_of(program, value, Group::position), velocity = values_of(program, value, Group::velocity);
+    for (std::size_t k = 0; k < position.size(); ++k) e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
+    e.outputs = named_values(program, value, Group::output);
+    if (options.reactions) {
+        for (const ReactionOutput& r : e.reaction_outputs) e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
+        if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).at(program, state);
+    }
+    return e;
+}
+
+}  // namespace alembert

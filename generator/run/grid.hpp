@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The points of a sweep.
+///
+///     const Grid grid{{{"theta1", 0, 3, 4}, {"l1", 1, 2, 2}}};     // 8 points, the last name the fastest
+///     grid.point(3);                                               // {1, 2}
+///
+/// `count` values from `from` to `to`, both included, evenly; one value is `from`.
+
+#include <string>
+#include <vector>
+
+namespace alembert {
+
+struct Axis {
+    std::string name;
+    double from = 0, to = 0;
+    std::size_t count = 1;
+};
+
+struct Grid {
+    std::vector<Axis> axes;
+
+    std::size_t size() const;
+    std::vector<double> point(std::size_t k) const;
+    std::vector<std::string> names() const;
+};
+
+}  // namespace alembert

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/inverse.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/dense.hpp"
+#include "alembert/error.hpp"
+#include "lower/inverse.hpp"
+#include "lower/lower.hpp"
+#include "scene/hints.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double consistent = 1e-9;  // · the size of the terms
+
+struct Loads {
+    Eigen::VectorXd acceleration, load, multiplier;
+};
+
+/// M q'' = f + Aᵀλ + τ,  A q'' = γ, the loads being affine in q'':  τ + Aᵀλ = M q'' − f.
+struct Affine {
+    Eigen::MatrixXd M, A;
+    Eigen::VectorXd minus_f, gamma;
+};
+
+Affine affine(const Program& program, State<double> state) {
+    const auto n = static_cast<Eigen::Index>(state.q.size());
+    const auto vector = [&](Group group) {
+        const std::vector<double> value = interpret(program, state);
+        const std::vector<int> nodes = program.nodes_of(group);
+        Eigen::VectorXd v(static_cast<Eigen::Index>(nodes.size()));
+        for (std::size_t i = 0; i < nodes.size(); ++i) v[static_cast<Eigen::Index>(i)] = value[nodes[i]];
+        return v;
+    };
+    state.qddot.assign(state.q.size(), 0);
+    Affine result{.M = Eigen::MatrixXd(n, n), .A = {}, .minus_f = vector(Group::load), .gamma = vector(Group::gamma)};
+    const Eigen::VectorXd rows = vector(Group::row);
+    result.A = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(rows.data(), result.gamma.size(), n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+        std::fill(state.qddot.begin(), state.qddot.end(), 0);
+        state.qddot[static_cast<std::size_t>(j)] = 1;
+        result.M.col(j) = vector(Group::load) - result.minus_f;
+    }
+    return result;
+}
+
+/// The loads act along the coordinates whose accelerations are given, if these are not more than the freedom; the others follow.
+Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& given, double t, const std::vector<double>& q) {
+    const Eigen::Index n = s.M.rows(), m = s.A.rows();
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n + m, n + m);  // of (τ or q'' for each coordinate, λ)
+    Eigen::VectorXd right(n + m);
+    right << -s.minus_f, s.gamma;
+    for (Eigen::Index j = 0; j < n; ++j) {
+        Eigen::VectorXd column(n + m);
+        column << s.M.col(j), s.A.col(j);
+        if (const auto& a = given[static_cast<std::size_t>(j)]) {
+            S(j, j) = -1;
+            right -= *a * column;
+        } else {
+            S.col(j) = column;
+        }
+    }
+    S.topRightCorner(n, m) = -s.A.transpose();
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(S);
+    if (!lu.isInvertible())
+        throw IntegrationError("loads along the coordinates whose accelerations are given do not determine the motion at this pose; give the accelerations of others, or of all", t, q);
+    const Eigen::VectorXd x = lu.solve(right);
+    Loads result{x.head(n), Eigen::VectorXd::Zero(n), x.tail(m)};
+    for (Eigen::Index j = 0; j < n; ++j)
+        if (const auto& a = given[static_cast<std::size_t>(j)]) result.load[j] = x[j], result.acceleration[j] = *a;
+    return result;
+}
+
+/// All accelerations are known; of the loads that bring them about with the constraints' help the least.
+Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
+    for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
+        const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()), off = s.A.row(k).dot(a) - s.gamma[k];
+        if (std::abs(off) > consistent * std::max(1.0, size))
+            throw ModelError(fmt::format("the accelerations given break constraint '{}', by {:.3g}; give those of as many coordinates as there are degrees of freedom, {}, and the others follow",
+                                         m.constraints[static_cast<std::size_t>(k)].name, off, m.size() - static_cast<int>(m.constraints.size())));
+    }
+    const Eigen::VectorXd whole = s.M * a + s.minus_f;
+    const Eigen::VectorXd lambda = s.A.rows() > 0 ? Eigen::VectorXd(least_norm(s.A.transpose(), whole).x) : Eigen::VectorXd();
+    return {a, s.A.rows() > 0 ? Eigen::VectorXd(whole - s.A.transpose() * lambda) : whole, lambda};
+}
+
+Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given, const Mechanism& m, const Start& start) {
+    const auto n = given.size(), count = static_cast<std::size_t>(std::count_if(given.begin(), given.end(), [](const auto& a) { return a.has_value(); }));
+    const std::size_t freedom = n - m.constraints.size();
+    if (!m.constraints.empty() && count > 0 && count <= freedom && count < n) return partly_given(s, given, start.t, start.q);
+    if (!m.constraints.empty() && count > 0 && count < n)
+        throw ModelError(fmt::format("the accelerations of {} coordinates are given; expected those of {} or fewer, the degrees of freedom, or of all {}", count, freedom, n));
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
+    if (count == 0 && !m.constraints.empty()) a = least_norm(s.A, s.gamma).x;  // the least that the constraints allow
+    for (std::size_t j = 0; j < n; ++j)
+        if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
+    return all_given(s, a, m);
+}
+
+/// The accelerations among the names of `at`; takes them out.
+std::vector<std::optional<double>> take_accelerations(Overrides& at, const Mechanism& m) {
+    std::vector<std::optional<double>> given(m.q.size());
+    std::vector<std::string> known;
+    for (const GiNaC::symbol& q : m.q) known.push_back(q.get_name() + "''");
+    for (const auto& [name, value] : at) {
+        if (!name.ends_with("''")) continue;
+        const auto found = std::find(known.begin(), known.end(), name);
+        if (found == known.end()) {
+            const std::string meant = nearest(name, known);
+            throw ModelError(fmt::format("no coordinate has the acceleration {}{}", name, meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+        }
+        if (!std::isfinite(value)) throw ModelError(fmt::format("{} = {}: expected a finite number", name, value));
+        given[static_cast<std::size_t>(found - known.begin())] = value;
+    }
+    std::erase_if(at, [](const auto& item) { return item.first.ends_with("''"); });
+    return given;
+}
+
+}  // namespace
+
+InverseLoads inverse(Scene scene, const InverseOptions& options) {
+    Overrides at = options.at;
+    std::erase_if(at, [](const auto& item) { return item.first.ends_with("''"); });
+    InverseLoads result{derived(std::move(scene), {.by = options.by, .use = Use::asked, .at = at})};
+    const Mechanism& m = result.mechanism;
+    Overrides accelerations = options.at;
+    const std::vector<std::optional<double>> given = take_accelerations(accelerations, m);
+    Start start = start_of(m, at);
+    assemble(start, m, lower_constraints(m), at);
+    const Loads loads = loads_for(affine(lower_inverse(m), start.state()), given, m, start);
+    if (!loads.load.allFinite() || !loads.acceleration.allFinite())
+        throw IntegrationError(fmt::format("there are no finite loads at t = {:.6g}", start.t), start.t, start.q);
+    result.time = start.t;
+    for (const GiNaC::symbol& q : m.q) result.coordinates.push_back(q.get_name());
+    result.q = start.q;
+    result.rates = start.qdot;
+    result.accelerations.assign(loads.acceleration.begin(), loads.acceleration.end());
+    result.loads.assign(loads.load.begin(), loads.load.end());
+    for (std::size_t k = 0; k < m.constraints.size(); ++k)
+        result.multipliers.emplace_back(m.constraints[k].multiplier.get_name(), loads.multiplier[static_cast<Eigen::Index>(k)]);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "formalism/routhian.hpp"
+#include "lower/lower.hpp"
+#include "program/interpret.hpp"
+
+namespace alembert {
+
+std::vector<double> coordinates_and_rates(const Rhs& rhs, double t, const double* state, std::size_t n) {
+    std::vector<double> rate(static_cast<std::size_t>(rhs.dimension)), result(state, state + n);
+    rhs(t, state, rate.data());
+    result.insert(result.end(), rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(n));
+    return result;
+}
+
+double error_against(const std::vector<double>& reference, const std::vector<double>& y) {
+    double largest = 0;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        const double error = std::abs(y[i] - reference[i]) / std::max(1.0, std::abs(reference[i]));
+        if (!std::isfinite(error)) return HUGE_VAL;
+        largest = std::max(largest, error);
+    }
+    return largest;
+}
+
+Workbench::Workbench(Parts parts)
+    : parts_(std::move(parts)),
+      par_(prepared(parts_.module, parts_.parameters)),
+      rhs_(make_rhs(parts_.module, parts_.parameters)),
+      with_work_(make_rhs(parts_.module, parts_.parameters, Work::integrated)),
+      projection_(parts_.module, parts_.parameters) {
+    if (parts_.series) rhs_.series = make_series(parts_.series, parts_.parameters);
+    if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
+    rhs_.canonical = with_work_.canonical = parts_.canonical;
+    const Mechanism& m = parts_.derived.mechanism;
+    if (!m.constraints.empty()) rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
+    if (!m.constraints.empty()) return;  // their forces change the momenta
+    const std::vector<int> cyclic = cyclic_coordinates(m);
+    if (cyclic.empty()) return;
+    const std::vector<GiNaC::ex> p = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+    std::vector<GiNaC::ex> wanted;
+    for (const int i : cyclic) wanted.push_back(p[static_cast<std::size_t>(i)]);
+    momentum_nodes_ = lower_expressions(momentum_program_, m, wanted);
+}
+
+std::vector<double> Workbench::momenta(double t, const double* state, const Rhs& rhs) {
+    const std::size_t n = parts_.derived.mechanism.q.size();
+    const std::vector<double> now = coordinates_and_rates(rhs, t, state, n);
+    const auto middle = now.begin() + static_cast<std::ptrdiff_t>(n);
+    const std::vector<double> values = interpret<double>(
+        momentum_program_, {.parameters = parts_.parameters, .t = t, .q = {now.begin(), middle}, .qdot = {middle, now.end()}, .qddot = {}});
+    std::vector<double> result;
+    for (const int id : momentum_nodes_) result.push_back(values[static_cast<std::size_t>(id)]);
+    return result;
+}
+
+Measured Workbench::measure(Options options) {
+    options.sample = options.duration > 0 ? options.duration : 1;
+    const bool constrained = !parts_.derived.mechanism.constraints.empty();
+    if (constrained) options.project = projection_.after_steps();
+    Measured result{.method = std::string(name(options.method))};
+    (has_fixed_step(options.method) ? result.step : result.tolerance) = has_fixed_step(options.method) ? options.step : options.tolerance;
+    std::vector<double> seconds;
+    double sum = 0;
+    Trajectory motion;
+    do {
+        projection_.forget();
+        motion = integrate(rhs_, parts_.initial, options);
+        seconds.push_back(motion.statistics.seconds);
+        sum += seconds.back();
+    } while (seconds.size() < 200 && sum < 0.3 && (seconds.size() < 3 || sum < 0.02));
+    std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2), seconds.end());
+    result.seconds = seconds[seconds.size() / 2];
+    result.evaluations = motion.statistics.evaluations;
+    result.steps = motion.statistics.steps;
+    if (motion.failure) {
+        result.failure = motion.failure->message;
+        return result;
+    }
+    const std::size_t n = parts_.derived.mechanism.q.size();
+    const double end = motion.times.back();
+    if (!parts_.reference.empty())
+        result.error = error_against(parts_.reference, coordinates_and_rates(rhs_, end, motion.final_state().data(), n));
+    if (!momentum_nodes_.empty())
+        result.momentum_error = error_against(momenta(options.start, parts_.initial.data(), rhs_), momenta(end, motion.final_state().data(), rhs_));
+    kept(options, result);
+    return result;
+}
+
+void Workbench::kept(const Options& given, Measured& result) {
+    Options options = given;
+    const bool work = !parts_.conserved, constrained = !parts_.derived.mechanism.constraints.empty();
+    const alembert_solver_table& table = parts_.module.table();
+    Drift drift(table.coordinates, table.speeds, work);
+    double constraint = 0;
+    options.on_step = [&](double t, std::span<const double> state, std::span<const double> rate) {
+        drift(table, par_, t, state, rate);
+        if (constrained) constraint = std::max(constraint, projection_.residual(t, state.data()));
+    };
+    std::vector<double> initial = parts_.initial;
+    if (work) initial.push_back(0);
+    projection_.forget();
+    if (integrate(work ? with_work_ : rhs_, initial, options).failure) return;
+    result.energy_drift = work ? drift.balance() : drift.energy();
+    result.work = work;
+    if (constrained) result.constraint_error = constraint;
+}
+
+std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
+    Options options = given;
+    options.sample = options.duration > 0 ? options.duration : 1;
+    if (!parts_.derived.mechanism.constraints.empty()) options.project = projection_.after_steps();
+    projection_.forget();
+    const Trajectory motion = integrate(rhs_, parts_.initial, options);
+    if (motion.failure) return std::nullopt;
+    return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(), parts_.derived.mechanism.q.size());
+}
+
+}  // namespace alembert

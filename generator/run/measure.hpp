@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// One run measured: how long it took, how far it is from the reference, what it lost of what should stay.
+///
+///     const Workbench workbench(derived, program, module, start, initial, reference_state);
+///     const Measured run = workbench.measure({.method = Method::dop853, .duration = 10, .tolerance = 1e-9});
+///
+/// `error` is the largest |y − reference| / max(1, |reference|) of coordinates and rates at the end. `seconds` is processor time
+/// of the integration alone, without rows, dense output or anything recorded: the median of as many runs as fit in 20 ms (three
+/// at least, one where it takes longer than 0.3 s). Drifts are those of a run of their own.
+
+#include <optional>
+
+#include "alembert/canonical.hpp"
+#include "alembert/drift.hpp"
+#include "alembert/integrate.hpp"
+#include "alembert/module.hpp"
+#include "alembert/project.hpp"
+#include "alembert/series.hpp"
+#include "derive/derived.hpp"
+
+namespace alembert {
+
+struct Measured {
+    std::string who = "alembert", method = {};
+    std::optional<double> tolerance = {}, step = {};  ///< one of the two
+    std::optional<double> error = {};            ///< nothing where the run failed, or there is no reference
+    double seconds = 0;
+    long evaluations = 0, steps = 0;
+    std::optional<double> energy_drift = {}, constraint_error = {}, momentum_error = {};  ///< nothing where there is nothing to keep
+    bool work = false;      ///< energy_drift is that of E − E₀ − W
+    std::string failure = {};
+};
+
+/// Coordinates, then their rates.
+std::vector<double> coordinates_and_rates(const Rhs& rhs, double t, const double* state, std::size_t coordinates);
+
+/// The largest |y − reference| / max(1, |reference|); infinite if one is not finite.
+double error_against(const std::vector<double>& reference, const std::vector<double>& y);
+
+class Workbench {
+public:
+    struct Parts {
+        const Derived& derived;
+        const Module& module;
+        SeriesModule series = {}, series_with_work = {};  ///< null where methods that need them are not measured
+        std::shared_ptr<const Canonical> canonical = {};      ///< likewise
+        std::vector<double> parameters, initial;
+        bool conserved = true;  ///< the energy is
+        std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty
+    };
+    explicit Workbench(Parts parts);
+
+    Measured measure(Options options);
+    /// Coordinates and rates at the end; nothing if the run failed.
+    std::optional<std::vector<double>> end_of(const Options& options);
+    const Rhs& rhs() const { return rhs_; }
+    void set_reference(std::vector<double> reference) { parts_.reference = std::move(reference); }
+
+private:
+    void kept(const Options& options, Measured& result);
+    std::vector<double> momenta(double t, const double* state, const Rhs& rhs);
+
+    Parts parts_;
+    std::vector<double> par_;
+    Rhs rhs_, with_work_;
+    Projection projection_;
+    Program momentum_program_;
+    std::vector<int> momentum_nodes_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/method.hpp"
+
+#include <fmt/format.h>
+
+#include "alembert/error.hpp"
+#include "run/canonical.hpp"
+#include "run/foreign.hpp"
+#include "run/separable.hpp"
+#include "program/recurrence.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double many_steps = 1e4;
+constexpr double most_products = 300;  // of a series that compiles in about a second
+
+/// Cauchy products at each order; nothing where there is no series.
+std::optional<double> products_of_series(const Program& program, const Derived& d) {
+    if (!d.mechanism.unilateral.empty()) return std::nullopt;
+    if (program.count(program.right_hand_side()).total() > 20 * most_products) return std::nullopt;
+    try {
+        return recurrences(program).products();
+    } catch (const ModelError&) {
+        return std::nullopt;
+    }
+}
+
+MethodChoice automatic(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
+    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
+    const double step = wish(request.step, start.step), duration = wish(request.duration, start.duration);
+    const double tolerance = wish(request.tolerance, start.tolerance);
+    if (step > 0) {
+        const double steps = duration / step;
+        if (steps >= many_steps && !inseparable(d))
+            return {.method = Method::kahanli8,
+                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in {:.0f} steps the energy must "
+                                       "not drift",
+                                       steps)};
+        return {.method = Method::rk4, .why = "a fixed step was asked for"};
+    }
+    if (tolerance < 1e-12)
+        if (const auto products = products_of_series(program, d); products && *products <= most_products)
+            return {.method = Method::taylor,
+                    .when_stiff = Method::radau,
+                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at each order); if the system turns out "
+                                       "stiff, radau goes on",
+                                       tolerance, *products)};
+    const Method method = tolerance > 1e-5 ? Method::dopri5 : tolerance >= 1e-12 ? Method::dop853 : Method::verner98;
+    return {.method = method,
+            .when_stiff = Method::radau,
+            .why = fmt::format("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
+}
+
+std::string name_given(const RunOptions& request, const Derived& d) {
+    return request.method.empty() ? d.mechanism.run.method : request.method;
+}
+
+}  // namespace
+
+std::optional<Method> given_method(const RunOptions& request, const Derived& d) {
+    const std::string given = name_given(request, d);
+    if (given == "auto") return std::nullopt;
+    const auto known = method_named(given);
+    if (is_foreign(given)) throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
+    if (!known) throw ModelError(fmt::format("unknown method '{}'; expected auto, {}; or cvode, ida", given, method_names()));
+    if (needs_separable(*known)) need_separable(d, given);
+    if (needs_canonical(*known)) need_canonical(d, given);
+    return known;
+}
+
+MethodChoice method_for(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
+    const std::string name = name_given(request, d);
+    if (is_foreign(name)) {
+        need_foreign(d, name);
+        return {.method = Method::bdf, .foreign = name};  // which has the Jacobian emitted
+    }
+    if (const auto given = given_method(request, d)) {
+        if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
+            throw ModelError(fmt::format("--step {:g}: {} chooses its own steps; give --tolerance, or a method with fixed steps (rk4, gauss, kahanli8 …)", request.step, name));
+        return {.method = *given};
+    }
+    return automatic(request, d, program, start);
+}
+
+}  // namespace alembert

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Which method integrates a scene, and why.
+///
+///     const MethodChoice choice = method_for(request, derived, program, start);
+///     choice.why;      // "the tolerance is 1e-09; if the system turns out stiff, radau goes on"
+///
+/// `auto` looks at the structure (is the energy separable? has the motion a power series?), the length of the run in steps,
+/// the tolerance, and the size of the equations:
+///
+/// | asked for | chosen |
+/// | --- | --- |
+/// | a step, energy separable, 10 000 steps or more | kahanli8: its energy does not drift |
+/// | a step | rk4 |
+/// | a tolerance above 1e-5 | dopri5 |
+/// | 1e-12 and above | dop853 |
+/// | below, the motion has a power series of at most 300 products an order | taylor |
+/// | below | verner98 |
+///
+/// and those that choose their steps watch for stiffness while they run (stiffness.hpp), and give way to radau.
+
+#include "alembert/integrate.hpp"
+#include "derive/derived.hpp"
+#include "run/options.hpp"
+
+namespace alembert {
+
+struct MethodChoice {
+    Method method = Method::dop853;
+    std::optional<Method> when_stiff = {};
+    std::string why = {};  ///< empty where the method was given
+    std::string foreign = {};  ///< a method of somebody else's in the place of `method` (foreign.hpp)
+};
+
+/// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a method that
+/// the scene does not allow.
+std::optional<Method> given_method(const RunOptions& request, const Derived& derived);
+
+/// That, or the one that suits. `program` is what will run.
+MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program, const Start& start);
+
+/// The scene's wishes, those of `wishes` first.
+Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start);
+
+}  // namespace alembert

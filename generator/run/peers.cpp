@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/peers.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "alembert/process.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// Beside this program.
+std::filesystem::path peers_program() {
+    std::error_code failed;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const std::filesystem::path beside = self.parent_path() / "alembert-peers";
+    return !failed && std::filesystem::exists(beside) ? beside : std::filesystem::path();
+}
+
+void write_list(std::ofstream& out, const std::vector<double>& list) {
+    out << list.size();
+    for (const double x : list) out << fmt::format(" {:.17g}", x);
+    out << "\n";
+}
+
+}  // namespace
+
+Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>&)>& judge) {
+    const std::filesystem::path program = peers_program();
+    if (program.empty())
+        return {.runs = {}, .missing = "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, libgsl-dev "
+                                       "or libboost-dev (Debian)"};
+    const std::filesystem::path task = std::filesystem::temp_directory_path() / fmt::format("alembert-peers.{}", getpid());
+    {
+        std::ofstream out(task);
+        write_list(out, request.parameters);
+        write_list(out, request.initial);
+        write_list(out, request.tolerances);
+        out << fmt::format("{:.17g} {:.17g} {:.17g}\n", request.start, request.duration, request.most_seconds);
+    }
+    const Finished finished = run({program.string(), request.object.string(), task.string()});
+    std::error_code ignored;
+    std::filesystem::remove(task, ignored);
+
+    Peers peers;
+    std::istringstream lines(finished.output);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string tag;
+        Measured one;
+        double tolerance = 0;
+        int failed = 0;
+        if (!(words >> tag >> one.who >> one.method >> tolerance >> one.seconds >> one.evaluations >> one.steps >> failed) || tag != "run")
+            continue;
+        one.tolerance = tolerance;
+        std::vector<double> state(request.initial.size());
+        for (double& y : state) {
+            std::string word;
+            words >> word;
+            y = std::strtod(word.c_str(), nullptr);
+        }
+        if (failed != 0)
+            one.failure = "failed";
+        else
+            one.error = judge(state);
+        peers.runs.push_back(std::move(one));
+    }
+    if (finished.status != 0) peers.missing = "alembert-peers ended with " + std::to_string(finished.status) + ": " + finished.output.substr(0, 400);
+    return peers;
+}
+
+}  // namespace alembert

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "alembert/dense.hpp"
+#include "lower/lower.hpp"
+#include "program/tape.hpp"
+
+namespace alembert {
+
+namespace {
+
+Quad quad_of_decimal(double x) {
+    return quad_of(cln::rationalize(cln::cl_F(cln::cl_DF(x))));  // the simplest fraction that rounds to it
+}
+
+/// Moves `x[free]` until the nodes vanish, with the misfit in Quad and its derivatives in double: each round gains 15 digits.
+class Settling {
+public:
+    Settling(const Mechanism& m, const Program& p, const QuadStart& start) : m_(m), p_(p), start_(start) {}
+
+    struct Rows {
+        std::vector<int> misfit, derivative;  ///< nodes; n derivatives to each
+        std::vector<Quad> target;
+    };
+
+    void operator()(const Rows& rows, std::vector<Quad>& q, std::vector<Quad>& u, std::vector<Quad>& x, std::vector<int> free) const {
+        const auto m = static_cast<Eigen::Index>(rows.misfit.size());
+        if (m == 0) return;
+        if (free.empty())
+            for (int i = 0; i < m_.size(); ++i) free.push_back(i);
+        std::vector<int> wanted = rows.misfit;
+        wanted.insert(wanted.end(), rows.derivative.begin(), rows.derivative.end());
+        Tape<Quad> tape(p_, wanted, start_.parameters);
+        std::vector<Quad> out(wanted.size());
+        for (int round = 0; round < 4; ++round) {
+            tape(start_.t, q.data(), u.data(), out.data());
+            Eigen::MatrixXd J(m, static_cast<Eigen::Index>(free.size()));
+            Eigen::VectorXd f(m);
+            Quad largest = 0;
+            for (std::size_t k = 0; k < rows.misfit.size(); ++k)
+                largest = std::max(largest, abs(out[k] - rows.target[k]));
+            if (!(largest > Quad(1e-33)) || !is_finite(largest)) return;
+            for (Eigen::Index k = 0; k < m; ++k) {
+                const auto row = static_cast<std::size_t>(k);
+                f[k] = static_cast<double>((out[row] - rows.target[row]) / largest);
+                for (std::size_t j = 0; j < free.size(); ++j)
+                    J(k, static_cast<Eigen::Index>(j)) = static_cast<double>(
+                        out[rows.misfit.size() + row * m_.q.size() + static_cast<std::size_t>(free[j])]);
+            }
+            const Eigen::VectorXd step = least_norm(J, f).x;
+            if (!step.allFinite()) return;
+            for (std::size_t j = 0; j < free.size(); ++j)
+                x[static_cast<std::size_t>(free[j])] -= largest * static_cast<Quad>(step[static_cast<Eigen::Index>(j)]);
+        }
+    }
+
+private:
+    const Mechanism& m_;
+    const Program& p_;
+    const QuadStart& start_;
+};
+
+/// Nodes of a group with the derivatives of `rows`; of positions, those of holonomic constraints alone.
+Settling::Rows rows_of(const Program& p, const Mechanism& m, Group group, Group rows) {
+    Settling::Rows result;
+    const std::vector<int> misfit = p.nodes_of(group), derivative = p.nodes_of(rows);
+    const auto n = m.q.size();
+    for (std::size_t k = 0; k < misfit.size(); ++k) {
+        if (group == Group::position && !m.constraints[k].position) continue;
+        result.misfit.push_back(misfit[k]);
+        for (std::size_t j = 0; j < n; ++j) result.derivative.push_back(derivative[k * n + j]);
+    }
+    result.target.resize(result.misfit.size());
+    return result;
+}
+
+std::vector<int> places(const std::vector<bool>& flags) {
+    std::vector<int> result;
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        if (flags[i]) result.push_back(static_cast<int>(i));
+    return result;
+}
+
+}  // namespace
+
+QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start& doubles, std::optional<double> duration) {
+    QuadStart start;
+    for (const Mechanism::Parameter& p : m.parameters)
+        if (p.independent) start.parameters.push_back(quad_of(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())));
+
+    Program program;
+    std::vector<int> wanted;
+    const auto value = [&](const GiNaC::ex& e) { wanted.push_back(lower_expression(program, m, e)); };
+    for (int i = 0; i < m.size(); ++i) value(m.q_start[i]);
+    for (int i = 0; i < m.size(); ++i) value(m.qdot_start[i]);
+    for (const Mechanism::Speed& speed : m.speeds) value(speed.start.value_or(0));
+    value(m.run.start.value_or(0));
+    value(m.run.duration.value_or(10));
+    std::vector<Quad> out(wanted.size());
+    Tape<Quad>(program, wanted, start.parameters)(0, nullptr, nullptr, out.data());
+    const auto n = static_cast<std::ptrdiff_t>(m.size()), s = static_cast<std::ptrdiff_t>(m.speeds.size());
+    std::vector<Quad> q(out.begin(), out.begin() + n), u(out.begin() + n, out.begin() + 2 * n), speeds(out.begin() + 2 * n, out.begin() + 2 * n + s);
+    start.t = out[out.size() - 2];
+    start.duration = duration ? quad_of_decimal(*duration) : out.back();
+
+    const bool speeds_given = !doubles.speeds.empty();
+    const Program constraints = lower_constraints(m);
+    const std::vector<int> q_free = places(m.q_is_guess), u_free = places(m.qdot_is_guess);
+    for (const int i : q_free) q[static_cast<std::size_t>(i)] = static_cast<Quad>(doubles.q[static_cast<std::size_t>(i)]);
+    const Settling settle(m, constraints, start);
+    settle(rows_of(constraints, m, Group::position, Group::row), q, u, q, q_free);
+    if (speeds_given || !u_free.empty() || !m.constraints.empty()) {
+        for (std::size_t i = 0; i < u.size(); ++i)
+            if (speeds_given || (i < m.qdot_is_guess.size() && m.qdot_is_guess[i])) u[i] = static_cast<Quad>(doubles.qdot[i]);
+        Settling::Rows rows = rows_of(constraints, m, Group::velocity, Group::row);
+        if (speeds_given) {
+            const Settling::Rows forms = rows_of(constraints, m, Group::speed, Group::form_row);
+            rows.misfit.insert(rows.misfit.end(), forms.misfit.begin(), forms.misfit.end());
+            rows.derivative.insert(rows.derivative.end(), forms.derivative.begin(), forms.derivative.end());
+            rows.target.insert(rows.target.end(), speeds.begin(), speeds.end());
+        }
+        settle(rows, q, u, u, speeds_given ? std::vector<int>() : u_free);
+    }
+
+    start.state = q;
+    if (equations.h.empty()) {
+        start.state.insert(start.state.end(), u.begin(), u.end());
+    } else if (speeds_given) {
+        start.state.insert(start.state.end(), speeds.begin(), speeds.end());
+    } else {
+        Program forms;
+        std::vector<int> nodes;
+        for (const GiNaC::ex& form : equations.form) nodes.push_back(lower_expression(forms, m, form));
+        std::vector<Quad> values(nodes.size());
+        Tape<Quad>(forms, nodes, start.parameters)(start.t, q.data(), u.data(), values.data());
+        start.state.insert(start.state.end(), values.begin(), values.end());
+    }
+    return start;
+}
+
+std::optional<Reference> reference(const Program& program, const QuadStart& start, const ReferenceOptions& options) {
+    const std::size_t n = program.coordinates.size();
+    const bool own_speeds = !program.speeds.empty();
+    std::vector<int> wanted = program.nodes_of(Group::rate);
+    const std::vector<int> accelerations = program.nodes_of(Group::acceleration);
+    wanted.insert(wanted.end(), accelerations.begin(), accelerations.end());
+    Tape<Quad> tape(program, wanted, start.parameters);
+    double share = 0;  // of the work, before this method
+    const QuadRhs rhs = [&](Quad t, const Quad* state, Quad* rate) {
+        if (options.progress && start.duration > 0) options.progress(share + 0.5 * static_cast<double>((t - start.t) / start.duration));
+        if (!own_speeds) std::copy_n(state + n, n, rate);
+        tape(t, state, state + n, own_speeds ? rate : rate + n);
+    };
+
+    std::vector<double> parameters;
+    for (const Quad& value : start.parameters) parameters.push_back(static_cast<double>(value));
+    Tape<double> rough_tape(program, wanted, parameters);
+    const RoughRhs rough = [&](double t, const double* state, double* rate) {
+        if (!own_speeds) std::copy_n(state + n, n, rate);
+        rough_tape(t, state, state + n, own_speeds ? rate : rate + n);
+    };
+
+    std::vector<Quad> rate(start.state.size());
+    const std::clock_t clock = std::clock();
+    int calls = 0;
+    do {
+        rhs(start.t, start.state.data(), rate.data());
+        ++calls;
+    } while (std::clock() - clock < CLOCKS_PER_SEC / 1000);
+    const double each = static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC / calls;
+    const long budget = static_cast<long>(options.seconds / each) + 1;
+
+    const Quad end = start.t + start.duration;
+    for (const double tolerance : {1e-28, 1e-20}) {
+        share = 0;
+        const QuadMotion first = extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
+        if (!first.finished) continue;
+        share = 0.5;
+        const QuadMotion second = collocate(rhs, rough, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
+        if (!second.finished) continue;
+        const double apart = agreement(first.state, second.state);
+        Reference result{.coordinates = {first.state.begin(), first.state.begin() + static_cast<std::ptrdiff_t>(n)},
+                         .rates = {},
+                         .speeds = {},
+                         .digits = std::clamp(static_cast<int>(std::floor(-std::log10(std::max(apart, 1e-33)))), 0, 33),
+                         .by = fmt::format("extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128", tolerance),
+                         .evaluations = first.evaluations + second.evaluations};
+        rhs(end, first.state.data(), rate.data());
+        result.rates.assign(rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(n));
+        if (own_speeds) result.speeds.assign(first.state.begin() + static_cast<std::ptrdiff_t>(n), first.state.end());
+        return result;
+    }
+    return std::nullopt;
+}
+
+}  // namespace alembert

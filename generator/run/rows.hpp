@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The rows that a run leaves behind: what stands in its CSV file, and what plots are drawn from.
+
+#include "reaction/joint_reactions.hpp"
+#include "run/modes.hpp"
+
+namespace alembert {
+
+/// A table of numbers, row by row.
+struct Table {
+    std::vector<std::string> columns;
+    std::vector<double> values;  ///< rows() · columns.size()
+
+    std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+    double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
+};
+
+/// Columns: t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while open), energy,
+/// outputs, the scene's own speeds. Where rates jump there are two rows for one time, before and after; where they only change their law,
+/// one. `reactions` may be null; then JOINT.fx … JOINT.mz are the last columns, at the parameters of `first`.
+Table rows_of(const PhasedMotion& motion, const Derived& derived, Modes& modes, const JointReactions* reactions, const State<double>& first);
+
+}  // namespace alembert

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/drift.hpp"
+#include "alembert/process_time.hpp"
+#include "contact/contacts.hpp"
+#include "lower/lower.hpp"
+#include "lower/quick_times.hpp"
+#include "run/method.hpp"
+#include "run/trust.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The state where the numbers failed.
+State<double> state_at(State<double> state, const Failure& failure) {
+    state.t = failure.time;
+    const auto middle = failure.state.begin() + static_cast<std::ptrdiff_t>(state.q.size());
+    state.q.assign(failure.state.begin(), middle);
+    state.qdot.assign(middle, middle + static_cast<std::ptrdiff_t>(state.qdot.size()));
+    return state;
+}
+
+/// Does E stay with the system? Not where an impact has taken some of it, or an impulse changed it.
+bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
+    return std::any_of(motion.events.begin(), motion.events.end(), [](const EventRecord& e) { return !e.impulse.empty(); }) ||
+           std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
+        return e.kind == ContactEvent::Kind::impact && contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
+    });
+}
+
+/// What is watched at every step of the run that is the result, and at none of those that estimate its error.
+struct Watch {
+    Drift drift;
+    PoseWatch poses = {};
+    double constraint_drift = 0;
+    long steps = 0;
+    bool is_over = false;
+};
+
+/// One scene on its way to a Run.
+class Simulation {
+public:
+    Simulation(Run& run, const RunOptions& wishes)
+        : run_(run),
+          wishes_(wishes),
+          has_contacts_(!run.mechanism.unilateral.empty()),
+          // With contacts: of all that their modes can do.
+          energy_(energy_of(has_contacts_ ? with_all_closed(run.mechanism) : run.mechanism)) {}
+
+    void run() {
+        const double begin = process_seconds();
+        Program program = lowered(run_).program;
+        start_ = start_of(run_.mechanism);
+        run_.adjusted = assemble(start_, run_.mechanism, lower_constraints(run_.mechanism), {});
+        first_ = state_of(start_, run_.mechanism, run_.equations);
+        choice_ = method_for(wishes_, run_, program, start_);
+        options_ = options_of(wishes_, choice_, start_);
+        prepare_contacts();
+        run_.seconds = {.derive = run_.Derived::seconds, .emit = process_seconds() - begin};
+        Watch watch{.drift = Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+        Modes modes(wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
+                    [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
+                        if (!watch.is_over) look(watch, mode, t, state, rate);
+                    });
+        modes.take_free(std::move(program));
+        const LoadedMode& free = modes({});
+        options_.quick_times = quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
+        contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
+            if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
+        };
+        integrate(modes);
+        watch.is_over = true;
+        settle_account(watch);
+        if (wishes_.estimate && !run_.motion.failure && options_.duration > 0) estimate(modes, free, watch);
+        describe(modes, free);
+    }
+
+private:
+    void prepare_contacts() {
+        if (!has_jumps(run_.mechanism)) return;
+        view_.emplace(run_.mechanism);
+        kicks_.emplace(run_.mechanism);
+        contacts_ = contacts_of(run_, start_, *view_, *kicks_);
+        if (has_contacts_) check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
+    }
+
+    void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) const {
+        watch.drift(mode.module.table(), mode.par, t, state, rate);
+        watch.poses(t, state, start_.q.size(), first_.qdot.size());
+        if (mode.contact.project) watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
+        // Telling it costs more than a step of a small system.
+        if (wishes_.progress && ++watch.steps % 1000 == 0) wishes_.progress("integrating", (t - options_.start) / options_.duration);
+    }
+
+    void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after, double jump) const {
+        const int n = run_.mechanism.size();
+        const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + 2 * n}),
+                                  b = as_integrated(contacts_.kicks, t, {after, after + 2 * n});
+        watch.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
+    }
+
+    PhasedMotion followed(Modes& modes, const Options& options, const std::vector<double>& from) const {
+        modes.forget();
+        return follow(contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, from, options);
+    }
+
+    void integrate(Modes& modes) {
+        initial_ = start_.q;
+        initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
+        if (!energy_.conserved) initial_.push_back(0);
+        const auto making = [&] { return modes.seconds().derive + modes.seconds().emit + modes.seconds().compile; };
+        const double made_before = making(), begin = process_seconds();
+        run_.motion = followed(modes, options_, initial_);
+        run_.seconds.integrate = process_seconds() - begin - (making() - made_before);
+        run_.seconds.derive += modes.seconds().derive;
+        run_.seconds.emit += modes.seconds().emit;
+        run_.seconds.compile += modes.seconds().compile;
+    }
+
+    void settle_account(const Watch& watch) {
+        EnergyAccount& account = run_.energy;
+        account.conserved = energy_.conserved && !is_lossy(run_.motion, contacts_);
+        account.jacobi_conserved = !energy_.conserved && energy_.jacobi_conserved && !has_contacts_;
+        account.drift = watch.drift.energy();
+        account.balance = watch.drift.balance();
+        account.jacobi_drift = watch.drift.jacobi();
+        for (const ContactEvent& event : run_.motion.contacts) account.impact_loss += event.energy_loss;
+        for (const EventRecord& event : run_.motion.events) account.impulse_work += event.energy_gain;
+        run_.constraint_drift = watch.constraint_drift;
+    }
+
+    void estimate(Modes& modes, const LoadedMode& free, const Watch& watch) {
+        const double begin = process_seconds();
+        const std::size_t coordinates = start_.q.size(), speeds = first_.qdot.size();
+        run_.estimate = error_estimate(
+            run_.motion, [&](const Options& options, const std::vector<double>& from) { return followed(modes, options, from); }, options_,
+            initial_, components_of(free.program, coordinates, speeds));
+        const bool fixed = has_fixed_step(options_.method) && choice_.foreign.empty();
+        const bool conserved = run_.energy.conserved;
+        run_.doubts = doubts(
+            {.error = *run_.estimate,
+             .energy = conserved ? std::optional(watch.drift.energy_of_motion()) : std::nullopt,
+             .balance = conserved ? std::nullopt : std::optional(watch.drift.balance_of_motion()),
+             .jacobi = run_.energy.jacobi_conserved ? std::optional(watch.drift.jacobi_of_motion()) : std::nullopt,
+             .constraints = watch.constraint_drift > 0 ? watch.constraint_drift / size_of(run_.motion, coordinates + speeds) : 0,
+             .singular = most_singular(run_.motion, free, watch.poses),
+             .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
+             .fixed_step = fixed ? options_.step : 0,
+             .inputs = options_.quick_times});
+        run_.seconds.estimate = process_seconds() - begin;
+    }
+
+    /// Names, rows and the end, so that nobody has to ask the loaded modes again.
+    void describe(Modes& modes, const LoadedMode& free) {
+        const Mechanism& m = run_.mechanism;
+        run_.why_method = choice_.why;
+        run_.solver = {.formulation = free.source.formulation,
+                       .operations = free.source.operations.total(),
+                       .jacobian_operations = free.jacobian_operations,
+                       .from_cache = free.from_cache};
+        for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
+        const auto end = run_.motion.final_state();
+        run_.final_coordinates.assign(end.begin(), end.begin() + m.size());
+        if (!m.speeds.empty())
+            for (std::size_t k = 0; k < free.program.speeds.size(); ++k) {
+                run_.speeds.push_back(free.program.speeds[k].name);
+                run_.final_speeds.push_back(end[m.q.size() + k]);
+            }
+        std::vector<double> rates(end.size());
+        free.contact.rhs(run_.motion.final_time(), end.data(), rates.data());
+        run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
+        run_.contacts = contacts_.names;
+        std::optional<JointReactions> reactions;
+        if (wishes_.reactions && !m.joints.empty()) reactions = joint_reactions(run_.scene, m);
+        run_.rows = rows_of(run_.motion, run_, modes, reactions ? &*reactions : nullptr, first_);
+        if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
+    }
+
+    std::string reason_of(const Failure& failure, Modes& modes) const {
+        if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks) return failure.message;
+        const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
+        return failure.message + (there ? "\n  there: " + *there : "");
+    }
+
+    Run& run_;
+    const RunOptions& wishes_;
+    bool has_contacts_;
+    Energy energy_;
+    Start start_;
+    State<double> first_;
+    MethodChoice choice_;
+    Options options_;
+    std::optional<ContactView> view_;
+    std::optional<KickView> kicks_;
+    Contacts contacts_;
+    std::vector<double> initial_;
+};
+
+}  // namespace
+
+Run simulate(Scene scene, const RunOptions& wishes) {
+    Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
+    if (!result.mechanism.impulses.empty())
+        result.warnings.push_back(fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
+                                              result.scene.file));
+    Simulation(result, wishes).run();
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The verb `sweep`: the motions from many initial states or with many parameters.
+///
+///     const Sweep swept = sweep(scene, {{{"theta1", 0, 3, 1000}}}, {.duration = 10});
+///     swept.members[7].final_coordinates[0];
+
+#include "derive/derived.hpp"
+#include "run/grid.hpp"
+#include "run/options.hpp"
+
+namespace alembert {
+
+struct Member {
+    std::vector<double> varied;  ///< as Grid::names
+    std::vector<double> final_coordinates, final_rates, final_speeds;  ///< NaN where the motion did not begin; speeds of scenes that have their own
+    double time = 0, drift = 0;  ///< NaN likewise; the drift of the energy, or the balance of work
+    long steps = 0, rejected = 0, evaluations = 0;
+    std::string status = {};     ///< "done", "stopped" (by an event), or why it failed
+    bool failed = false;
+};
+
+struct Sweep : Derived {
+    Grid grid;
+    std::vector<std::string> coordinates, speeds;
+    std::vector<Member> members;  ///< as Grid::point
+    bool conserved = true;        ///< the energy is; else `drift` is that of E − E₀ − W
+    std::string method, formulation;
+    int operations = 0;           ///< of one right-hand side
+    bool packed = false;          ///< eight motions ran side by side
+    int threads = 1;
+    struct {
+        double compile = 0, start = 0, integrate = 0;
+    } timings;                    ///< processor time, s
+};
+
+/// `threads`: 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with contacts or impulses at events,
+/// and for methods that need more than the right-hand side; IntegrationError where the mass matrix is singular.
+Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
+
+/// What the whole sweep took, and what came of it.
+struct SweepTotals {
+    long steps = 0, rejected = 0, evaluations = 0, failed = 0;
+    double drift = 0;
+    std::string first_failure;
+};
+SweepTotals totals_of(const Sweep& sweep);
+
+}  // namespace alembert

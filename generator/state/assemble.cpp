@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// f(q) = 0 by q ← q − J⁺ f with J = ∂f/∂q over the guesses alone; J⁺ gives the least change (Golub & Van Loan, §5.5).
+#include "state/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "alembert/dense.hpp"
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int most_rounds = 100;
+constexpr double allowed = 1e-9;  // of the sum of the sizes of a constraint's terms (scene-language.md)
+
+class Assembly {
+public:
+    Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
+        : start_(start), m_(m), p_(p), rows_(p.nodes_of(Group::row)) {
+        const auto may_move = [&](const std::string& name, bool guess) {
+            return guess && std::none_of(held.begin(), held.end(), [&](const auto& h) { return h.first == name; });
+        };
+        for (int i = 0; i < m.size(); ++i) {
+            if (may_move(m.q[i].get_name(), m.q_is_guess[i])) q_free_.push_back(i);
+            if (may_move(m.q[i].get_name() + "'", m.qdot_is_guess[i])) u_free_.push_back(i);
+        }
+    }
+
+    std::vector<std::string> go(bool rates_must_obey) {
+        settle(Group::position, start_.q, q_free_, "");
+        if (!start_.speeds.empty()) {
+            solve_for_rates();
+            check(p_.nodes_of(Group::velocity), start_.qdot, false, true);
+            return std::move(moved_);
+        }
+        const std::vector<double> given = start_.qdot;
+        try {
+            settle(Group::velocity, start_.qdot, u_free_, "'");
+        } catch (const std::runtime_error&) {
+            if (rates_must_obey) throw;
+            start_.qdot = given;
+        }
+        return std::move(moved_);
+    }
+
+private:
+    /// All rates from the initial speeds and the constraints, which are linear in them.
+    void solve_for_rates() {
+        std::vector<int> nodes = p_.nodes_of(Group::velocity), rows = rows_;
+        const std::vector<int> speeds = p_.nodes_of(Group::speed), forms = p_.nodes_of(Group::form_row);
+        nodes.insert(nodes.end(), speeds.begin(), speeds.end());
+        rows.insert(rows.end(), forms.begin(), forms.end());
+        const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(m_.size());
+        const auto constraints = m - static_cast<Eigen::Index>(speeds.size());
+        start_.qdot.assign(start_.qdot.size(), 0);
+        for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd misfit(m);
+            Eigen::MatrixXd J(m, n);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                misfit[k] = value[nodes[k]] - (k < constraints ? 0 : start_.speeds[k - constraints]);
+                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = value[rows[k * n + j]];
+            }
+            const LeastNorm change = least_norm(J, misfit);
+            if (change.rank < n)
+                throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
+                                       "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
+                                       "angles in gimbal lock)",
+                                       start_.t, start_.q);
+            const Eigen::VectorXd step = change.x;
+            for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
+        }
+        const std::vector<double> value = interpret(p_, start_.state());
+        for (std::size_t k = 0; k < speeds.size(); ++k) {
+            const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
+            double row = 0, largest = 0;  // the terms may all be zero, but for what rounding leaves of the solution
+            for (Eigen::Index j = 0; j < n; ++j) {
+                row += std::abs(value[forms[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]]);
+                largest = std::max(largest, std::abs(start_.qdot[j]));
+            }
+            const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
+            if (!(misfit <= allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) + rounding))
+                throw ModelError(fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
+                                             "constraints leave it off by {:.6g} at these coordinates",
+                                             m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+        }
+    }
+
+    void settle(Group group, std::vector<double>& x, const std::vector<int>& free, const char* prime) {
+        const std::vector<int> nodes = p_.nodes_of(group);
+        const std::vector<double> before = x;
+        const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(free.size());
+        double former = HUGE_VAL;
+        for (int round = 0; round < most_rounds && n > 0; ++round) {
+            const std::vector<double> value = interpret(p_, start_.state());
+            Eigen::VectorXd f(m);
+            Eigen::MatrixXd J(m, n);
+            for (Eigen::Index k = 0; k < m; ++k) {
+                f[k] = value[nodes[k]];
+                const bool counts = group == Group::velocity || m_.constraints[k].position;
+                for (Eigen::Index j = 0; j < n; ++j) J(k, j) = counts ? value[rows_[k * m_.size() + free[j]]] : 0;
+            }
+            const double misfit = f.lpNorm<Eigen::Infinity>();
+            if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
+            former = misfit;
+            Eigen::VectorXd step = least_norm(J, f).x;
+            // Far away a whole step may throw an angle round the circle.
+            if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1) step /= length;
+            if (!step.allFinite()) break;
+            for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
+        }
+        check(nodes, x, n > 0, n > 0);
+        for (const int i : free)
+            if (std::abs(x[i] - before[i]) > 1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
+                moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+    }
+
+    /// What rounding leaves of a step: the terms themselves may all be zero.
+    double rounding(std::size_t k, const std::vector<double>& x, const std::vector<double>& value) const {
+        double row = 0, largest = 0;
+        for (int i = 0; i < m_.size(); ++i) {
+            row += std::abs(value[rows_[k * m_.q.size() + i]]);
+            largest = std::max(largest, std::abs(x[i]));
+        }
+        return 64 * std::numeric_limits<double>::epsilon() * row * largest;
+    }
+
+    /// `solved`: x is what a linear system gave.
+    void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed, bool solved) const {
+        const std::vector<double> value = interpret(p_, start_.state());
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+            const double misfit = std::abs(value[nodes[k]]);
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0)) continue;
+            if (!std::isfinite(misfit))
+                throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
+                                             "a root or a logarithm of what has none; give other initial values",
+                                             m_.constraints[k].name));
+            const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
+            if (guessed)
+                throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "
+                                              "let more values move",
+                                       start_.t, start_.q);
+            throw ModelError(what + "; give initial values that obey it, or let some move: guess, rate_guess");
+        }
+    }
+
+    Start& start_;
+    const Mechanism& m_;
+    const Program& p_;
+    std::vector<int> rows_, q_free_, u_free_;
+    std::vector<std::string> moved_;
+};
+
+}  // namespace
+
+double size_of_terms(const Program& program, int id, const std::vector<double>& value) {
+    const Node* node = &program[id];
+    double factor = 1;
+    while (node->is_scaled()) {
+        factor *= std::abs(real_of<double>(node->coefficients[0]));
+        node = &program[node->args[0]];
+    }
+    double sum = std::abs(real_of<double>(node->number));
+    for (std::size_t k = 0; k < node->args.size(); ++k)
+        sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) * std::abs(value[node->args[k]]);
+    return factor * sum;
+}
+
+std::vector<std::string> assemble(Start& start, const Mechanism& mechanism, const Program& program,
+                                  const Overrides& held, bool rates_must_obey) {
+    if (mechanism.constraints.empty() && start.speeds.empty()) return {};
+    return Assembly(start, mechanism, program, held).go(rates_must_obey);
+}
+
+}  // namespace alembert

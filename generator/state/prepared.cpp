@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "state/prepared.hpp"
+
+#include "state/inertia_check.hpp"
+
+namespace alembert {
+
+std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
+    if (scene.bodies.empty()) return {};
+    std::vector<Diagnostic> errors, warnings;
+    for (Diagnostic& found : inertia_findings(scene, mechanism, start_of(mechanism, at).state()))
+        (found.severity == Severity::warning ? warnings : errors).push_back(std::move(found));
+    if (!errors.empty()) fail(scene, std::move(errors));
+    if (warnings.empty()) return {};
+    return {describe(scene, warnings)};
+}
+
+Prepared prepared(Scene scene, const Overrides& at) {
+    Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
+    if (!result.scene.warnings.empty()) result.warnings.push_back(describe(result.scene, result.scene.warnings));
+    result.mechanism = build(result.scene);
+    for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warnings.push_back(std::move(warning));
+    return result;
+}
+
+}  // namespace alembert
