@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference of the scene language and the JSON schema, held against the reader's own list of tables and keys. (What the program
-// prints in the guide, and the options of the commands, tests/docs.sh compares.)
+// The reference of the scene language and the JSON schema, held against the reader's own list of tables and keys.
+// (What the program prints in the guide, and the options of the commands, tests/docs.sh compares.)
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -21,7 +21,8 @@ namespace {
 
 using namespace alembert;
 using Json = nlohmann::json;
-using Tables = std::map<std::string, std::set<std::string>>;  ///< "[[force]]", "[energy]", "body.inertia" or "" → keys
+using Tables =
+    std::map<std::string, std::set<std::string>>;  ///< "[[force]]", "[energy]", "body.inertia" or "" → keys
 
 std::string text_of(const std::string& relative) {
     std::ifstream file(std::string(ALEMBERT_SOURCE_DIR "/") + relative, std::ios::binary);
@@ -40,7 +41,8 @@ std::string title_of(const TableKeys& table) {
 Tables of_the_reader() {
     Tables result;
     for (const TableKeys& table : table_keys)
-        for (std::set<std::string>& keys = result[title_of(table)]; const std::string_view key : table.keys()) keys.emplace(key);
+        for (std::set<std::string>& keys = result[title_of(table)]; const std::string_view key : table.keys())
+            keys.emplace(key);
     return result;
 }
 
@@ -56,7 +58,8 @@ std::vector<std::string> in_backticks(const std::string& line) {
     return words;
 }
 
-/// Headings that name a table, and the first column of the rows below. Tables whose header is not `| key |` are about something else.
+/// Headings that name a table, and the first column of the rows below. Tables whose header is not `| key |` are
+/// about something else.
 Tables of_the_reference() {
     Tables result;
     std::set<std::string>* keys = nullptr;
@@ -69,7 +72,8 @@ Tables of_the_reference() {
         } else if (line.starts_with("| key |")) {
             is_key_table = keys != nullptr;
         } else if (line.starts_with("| `") && is_key_table) {
-            for (std::string& word : in_backticks(line.substr(0, line.find('|', 1)))) keys->insert(std::move(word));
+            for (std::string& word : in_backticks(line.substr(0, line.find('|', 1))))
+                keys->insert(std::move(word));
         } else if (!line.starts_with("|")) {
             is_key_table = false;
         }
@@ -129,13 +133,15 @@ void compare(const Tables& found, const Tables& expected, const std::string& whe
     for (const auto& [title, keys] : expected) {
         CHECK_MESSAGE(found.contains(title), where << " has no table '" << title << "'");
         if (!found.contains(title)) continue;
-        for (const std::string& key : keys) CHECK_MESSAGE(found.at(title).contains(key), where << ": no key '" << key << "' in " << title);
+        for (const std::string& key : keys)
+            CHECK_MESSAGE(found.at(title).contains(key), where << ": no key '" << key << "' in " << title);
     }
     for (const auto& [title, keys] : found) {
         CHECK_MESSAGE(expected.contains(title), where << " has '" << title << "', which the reader does not know");
         if (!expected.contains(title)) continue;
         for (const std::string& key : keys)
-            CHECK_MESSAGE(expected.at(title).contains(key), where << " has '" << key << "' in " << title << ", which the reader does not know");
+            CHECK_MESSAGE(expected.at(title).contains(key),
+                          where << " has '" << key << "' in " << title << ", which the reader does not know");
     }
 }
 
@@ -143,18 +149,22 @@ void compare(const Tables& found, const Tables& expected, const std::string& whe
 bool obeys(const Json& value, const Json& node) {
     const Json& s = resolved(node);
     const auto has_type = [&](const std::string& type) {
-        return type == "object"    ? value.is_object()
-               : type == "array"   ? value.is_array()
-               : type == "string"  ? value.is_string()
-               : type == "number"  ? value.is_number()
-               : type == "boolean" && value.is_boolean();
+        return type == "object"   ? value.is_object()
+               : type == "array"  ? value.is_array()
+               : type == "string" ? value.is_string()
+               : type == "number" ? value.is_number()
+                                  : type == "boolean" && value.is_boolean();
     };
-    const auto count = [&](const Json& list) { return std::count_if(list.begin(), list.end(), [&](const Json& one) { return obeys(value, one); }); };
+    const auto count = [&](const Json& list) {
+        return std::count_if(list.begin(), list.end(), [&](const Json& one) { return obeys(value, one); });
+    };
     if (s.contains("type")) {
         const Json types = s["type"].is_array() ? s["type"] : Json::array({s["type"]});
-        if (std::none_of(types.begin(), types.end(), [&](const Json& type) { return has_type(type); })) return false;
+        if (std::none_of(types.begin(), types.end(), [&](const Json& type) { return has_type(type); }))
+            return false;
     }
-    if (s.contains("enum") && std::find(s["enum"].begin(), s["enum"].end(), value) == s["enum"].end()) return false;
+    if (s.contains("enum") && std::find(s["enum"].begin(), s["enum"].end(), value) == s["enum"].end())
+        return false;
     if (s.contains("anyOf") && count(s["anyOf"]) == 0) return false;
     if (s.contains("oneOf") && count(s["oneOf"]) != 1) return false;
     if (s.contains("allOf") && count(s["allOf"]) != static_cast<long>(s["allOf"].size())) return false;
@@ -170,7 +180,10 @@ bool obeys(const Json& value, const Json& node) {
     for (const auto& [key, element] : value.items()) {
         const bool is_own = s.contains("properties") && s["properties"].contains(key);
         const Json others = s.value("additionalProperties", Json(true));
-        if (is_own ? !obeys(element, s["properties"][key]) : others.is_boolean() ? !others : !obeys(element, others)) return false;
+        if (is_own                ? !obeys(element, s["properties"][key])
+            : others.is_boolean() ? !others
+                                  : !obeys(element, others))
+            return false;
     }
     return true;
 }
@@ -208,8 +221,8 @@ std::string complaints(const std::string& example) {
         for (std::string line; std::getline(lines, line);) {
             if (!line.starts_with("example:")) continue;
             const auto says = [&](const char* words) { return line.find(words) != std::string::npos; };
-            if (says("unknown name") || says("unknown point") || says("unknown frame") || says("unknown body") || says("unknown coordinate") ||
-                says("at least one is needed"))
+            if (says("unknown name") || says("unknown point") || says("unknown frame") || says("unknown body") ||
+                says("unknown coordinate") || says("at least one is needed"))
                 continue;
             told += line + "\n";
         }
@@ -238,23 +251,30 @@ TEST_CASE("docs: the reader's list has the tables that it reads, in the shape th
 TEST_CASE("docs: the schema's methods and joints are those of the program") {
     std::set<std::string> methods{"auto", "cvode", "ida"};
     for (const Method method : all_methods()) methods.emplace(name(method));
-    CHECK(schema()["properties"]["simulation"]["properties"]["method"]["enum"].get<std::set<std::string>>() == methods);
-    CHECK(schema()["properties"]["joint"]["items"]["properties"]["type"]["enum"].get<std::vector<std::string>>() == joint_types());
+    CHECK(schema()["properties"]["simulation"]["properties"]["method"]["enum"].get<std::set<std::string>>() ==
+          methods);
+    CHECK(schema()["properties"]["joint"]["items"]["properties"]["type"]["enum"].get<std::vector<std::string>>() ==
+          joint_types());
 }
 
 TEST_CASE("docs: every scene of the repository obeys the schema, and scenes with wrong keys or values do not") {
     int scenes = 0;
     for (const char* const folder : {"scenes", "tests/odd"})
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(ALEMBERT_SOURCE_DIR) / folder)) {
+        for (const auto& entry :
+             std::filesystem::recursive_directory_iterator(std::filesystem::path(ALEMBERT_SOURCE_DIR) / folder)) {
             if (entry.path().extension() != ".toml") continue;
             CHECK_MESSAGE(obeys(json_of(entry.path()), schema()), entry.path().string());
             ++scenes;
         }
     CHECK(scenes > 90);
-    for (const char* const name : {"21_unknown_table", "22_unknown_keys", "23_unknown_top_key", "24_body_without_mass", "45_vector_of_one",
-                                   "46_vector_of_four", "47_wrong_types", "48_table_shapes", "55_spring_of_both_kinds", "56_rotations",
-                                   "59_unknown_method", "62_bad_claims"})
-        CHECK_MESSAGE(!obeys(json_of(std::filesystem::path(ALEMBERT_SOURCE_DIR) / "tests/broken" / (std::string(name) + ".toml")), schema()), name);
+    for (const char* const name :
+         {"21_unknown_table", "22_unknown_keys", "23_unknown_top_key", "24_body_without_mass", "45_vector_of_one",
+          "46_vector_of_four", "47_wrong_types", "48_table_shapes", "55_spring_of_both_kinds", "56_rotations",
+          "59_unknown_method", "62_bad_claims"})
+        CHECK_MESSAGE(!obeys(json_of(std::filesystem::path(ALEMBERT_SOURCE_DIR) / "tests/broken" /
+                                     (std::string(name) + ".toml")),
+                             schema()),
+                      name);
 }
 
 TEST_CASE("docs: the reader takes the examples of the reference") {

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The documentation says what the program does: the commands in README.md and docs/ are run and their output is compared, and
-# docs/commands.md has every verb, option and field of JSON that the program has, and no other verb or option.
+# The documentation says what the program does: the commands in README.md and docs/ are run and their output is
+# compared, and docs/commands.md has every verb, option, method, formalism and field of JSON that the program has, and
+# no other verb or option.
 #   docs.sh PROGRAM
 #
-# A block ```console holds commands after "$ " and what they print. "…" stands for any lines, or any text in a line. Numbers are compared to five
-# digits, those below 1e-7 in size only as small, counts of steps and times not at all. A block "```toml NAME" or "```text NAME" is
-# a file of that name, which the commands after it may read; scenes/ and tests/ are those of the repository.
+# A block ```console holds commands after "$ " and what they print. "…" stands for any lines, or any text in a line.
+# Numbers are compared to five digits, those below 1e-7 in size only as small, counts of steps and times not at all. A
+# block "```toml NAME" or "```text NAME" is a file of that name, which the commands after it may read; scenes/ and tests/
+# are those of the repository.
 set -u
 program=$(realpath "$1")
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -45,7 +47,8 @@ same() {
             k = index(w, "…")
             if (k == 0) return w == g
             end = substr(w, k + length("…"))
-            return substr(g, 1, k - 1) == substr(w, 1, k - 1) && length(g) >= k - 1 + length(end) && substr(g, length(g) - length(end) + 1) == end
+            if (length(g) < k - 1 + length(end) || substr(g, 1, k - 1) != substr(w, 1, k - 1)) return 0
+            return substr(g, length(g) - length(end) + 1) == end
         }
         NR == FNR { want[++n] = $0; next } { got[++m] = $0 }
         END {
@@ -100,25 +103,50 @@ for path in "$root"/README.md "$root"/docs/*.md; do
 done
 
 # The sections of docs/commands.md: "## `verb`", and what all verbs share under "## Options of all verbs".
-section() { awk -v title="$1" '/^## / { on = $0 == "## " title; next } on' "$root/docs/commands.md"; }
+section() { awk -v title="$1" '/^## / { on = $0 == "## " title; next } on' "$root/docs/${2-commands.md}"; }
+agree() { # WHAT DOCUMENTED ACTUAL
+    [ "$2" = "$3" ] && return
+    printf '%s (<) than there are (>):\n' "$1"
+    diff <(echo "$2") <(echo "$3")
+    failed=1
+}
 # shellcheck disable=SC2016 # backticks of Markdown
 options_in() { grep -oE '^\| `(-[a-z]`, `)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u; }
 verbs=$(alembert --help | awk '/^Subcommands:/ { on = 1; next } on && NF { print $1 }')
 # shellcheck disable=SC2016
 documented=$(grep -oE '^## `[a-z]+`' "$root/docs/commands.md" | tr -d '#` ')
-[ "$(sort <<<"$verbs")" = "$(sort <<<"$documented")" ] ||
-    { echo 'docs/commands.md has other verbs than the program:'; diff <(sort <<<"$documented") <(sort <<<"$verbs"); failed=1; }
+agree 'docs/commands.md has other verbs' "$(sort <<<"$documented")" "$(sort <<<"$verbs")"
 for verb in $verbs; do
     has=$(alembert "$verb" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u)
     says=$( (section 'Options of all verbs'; section "\`$verb\`") | options_in)
-    [ "$has" = "$says" ] ||
-        { echo "docs/commands.md has other options of $verb (<) than the program (>):"; diff <(echo "$says") <(echo "$has"); failed=1; }
+    agree "docs/commands.md has other options of $verb" "$says" "$has"
 done
+
+rooms=$(sed -e '/^#/d' -e 's/ .*//' "$root/generator/rooms.txt")
+# shellcheck disable=SC2016
+shown=$(section 'The rooms of the generator' design.md | grep -oE '^\| `[a-z]+`' | tr -d '|` ')
+agree 'docs/design.md has other rooms' "$shown" "$rooms"
+
+# need SECTION WORD: it stands there in backticks.
+need() {
+    section "$1" | grep -qF "\`$2\`" && return
+    echo "docs/commands.md does not have $2 in its section $1"
+    failed=1
+}
+
+# named SECTION OPTION: the names that the help of simulate lists for the option are in the section.
+named() {
+    for name in $(alembert simulate --help | grep -E "^  --$2 " | grep -oE '[a-z][a-z0-9-]+'); do
+        [[ $name =~ ^($2|formalism|or|with)$ ]] || need "$1" "$name"
+    done
+}
+named Formalisms by
+named Methods method
 
 # fields VERB ARGUMENTS...: the fields that it prints now are in the section of the verb.
 fields() {
     for field in $(alembert "$@" --json 2>"$work/log" | grep -oE '^  "[a-z_0-9]+"' | tr -d ' "'); do
-        section "\`$1\`" | grep -qF "\`$field\`" || { echo "docs/commands.md does not say what the field $field of $1 --json is"; failed=1; }
+        need "\`$1\`" "$field"
     done
 }
 fields derive scenes/textbook/slack_pendulum.toml --reactions
@@ -140,5 +168,5 @@ fields sweep scenes/textbook/double_pendulum.toml --vary theta1=0:1:2 --duration
 fields sweep scenes/textbook/double_pendulum.toml --vary theta1=0:1:2 --duration 0.1 -o sweep.csv
 fields bench scenes/textbook/bouncing_ball.toml --method dop853
 
-[ "$failed" = 0 ] && echo "$commands commands print what the documentation says; its verbs, options and fields are the program's"
+[ "$failed" = 0 ] && echo "$commands commands print what the documentation says; verbs, options and fields are all there"
 exit "$failed"

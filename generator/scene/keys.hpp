@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The tables of a scene and the keys of each: the one list that the reader goes by. A test compares docs/scene-language.md and
-/// docs/scene.schema.json with it.
+/// The tables of a scene and the keys of each: the one list that the reader goes by. A test compares
+/// docs/scene-language.md and docs/scene.schema.json with it.
 ///
 ///     keys_of("force")            // at, vector, axes, reaction
 ///
-/// A table that stands inside another is named by the way to it: "body.inertia". A star stands for a name that the user chooses:
-/// "parameters.*" is the longer form of one parameter, { value, unit, about }.
+/// A table that stands inside another is named by the way to it: "body.inertia". A star stands for a name that the
+/// user chooses: "parameters.*" is the longer form of one parameter, { value, unit, about }.
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,8 @@ struct TableKeys {
     };
     std::string_view table;
     Shape shape;
-    std::array<std::string_view, 13> known = {};  ///< empty at the end; none at all where the user chooses the names
+    std::array<std::string_view, 13> known =
+        {};  ///< empty at the end; none at all where the user chooses the names
 
     constexpr std::span<const std::string_view> keys() const {
         return {known.data(), static_cast<std::size_t>(std::find(known.begin(), known.end(), "") - known.begin())};
@@ -47,12 +48,14 @@ inline constexpr TableKeys table_keys[] = {
     {"frame", TableKeys::Shape::list, {"name", "parent", "rotate", "quaternion"}},
     {"point", TableKeys::Shape::list, {"name", "from", "offset", "axes"}},
     {"particle", TableKeys::Shape::list, {"name", "mass", "at", "position", "from", "axes"}},
-    {"body", TableKeys::Shape::list, {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"}},
+    {"body",
+     TableKeys::Shape::list,
+     {"name", "mass", "frame", "at", "position", "from", "axes", "inertia", "about"}},
     {"body.inertia", TableKeys::Shape::inner, {"xx", "yy", "zz", "xy", "yz", "zx"}},
     {"joint",
      TableKeys::Shape::list,
-     {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis", "pitch",
-      "coordinates", "angles", "motion"}},
+     {"name", "type", "parent", "child", "parent_point", "child_point", "parent_rotate", "child_rotate", "axis",
+      "pitch", "coordinates", "angles", "motion"}},
     {"force", TableKeys::Shape::list, {"at", "vector", "axes", "reaction"}},
     {"torque", TableKeys::Shape::list, {"on", "vector", "axes", "reaction"}},
     {"spring", TableKeys::Shape::list, {"between", "along", "stiffness", "length"}},
@@ -67,7 +70,9 @@ inline constexpr TableKeys table_keys[] = {
     {"forces", TableKeys::Shape::one},
     {"outputs", TableKeys::Shape::one},
     {"event", TableKeys::Shape::list, {"name", "when", "stop", "direction", "impulses"}},
-    {"simulation", TableKeys::Shape::one, {"start", "duration", "tolerance", "step", "sample", "method", "period"}},
+    {"simulation",
+     TableKeys::Shape::one,
+     {"start", "duration", "tolerance", "step", "sample", "method", "period"}},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
 };
 
@@ -78,6 +83,8 @@ inline const TableKeys& table_named(std::string_view name) {
     throw std::logic_error("scene/keys.hpp has no table '" + std::string(name) + "'");
 }
 
-inline std::span<const std::string_view> keys_of(std::string_view table) { return table_named(table).keys(); }
+inline std::span<const std::string_view> keys_of(std::string_view table) {
+    return table_named(table).keys();
+}
 
 }  // namespace alembert
