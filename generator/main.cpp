@@ -111,6 +111,7 @@ int main(int argc, char** argv) {
             ->check(positive);
         sub->add_option("--method", request.method, "auto, " + alembert::method_names() + "; cvode, ida with SUNDIALS");
         sub->add_option("--step", request.step, "fixed step, for methods without step control")->check(positive);
+        sub->add_option("--max-step", request.max_step, "no step longer than this many seconds, for methods with step control")->check(positive);
         sub->add_option("-o,--output", request.output, "CSV file");
         sub->add_option("--budget", request.budget, "right-hand sides at the most")->check(positive);
         sub->add_flag("--fast-math", request.fast_math, "let the compiler reorder sums");
@@ -141,6 +142,7 @@ int main(int argc, char** argv) {
     bench->add_option("--svg", request.svg, "work-precision plot");
     bench->add_option("--duration", request.duration, "seconds from the start")->check(nonnegative);
     bench->add_option("--method", request.method, "this one alone");
+    bench->add_option("--max-step", request.max_step, "no step longer than this many seconds, for methods with step control")->check(positive);
     bench->add_option("--budget", request.budget, "right-hand sides of one run, at the most")->check(positive);
     bench->add_option("--reference-seconds", request.reference_seconds, "processor time for each of the reference's methods")
         ->check(positive);

@@ -18,9 +18,11 @@
 #include "commands/modes.hpp"
 #include "commands/peers.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_options.hpp"
 #include "commands/separable.hpp"
 #include "emit/emit.hpp"
 #include "emit/taylor.hpp"
+#include "lower/quick_times.hpp"
 #include "report/work_precision.hpp"
 
 namespace alembert {
@@ -257,7 +259,8 @@ int bench(const Request& request) {
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     Workbench workbench({.derived = d, .module = module, .series = series, .series_with_work = series_with_work, .canonical = canonical, .parameters = start.parameters, .initial = initial, .conserved = energy.conserved});
 
-    const Options options{.start = start.t, .duration = duration, .budget = request.budget};
+    const Options options{.start = start.t, .duration = duration, .longest_step = longest_step(request, start),
+                          .quick_times = quick_times(program, start.parameters, start.t, start.t + duration), .budget = request.budget};
     std::optional<Reference> exact;
     {
         Progress progress("computing the reference");

@@ -9,6 +9,7 @@
 
 #include "commands/modes.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_options.hpp"
 
 namespace alembert {
 
@@ -68,7 +69,7 @@ Bounces measured_bounces(const Request& request, const Derived& d, const Start& 
     Modes modes(request, d, start, first, Work::left_out, choice, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
-    Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .budget = request.budget};
+    Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .longest_step = longest_step(request, start), .budget = request.budget};
     options.sample = options.duration > 0 ? options.duration : 1;
     double seconds = 0;
     const auto run = [&](Method method, double tolerance) {

@@ -26,7 +26,7 @@ struct Request {
     int threads = 0;              ///< sweep; 0: as many as there are cores
     std::string output;           ///< a file or folder
     std::string method;           ///< simulate; empty: the scene's
-    double duration = -1, tolerance = -1, step = -1, sample = -1;  ///< simulate; negative: the scene's
+    double duration = -1, tolerance = -1, step = -1, sample = -1, max_step = -1;  ///< simulate; negative: the scene's
     long budget = 10'000'000;
     bool floating = false, quaternion = false;  ///< import
     bool estimate = true;         ///< simulate: the error, by a second run

@@ -14,20 +14,10 @@
 #include "commands/progress.hpp"
 #include "commands/record.hpp"
 #include "commands/run_options.hpp"
+#include "commands/trust.hpp"
+#include "lower/quick_times.hpp"
 
 namespace alembert {
-
-Options options_of(const Request& request, const MethodChoice& choice, const Start& start) {
-    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
-    return {.method = choice.method,
-            .start = start.t,
-            .duration = wish(request.duration, start.duration),
-            .tolerance = wish(request.tolerance, start.tolerance),
-            .step = wish(request.step, start.step),
-            .sample = wish(request.sample, start.sample),
-            .budget = request.budget,
-            .when_stiff = choice.when_stiff};
-}
 
 namespace {
 
@@ -64,20 +54,24 @@ struct Account {
     std::string why_method;  ///< empty where it was given
     bool closed = false;  ///< what runs now is not the result
     std::optional<ErrorEstimate> estimate = {};
+    std::vector<std::string> reasons = {};  ///< against trusting it
+    PoseWatch poses = {};
 };
 
 /// Why the result is not to be trusted; empty where nothing speaks against it.
 std::string distrust(const Account& account) {
-    if (!account.estimate || account.estimate->trusted) return {};
-    const ErrorEstimate& e = *account.estimate;
-    if (!e.value) return fmt::format("NOT TRUSTWORTHY: {}, so the error is unknown", e.by);
-    std::string text = fmt::format("NOT TRUSTWORTHY: the estimated error is {:.1e}", *e.value);
-    if (e.lyapunov) text += fmt::format("; the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left", *e.lyapunov, *e.horizon);
-    return text;
+    return account.reasons.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(account.reasons, "; "));
 }
 
-Json as_json(const ErrorEstimate& e) {
-    Json result{{"value", e.value ? Json(*e.value) : Json(nullptr)}, {"by", e.by}, {"trustworthy", e.trusted}};
+Json as_json(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
+    const auto number = [](const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); };
+    Json result{{"value", number(e.value)},
+                {"by", e.by},
+                {"trustworthy", reasons.empty()},
+                {"norm", "value: max |y - y2| / max(1, |y2|) of coordinates and speeds at the end; scaled: max |y - y2| / how far components of "
+                         "that unit move in the run"},
+                {"scaled", number(e.scaled)},
+                {"reasons", reasons}};
     if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
     if (e.horizon) result["no_digit_after"] = *e.horizon;
     return result;
@@ -115,7 +109,7 @@ Json as_json(const PhasedMotion& motion, const Contacts& contacts, const Derived
     if (balance) result["work_balance"] = account.drift.balance();
     if (account.jacobi_conserved) result["jacobi_drift"] = account.drift.jacobi();
     result["constraint_drift"] = account.constraint_drift;
-    if (account.estimate) result["error_estimate"] = as_json(*account.estimate);
+    if (account.estimate) result["error_estimate"] = as_json(*account.estimate, account.reasons);
     if (!moved.empty()) result["adjusted"] = moved;
     result["events"] = Json::array();
     for (const EventRecord& event : motion.events) result["events"].push_back(event_as_json(event, d.mechanism));
@@ -158,7 +152,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
         fmt::print("closed: {}\n", closed.empty() ? "no contact" : closed);
     }
     if (account.estimate && account.estimate->value) {
-        fmt::print("\nestimated error {:.1e}, by {}\n", *account.estimate->value, account.estimate->by);
+        fmt::print("\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *account.estimate->value, *account.estimate->scaled, account.estimate->by);
         if (account.estimate->lyapunov)
             fmt::print("chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *account.estimate->lyapunov, *account.estimate->horizon);
     }
@@ -209,6 +203,7 @@ int simulate(const Request& request) {
                 [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                     if (account.closed) return;
                     account.drift(mode.module.table(), mode.par, t, state, rate);
+                    account.poses(t, state, start.q.size(), first.qdot.size());
                     if (mode.contact.project)
                         account.constraint_drift =
                             std::max(account.constraint_drift, mode.projection.residual(t, state.data()));
@@ -216,6 +211,7 @@ int simulate(const Request& request) {
                 });
     modes.take_free(std::move(program));
     const LoadedMode& free = modes({});
+    options.quick_times = quick_times(free.program, start.parameters, options.start, options.start + options.duration);
     contacts.on_jump = [&](double t, const double* before, const double* after, double jump) {
         if (account.closed) return;
         const std::vector<double> a = as_integrated(contacts.kicks, t, {before, before + 2 * n}), b = as_integrated(contacts.kicks, t, {after, after + 2 * n});
@@ -245,7 +241,19 @@ int simulate(const Request& request) {
     account.closed = true;
     if (request.estimate && !motion.failure && options.duration > 0) {
         const double again = process_seconds();
-        account.estimate = error_estimate(motion, run, options, initial, start.q.size() + first.qdot.size());
+        const std::size_t coordinates = start.q.size(), speeds = first.qdot.size();
+        account.estimate = error_estimate(motion, run, options, initial, components_of(free.program, coordinates, speeds));
+        const bool fixed = has_fixed_step(options.method) && choice.foreign.empty();
+        const double size = size_of(motion, coordinates + speeds);
+        account.reasons = doubts({.error = *account.estimate,
+                                  .energy = account.conserved ? std::optional(account.drift.energy_of_motion()) : std::nullopt,
+                                  .balance = account.conserved ? std::nullopt : std::optional(account.drift.balance_of_motion()),
+                                  .jacobi = account.jacobi_conserved ? std::optional(account.drift.jacobi_of_motion()) : std::nullopt,
+                                  .constraints = account.constraint_drift > 0 ? account.constraint_drift / size : 0,
+                                  .singular = most_singular(motion, free, account.poses),
+                                  .precision = fixed ? account.estimate->value.value_or(0) : options.tolerance,
+                                  .fixed_step = fixed ? options.step : 0,
+                                  .inputs = options.quick_times});
         account.estimate_seconds = process_seconds() - again;
     }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <map>
 
 #include "alembert/compile.hpp"
 #include "alembert/ensemble.hpp"
@@ -14,6 +15,7 @@
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"
 #include "emit/emit.hpp"
+#include "lower/quick_times.hpp"
 
 namespace alembert {
 
@@ -55,6 +57,30 @@ Beginnings beginnings(const Request& request, const Derived& d, const Grid& grid
         }
     }
     return result;
+}
+
+/// When the inputs of each member change fast; members that have their parameters in common, and their times, share one search.
+void find_quick_times(const Program& program, Ensemble& e) {
+    constexpr std::size_t most_searches = 2000;  // some seconds
+    const std::size_t count = e.count(), p = count > 0 ? e.parameters.size() / count : 0;
+    const std::vector<bool> used = parameters_of_inputs(program, p);
+    std::map<std::vector<double>, std::vector<QuickTime>> known;
+    bool any = false;
+    std::vector<std::vector<QuickTime>> found;
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto first = e.parameters.begin() + static_cast<std::ptrdiff_t>(k * p);
+        const std::vector<double> parameters(first, first + static_cast<std::ptrdiff_t>(p));
+        std::vector<double> key{e.starts[k], e.durations[k]};
+        for (std::size_t i = 0; i < p; ++i)
+            if (used[i]) key.push_back(parameters[i]);
+        const auto [at, is_new] = known.try_emplace(std::move(key));
+        if (is_new && known.size() == most_searches + 1)
+            std::cerr << fmt::format("inputs are looked through for narrow pulses in {} of their variants, not in more; --max-step bounds the steps of all\n", most_searches);
+        if (is_new && known.size() <= most_searches) at->second = quick_times(program, parameters, e.starts[k], e.starts[k] + e.durations[k]);
+        any = any || !at->second.empty();
+        found.push_back(at->second);
+    }
+    if (any) e.quick_times = std::move(found);
 }
 
 /// A row of the table.
@@ -227,6 +253,7 @@ int sweep(const Request& request) {
         begin.ensemble.directions.push_back(event.direction);
     }
     begin.ensemble.threads = request.threads;
+    if (!has_fixed_step(options.method)) find_quick_times(program, begin.ensemble);
     const double integrate_begin = process_seconds();
     Outcomes ends;
     {
