@@ -10,6 +10,7 @@
 
 #include "alembert/error.hpp"
 #include "linear/kinks.hpp"
+#include "linear/paths.hpp"
 #include "linear/tangent.hpp"
 
 namespace alembert {
