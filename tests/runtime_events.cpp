@@ -232,3 +232,41 @@ TEST_CASE("events: direction tells zeros where the value grows from those where 
     near(times(-1, 0.5), {late, 2 + late});
     near(times(1, 0.5), {2 - late, 4 - late});
 }
+
+// g = |x − a| − b has zeros at a − b and a + b; a projectile goes through such a slab at both of its walls, twice where it comes back.
+TEST_CASE("events: a step that goes through a thin slab sees both walls, wherever in the step it stands") {
+    for (const double b : {1e-2, 1e-4, 1e-6})
+        for (const double a : {0.13, 1.23, 2.5, 3.7, 4.98, 5.6, 6.26, 7.44, 8.89, 9.9}) {
+            CAPTURE(a);
+            CAPTURE(b);
+            const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1},
+                                                one_event([=](double, const double* y, const double*, double* out) { out[0] = std::abs(y[0] - a) - b; }));
+            REQUIRE(motion.events.size() == 2);
+            CHECK(std::abs(motion.events[0].time - (a - b)) < 1e-13);
+            CHECK(std::abs(motion.events[1].time - (a + b)) < 1e-13);
+        }
+    // y = 20 t − g t²/2 is at the height h at (20 ∓ √(400 − 2 g h))/g.
+    for (const double h : {3.0, 11.0, 17.0}) {
+        const double b = 1e-5;
+        const Trajectory motion = integrate(free_fall(), {0, 20}, {.duration = 4, .tolerance = 1e-3, .step = 4, .sample = 1},
+                                            one_event([=](double, const double* y, const double*, double* out) { out[0] = std::abs(y[0] - h) - b; }));
+        REQUIRE(motion.events.size() == 4);
+        const auto when = [&](double height, int side) { return (20 + side * std::sqrt(400 - 2 * g * height)) / g; };
+        CHECK(std::abs(motion.events[0].time - when(h - b, -1)) < 1e-9);
+        CHECK(std::abs(motion.events[1].time - when(h + b, -1)) < 1e-9);
+        CHECK(std::abs(motion.events[2].time - when(h + b, 1)) < 1e-9);
+        CHECK(std::abs(motion.events[3].time - when(h - b, 1)) < 1e-9);
+    }
+}
+
+// A body at rest at y = 1 and a spike that rises from the ground at 50 m/s and goes back: 1.1 − 50 |t − c| reaches it at c − 0.002.
+TEST_CASE("events: a spike that touches a resting body between two points of a long step stops the run at its first touch") {
+    for (const double c : {0.03, 1.013, 2.4, 4.99, 6.2, 8.77, 9.93}) {
+        CAPTURE(c);
+        const Trajectory motion =
+            integrate(free_fall(), {1 + g * 50, 0}, {.duration = 10, .tolerance = 1e-3, .step = 10},
+                      one_event([=](double t, const double* y, const double*, double* out) { out[0] = y[0] - g * 50 + g * t * t / 2 - 1.1 + 50 * std::abs(t - c); }, true));
+        CHECK(motion.ending == Ending::stopped_by_event);
+        CHECK(std::abs(motion.times.back() - (c - 0.002)) < 1e-9);
+    }
+}

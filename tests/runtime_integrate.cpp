@@ -272,3 +272,31 @@ TEST_CASE("options: what makes no sense is refused with its name") {
     CHECK(contains(refusal({.duration = 1}, {1.0, 2.0}), "1 components, 2 initial values"));
     CHECK(refusal({.method = Method::euler, .duration = 0}).empty());
 }
+
+// x'' + x = exp(−((t − 5)/w)²) from rest: x(20) = w √π exp(−w²/4) sin 15.
+TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are no shorter elsewhere") {
+    const double w = 1e-4, exact = w * std::sqrt(std::acos(-1.0)) * std::exp(-w * w / 4) * std::sin(15.0);
+    const Rhs rhs = make_rhs(2, [=](double t, const double* y, double* rate) {
+        rate[0] = y[1];
+        rate[1] = std::exp(-(t - 5) / w * (t - 5) / w) - y[0];
+    });
+    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau}) {
+        INFO(name(method));
+        Options options{.method = method, .duration = 20, .tolerance = 1e-12};
+        options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = w, .step = w}};
+        const Trajectory motion = integrate(rhs, {0, 0}, options);
+        REQUIRE_FALSE(motion.failure);
+        CHECK(std::abs(motion.final_state()[0] - exact) < 1e-8);
+        options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = 0, .step = w}};
+        bool lands = false;
+        options.on_step = [&](double t, std::span<const double>, std::span<const double>) { lands = lands || std::abs(t - (5 - 4 * w)) < 1e-14; };
+        integrate(rhs, {0, 0}, options);
+        CHECK(lands);
+    }
+    CHECK(latest_end({}, 3) == HUGE_VAL);
+    const std::vector<QuickTime> quick{{.from = 1, .to = 2, .enter = 3, .step = 3}, {.from = 2, .to = 2.5, .enter = 0.1, .step = 0.2}};
+    CHECK(latest_end(quick, 0) == 2.1);
+    CHECK(latest_end(quick, 1.5) == 2.1);
+    CHECK(latest_end(quick, 2) == 2.2);
+    CHECK(latest_end(quick, 2.5) == HUGE_VAL);
+}

@@ -182,6 +182,7 @@ TEST_CASE("reader: every table is read in full") {
     CHECK(scene.simulation.duration.text == "2*pi");
     CHECK(scene.simulation.method->text == "dop853");
     CHECK_FALSE(scene.simulation.step);
+    CHECK(scene.simulation.max_step.text == "1/k");
 
     REQUIRE(scene.claims.size() == 2);
     CHECK(scene.claims[0].source == "line 1");

@@ -12,6 +12,8 @@
 
 #include "exact/square_points.hpp"
 #include "agree/system.hpp"
+#include "state/redundancy.hpp"
+#include "state/speeds.hpp"
 
 namespace alembert {
 

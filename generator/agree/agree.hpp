@@ -41,8 +41,8 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& mechan
 
 /// The whole verb: a scene's formalisms and what they agree on.
 struct Agreed : Prepared {
-    Derivations derivations;
-    Agreement agreement;
+    Derivations derivations = {};
+    Agreement agreement = {};
     double seconds = 0;  ///< by the clock on the wall
 };
 

@@ -62,7 +62,7 @@ Audit audit_of(const Mechanism& mechanism);
 
 /// The whole verb: a scene with the audit of its constraints.
 struct Audited : Prepared {
-    Audit audit;
+    Audit audit = {};
 };
 
 /// Throws SceneError for a mistake in the scene; contradictory constraints and an initial state that breaks them are no exception here,

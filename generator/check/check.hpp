@@ -53,7 +53,7 @@ Checked check(const Scene& scene, const Mechanism& mechanism);
 /// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the teacher's choice.
 /// Throws ModelError where there are no claims.
 struct CheckedScene : Derived {
-    Checked checked;
+    Checked checked = {};
 };
 CheckedScene check(Scene scene, const std::string& by = {});
 

@@ -60,7 +60,7 @@ Impact impact(const Mechanism& mechanism);
 
 /// The whole verb: a scene with what its impulses do.
 struct Struck : Prepared {
-    Impact hit;
+    Impact hit = {};
 };
 Struck impact(Scene scene);
 

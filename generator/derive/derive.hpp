@@ -19,8 +19,8 @@ struct ShowOptions {
 /// Reactions of unilateral constraints stand in the equations, zero while their gap is open, unless the formalism is one for independent
 /// coordinates.
 struct DerivedScene : Derived {
-    Derivation shown;
-    std::vector<Statement> joint_loads;    ///< F_x … M_z on the child of each joint, as far as they are short
+    Derivation shown = {};
+    std::vector<Statement> joint_loads = {}; ///< F_x … M_z on the child of each joint, as far as they are short
     bool has_unilateral_reactions = false;
 };
 

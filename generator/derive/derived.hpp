@@ -32,7 +32,7 @@ struct ReactionOutput {
 
 /// A scene with its mechanism and equations. Redundant constraints are left out of the mechanism, and a warning names them.
 struct Derived : Prepared {
-    Equations equations;
+    Equations equations = {};
     std::string by = {};  ///< the formalism that was asked for; empty: the program chose
     double seconds = 0;   ///< processor time
     std::vector<ReactionOutput> reaction_outputs = {};  ///< where they were asked for

@@ -18,10 +18,10 @@ struct LinearizeOptions {
 };
 
 struct LinearizedScene : Derived {
-    Start start;                   ///< where; obeys the constraints
-    Linearization matrices;
+    Start start = {};              ///< where; obeys the constraints
+    Linearization matrices = {};
     /// M, C, G, K, N in the parameters, by name, row by row in the order of the numbers; empty where they are not short.
-    std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols;
+    std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols = {};
 };
 
 /// Contacts that are closed at the state and stay so are constraints. Throws as the function of linearize.hpp, and ModelError for a contact

@@ -51,7 +51,7 @@ public:
         point_ = on_path(r_, at_, Column::Zero(size_));
         std::vector<int> roots;
         for (const Root& root : r_.program.roots)
-            if (root.group != "input") roots.push_back(root.node);
+            if (root.group != Group::input) roots.push_back(root.node);
         critical_ = critical_nodes(r_.program, roots, point_);
         if (critical_.empty()) return;
         collect();

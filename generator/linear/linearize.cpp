@@ -10,6 +10,7 @@
 
 #include "alembert/error.hpp"
 #include "linear/kinks.hpp"
+#include "linear/paths.hpp"
 #include "linear/tangent.hpp"
 
 namespace alembert {
@@ -148,8 +149,9 @@ public:
         split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
         if (!settle(residuals_, split_, at_))
             throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state", state_.t, state_.q);
-        here_ = tangent(residuals_, split_, at_);
-        check_differentiable(residuals_, split_, at_, here_, m_, e_);
+        at_kink_ = is_at_kink(residuals_, at_);
+        here_ = tangent(residuals_, split_, at_, at_kink_);
+        if (at_kink_) check_differentiable(residuals_, split_, at_, here_, m_, e_);
         p_ = static_cast<Index>(split_.u.size());
         nr_ = static_cast<Index>(split_.q.size());
         if (!here_.speed_rates.allFinite() || !here_.speed_rates_by.allFinite())
@@ -238,7 +240,7 @@ private:
                                    .u = {at_.u.begin(), at_.u.end()},
                                    .inputs = {at_.inputs.begin(), at_.inputs.end()},
                                    .t = static_cast<double>(at_.t)};
-        const Tangent<double> rough = tangent(residuals_, split_, near);
+        const Tangent<double> rough = tangent(residuals_, split_, near, at_kink_);
         const auto both = [&](auto part) { return clean(part(here_), part(rough)); };
         r.M = both([](const auto& t) { return t.mass; });
         const auto damping = [&](const auto& t) { return t.force.middleCols(nr_, p_).eval(); };
@@ -304,6 +306,7 @@ private:
     Split split_;
     Tangent<long double> here_;
     Index p_ = 0, nr_ = 0;
+    bool at_kink_ = false;
     Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> depends_;
     std::vector<Index> kept_;
     Linearization result_;

@@ -73,22 +73,12 @@ std::vector<int> critical_nodes(const Program& program, std::span<const int> nod
     return result;
 }
 
-bool has_kinks(const Program& program) {
-    for (int id = 0; id < program.size(); ++id) switch (program[id].op) {
-            case Op::abs:
-            case Op::sign:
-            case Op::sqrt:
-            case Op::pow:
-            case Op::min:
-            case Op::max:
-            case Op::atan2:
-            case Op::asin:
-            case Op::acos:
-                return true;
-            default:
-                break;
-        }
-    return false;
+bool is_at_kink(const Residuals& r, const Instant<long double>& at) {
+    std::vector<int> roots;
+    for (const Root& root : r.program.roots)
+        if (root.group != Group::input) roots.push_back(root.node);
+    const auto columns = static_cast<Eigen::Index>(at.q.size() + at.u.size() + 1 + at.inputs.size());
+    return !critical_nodes(r.program, roots, on_path(r, at, VectorOf<long double>::Zero(columns))).empty();
 }
 
 std::optional<long double> slope(const Germ& there, const Germ& back) {

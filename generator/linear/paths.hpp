@@ -27,8 +27,8 @@ std::vector<Germ> on_path(const Residuals& residuals, const Instant<long double>
 std::vector<int> critical_nodes(const Program& program, std::span<const int> nodes,
                                 const std::vector<Germ>& value);
 
-/// Has this program a function that can be critical otherwise than by having no value?
-bool has_kinks(const Program& program);
+/// Do the equations need a function at a critical point at this state?
+bool is_at_kink(const Residuals& residuals, const Instant<long double>& at);
 
 /// The derivative of this value along the path `there` if `back`, of the opposite path, gives the opposite one and
 /// both leave from the same value; nothing where the function has a kink, a jump, an infinite slope or no value

@@ -74,7 +74,7 @@ namespace {
 /// Values and derivatives of all nodes; columns: q, u, t, inputs.
 template <typename Real>
 struct Values {
-    Values(const Residuals& r, const Instant<Real>& at) : r_(r) {
+    Values(const Residuals& r, const Instant<Real>& at, bool at_kink = false) : r_(r) {
         const std::size_t width = at.q.size() + at.u.size() + 1 + r.inputs.size();
         std::size_t next = 0;
         const auto variable = [&](Real x) {
@@ -91,7 +91,7 @@ struct Values {
         for (std::size_t k = 0; k < r.inputs.size(); ++k) state.unknown[r.inputs[k]] = variable(at.inputs[k]);
         value_ = interpret(r.program, state);
         columns = static_cast<Index>(width);
-        repair(at);
+        if (at_kink) repair(at);
     }
     VectorOf<Real> vector(const std::vector<int>& nodes) const {
         VectorOf<Real> result(static_cast<Index>(nodes.size()));
@@ -112,18 +112,15 @@ private:
     /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of sides: then the
     /// derivatives are those of the root itself, in each direction in which both of its sides agree.
     void repair(const Instant<Real>& at) {
-        if (!has_kinks(r_.program)) return;
         const Instant<long double> point{.parameters = {at.parameters.begin(), at.parameters.end()},
                                          .q = {at.q.begin(), at.q.end()},
                                          .u = {at.u.begin(), at.u.end()},
                                          .inputs = {at.inputs.begin(), at.inputs.end()},
                                          .t = static_cast<long double>(at.t)};
         const std::vector<Germ> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
-        std::vector<int> broken, all;
-        for (const Root& root : r_.program.roots) all.push_back(root.node);
-        if (critical_nodes(r_.program, all, here).empty()) return;
+        std::vector<int> broken;
         for (const Root& root : r_.program.roots)
-            if (root.group != "input" && !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty()) broken.push_back(root.node);
+            if (root.group != Group::input && !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty()) broken.push_back(root.node);
         for (Index k = 0; k < columns; ++k) {
             const VectorOf<long double> d = VectorOf<long double>::Unit(columns, k);
             const std::vector<Germ> there = on_path(r_, point, d), back = on_path(r_, point, -d);
@@ -226,10 +223,10 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
 }
 
 template <typename Real>
-Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at) {
+Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink) {
     using Matrix = MatrixOf<Real>;
     using Vector = VectorOf<Real>;
-    const Values<Real> value(r, at);
+    const Values<Real> value(r, at, at_kink);
     const Index n = r.n, s = r.s, extra = value.columns - n - s, nr = static_cast<Index>(split.q.size()),
                 p = static_cast<Index>(split.u.size());
     Tangent<Real> result;
@@ -327,8 +324,8 @@ bool settle(const Residuals& r, const Split& split, Instant<Real>& at) {
     return split.q_dependent.empty() && split.u_dependent.empty();
 }
 
-template Tangent<double> tangent(const Residuals&, const Split&, const Instant<double>&);
-template Tangent<long double> tangent(const Residuals&, const Split&, const Instant<long double>&);
+template Tangent<double> tangent(const Residuals&, const Split&, const Instant<double>&, bool);
+template Tangent<long double> tangent(const Residuals&, const Split&, const Instant<long double>&, bool);
 template bool settle(const Residuals&, const Split&, Instant<long double>&);
 
 }  // namespace alembert

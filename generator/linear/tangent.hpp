@@ -65,9 +65,10 @@ struct Tangent {
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 
-/// A derivative that the chain rule does not give node by node, as of sqrt(x^2)^3 at 0, is that of one-sided series (paths.hpp).
+/// `at_kink`: a function is at a critical point (is_at_kink of paths.hpp). Then derivatives that the chain rule does not give node by
+/// node, as of sqrt(x^2)^3 at 0, are those of one-sided series.
 template <typename Real>
-Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at);
+Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at, bool at_kink = false);
 
 /// Moves dependent coordinates and speeds until the constraints hold to rounding; false if they do not.
 template <typename Real>

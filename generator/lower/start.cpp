@@ -22,7 +22,7 @@ Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names
     for (int i = 0; i < m_.size(); ++i) want(m_.q_start[i]);
     for (int i = 0; i < m_.size(); ++i) want(m_.qdot_start[i]);
     for (std::size_t k = 0; k < plain_.speeds.size(); ++k) want(*m_.speeds[k].start);
-    for (const auto* e : {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.sample})
+    for (const auto* e : {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.max_step, &m_.run.sample})
         if (*e) want(**e);
 }
 
@@ -86,6 +86,7 @@ Start Starts::at(const std::vector<double>& values) const {
     if (m_.run.duration) start.duration = value[nodes_[next++]];
     if (m_.run.tolerance) start.tolerance = value[nodes_[next++]];
     if (m_.run.step) start.step = value[nodes_[next++]];
+    if (m_.run.max_step) start.max_step = value[nodes_[next++]];
     if (m_.run.sample) start.sample = value[nodes_[next++]];
     replace(false);
     for (int i = 0; i < m_.size(); ++i)

@@ -24,6 +24,7 @@ struct Start {
     std::vector<double> speeds;      ///< of the scene, where the rates follow from them; else empty
     double duration = 10;            ///< s; 10 where the scene is silent
     double tolerance = 1e-9, step = 0, sample = 0;
+    double max_step = 0;             ///< s; 0: no bound
 
     State<double> state() const { return {.parameters = parameters, .t = t, .q = q, .qdot = qdot, .qddot = {}}; }
 };

@@ -60,6 +60,7 @@ void add_run(Building& here) {
     value(s.duration, here.m.run.duration);
     value(s.tolerance, here.m.run.tolerance);
     value(s.step, here.m.run.step);
+    value(s.max_step, here.m.run.max_step);
     value(s.sample, here.m.run.sample);
     if (s.method) here.m.run.method = s.method->text;
 }

@@ -168,7 +168,7 @@ struct Mechanism {
 
     /// [simulation], in parameters; nothing where the scene is silent.
     struct Run {
-        std::optional<GiNaC::ex> start, duration, tolerance, step, sample;
+        std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample;
         std::string method = "auto";
     };
     Run run;

@@ -132,8 +132,8 @@ void add_account(std::string& page, const Run& run) {
     if (energy.jacobi_conserved) put(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
     if (run.is_constrained()) put(page, "constraint drift {:.2e}\n", run.constraint_drift);
     for (const std::string& line : run.adjusted) put(page, "adjusted at the start: {}\n", line);
-    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.seconds.derive, run.seconds.emit,
-        run.seconds.compile, run.solver.from_cache ? " (cached)" : "", run.seconds.integrate);
+    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive, run.timings.emit,
+        run.timings.compile, run.solver.from_cache ? " (cached)" : "", run.timings.integrate);
 }
 
 }  // namespace
@@ -172,11 +172,11 @@ Json as_json(const Run& run) {
         result["contacts"] = json_of(run.motion.contacts, run.contacts);
         result["impact_loss"] = energy.impact_loss;
     }
-    result["seconds"] = {{"derive", run.seconds.derive},
-                         {"emit", run.seconds.emit},
-                         {"compile", run.seconds.compile},
-                         {"integrate", run.seconds.integrate},
-                         {"estimate", run.seconds.estimate}};
+    result["seconds"] = {{"derive", run.timings.derive},
+                         {"emit", run.timings.emit},
+                         {"compile", run.timings.compile},
+                         {"integrate", run.timings.integrate},
+                         {"estimate", run.timings.estimate}};
     result["completed"] = run.motion.ending != Ending::failed;
     return result;
 }

@@ -27,13 +27,13 @@ struct Judgement {
 };
 
 struct Bench : Derived {
-    std::optional<Reference> exact;  ///< in quadruple precision, where it was reached
-    Judgement reference;
-    std::vector<std::string> coordinates, speeds;
-    std::string formulation;
+    std::optional<Reference> exact = {};  ///< in quadruple precision, where it was reached
+    Judgement reference = {};
+    std::vector<std::string> coordinates = {}, speeds = {};
+    std::string formulation = {};
     int operations = 0;              ///< of one right-hand side
     double end = 0;                  ///< time of the end, s
-    std::vector<Measured> runs;
+    std::vector<Measured> runs = {};
 };
 
 /// Throws what `derived` throws; ModelError for a method that is not measured; IntegrationError where nothing reaches the end.

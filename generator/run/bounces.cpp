@@ -67,7 +67,7 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     Modes modes(request, d, start, first, Work::left_out, choice, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
-    Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .budget = request.budget};
+    Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .longest_step = longest_step(request, start), .budget = request.budget};
     options.sample = options.duration > 0 ? options.duration : 1;
     double seconds = 0;
     const auto run = [&](Method method, double tolerance) {

@@ -22,9 +22,9 @@ struct EmissionOptions {
 };
 
 struct Emission : Derived {
-    Choice choice;
-    std::optional<Differentiated> derivatives;
-    Source source;
+    Choice choice = {};
+    std::optional<Differentiated> derivatives = {};
+    Source source = {};
 };
 
 /// Throws what `derived` throws; ModelError for a singular system, and for derivatives that are too long to be written out.

@@ -10,7 +10,7 @@ namespace alembert {
 
 namespace {
 
-constexpr double untrusted = 1e-2, no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8;
+constexpr double no_digit = 0.1, suspicious = 1000, saturated = 1e-2, beside = 1e-8;
 
 struct Separation {
     double time, size;
@@ -19,6 +19,52 @@ struct Separation {
 double apart(std::span<const double> a, std::span<const double> b, std::size_t compared) {
     double largest = 0;
     for (std::size_t i = 0; i < compared; ++i) largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1.0, std::abs(b[i])));
+    return largest;
+}
+
+/// How far components of each kind move, for each component (estimate.hpp).
+std::vector<double> extents(const PhasedMotion& motion, const Components& compared) {
+    constexpr double of_all = 1e-12, of_kind = 1e-10, of_one = 1e-16;
+    const std::size_t n = compared.coordinates, count = compared.kinds.size();
+    const int kinds = 1 + *std::max_element(compared.kinds.begin(), compared.kinds.end());
+    const auto& first = motion.phases.front().motion;
+    const double duration = motion.final_time() - first.times.front();
+    std::vector<double> moved(static_cast<std::size_t>(2 * kinds)), size(moved.size());
+    double largest[2] = {0, 0};
+    for (const Phase& phase : motion.phases)
+        for (std::size_t row = 0; row < phase.motion.rows(); ++row)
+            for (std::size_t i = 0; i < count; ++i) {
+                const double y = phase.motion.state(row)[i];
+                const auto k = static_cast<std::size_t>(2 * compared.kinds[i] + (i < n ? 0 : 1));
+                moved[k] = std::max(moved[k], std::abs(i < n ? y - first.state(0)[i] : y));
+                size[k] = std::max(size[k], std::abs(y));
+                largest[i < n ? 0 : 1] = std::max(largest[i < n ? 0 : 1], std::abs(y));
+            }
+    std::vector<double> result(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(2 * compared.kinds[i]);
+        const double steady = i < n ? size[k] : duration > 0 ? size[k] / duration : 0;
+        result[i] = std::max({moved[i < n ? k : k + 1], of_kind * steady, of_all * largest[i < n ? 0 : 1], of_one});
+    }
+    return result;
+}
+
+/// The largest |y − y(0)| of a coordinate; 0 where it is less than 1e-10 of the largest coordinate.
+double largest_move(const PhasedMotion& motion, std::size_t coordinates) {
+    double moved = 0, largest = 0;
+    for (const Phase& phase : motion.phases)
+        for (std::size_t row = 0; row < phase.motion.rows(); ++row)
+            for (std::size_t i = 0; i < coordinates; ++i) {
+                const double y = phase.motion.state(row)[i];
+                moved = std::max(moved, std::abs(y - motion.phases.front().motion.state(0)[i]));
+                largest = std::max(largest, std::abs(y));
+            }
+    return moved > 1e-10 * largest ? moved : 0;
+}
+
+double apart_of(std::span<const double> a, std::span<const double> b, const std::vector<double>& extent) {
+    double largest = 0;
+    for (std::size_t i = 0; i < extent.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]) / extent[i]);
     return largest;
 }
 
@@ -76,7 +122,9 @@ std::optional<double> exponent(std::vector<Separation> list) {
 }  // namespace
 
 ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& given, const std::vector<double>& initial,
-                             std::size_t compared) {
+                             const Components& components) {
+    constexpr long few_steps = 16;
+    const std::size_t compared = components.kinds.size();
     Options options = given;
     options.budget = std::min(given.budget, 4 * motion.statistics.evaluations + 10'000);
     const bool fixed = has_fixed_step(options.method);
@@ -95,12 +143,22 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     }
     if (!second) {
         estimate.by = "no second run came to the same end";
-        estimate.trusted = false;
         return estimate;
     }
     estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step) : fmt::format("a second run at tolerance {:g}", options.tolerance);
     estimate.value = std::max(apart(motion.final_state(), second->final_state(), compared), later(*second, motion));
-    estimate.trusted = *estimate.value <= untrusted;
+    std::vector<double> extent = extents(motion, components);
+    const std::vector<double> other = extents(*second, components);
+    for (std::size_t i = 0; i < extent.size(); ++i) extent[i] = std::min(extent[i], other[i]);
+    estimate.moved = largest_move(motion, components.coordinates);
+    const double elapsed = motion.final_time() - given.start;
+    estimate.scaled = std::max(apart_of(motion.final_state(), second->final_state(), extent),
+                               elapsed > 0 ? std::abs(motion.final_time() - second->final_time()) / elapsed : 0);
+    if (fixed && motion.statistics.steps < few_steps) {
+        options.step /= 2;
+        const PhasedMotion finer = run(options, initial);
+        if (finer.ending != Ending::failed) estimate.scaled = std::max(*estimate.scaled, apart_of(motion.final_state(), finer.final_state(), extent));
+    }
     if (*estimate.value < (fixed ? 1e-6 : suspicious * given.tolerance)) return estimate;
 
     std::vector<double> moved = initial;

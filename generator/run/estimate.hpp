@@ -3,13 +3,19 @@
 
 /// How good a result is: its distance from a second run, and whether errors grow exponentially.
 ///
-///     const ErrorEstimate estimate = error_estimate(motion, run, options, initial, compared);
+///     const ErrorEstimate estimate = error_estimate(motion, run, options, initial, kinds);
 ///     estimate.value;          // max |y − y₂| / max(1, |y₂|) of coordinates and speeds at the end
+///     estimate.scaled;         // max |y − y₂| / (how far components of its kind move), which sees a small motion too
+///
+/// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and the largest |u| of their
+/// speeds, in the run that moves less. No motion counts as smaller than what rounding may be: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its
+/// kind (for speeds: of these coordinates, a duration), 1e-16.
 ///
 /// The second run has a tenth of the tolerance (half the step); where that takes more than four times the evaluations, because
 /// rounding limits the steps, it has ten times the tolerance, and the estimate is then that run's error. What both runs have in common
 /// (rounding of initial values and of the right-hand side, a wrong scene) it cannot see. Where an event stops both runs, each has its own end,
-/// and the difference of these times counts as one of the state does.
+/// and the difference of these times counts as one of the state does. A run of fewer than 16 fixed steps is held against one of a quarter
+/// of the step too, as two so coarse runs may agree by chance.
 ///
 /// Where the estimate is 1000 times the tolerance or more, a third run from a state 1e-8 beside the first tells chaos from plain
 /// accumulation: the separation of the two grows exponentially if it gains e³ or more in the second half of the time in which
@@ -26,14 +32,20 @@ namespace alembert {
 struct ErrorEstimate {
     std::optional<double> value;  ///< nothing where no second run came to the end
     std::string by;
+    std::optional<double> scaled;             ///< likewise
+    double moved = 0;                         ///< the largest |y − y(0)| of a coordinate on the rows; 0 where that is rounding
     std::optional<double> lyapunov, horizon;  ///< only where errors grow exponentially
-    bool trusted = true;                      ///< two digits at least, as far as can be told
 };
 
 using Rerun = std::function<PhasedMotion(const Options&, const std::vector<double>& initial)>;
 
-/// `compared`: how many of the state's components, from the first, count.
+/// The state's components that count, from the first.
+struct Components {
+    std::size_t coordinates = 0;  ///< the first of them; speeds follow
+    std::vector<int> kinds = {};  ///< a number for each; equal where they have a unit in common
+};
+
 ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& options, const std::vector<double>& initial,
-                             std::size_t compared);
+                             const Components& compared);
 
 }  // namespace alembert

@@ -24,21 +24,21 @@ struct EvaluateOptions {
 struct Evaluation : Derived {
     using Named = std::vector<std::pair<std::string, double>>;
     double time = 0;
-    std::vector<std::string> coordinates;
-    std::vector<double> q, rates, accelerations;
-    Named speeds, speed_rates;  ///< of the scene's generalized speeds; empty where there are none
-    Named multipliers;          ///< of open contacts too, where they are 0
+    std::vector<std::string> coordinates = {};
+    std::vector<double> q = {}, rates = {}, accelerations = {};
+    Named speeds = {}, speed_rates = {};  ///< of the scene's generalized speeds; empty where there are none
+    Named multipliers = {};          ///< of open contacts too, where they are 0
     double kinetic = 0, potential = 0, energy = 0;
-    std::vector<std::pair<std::string, std::array<double, 2>>> residuals;  ///< of each constraint: position, velocity
-    std::optional<std::vector<std::string>> closed;  ///< unilateral contacts that are closed and stay so
-    std::vector<std::string> adjusted;               ///< in words, what was moved so that the constraints hold
-    Named outputs;
+    std::vector<std::pair<std::string, std::array<double, 2>>> residuals = {};  ///< of each constraint: position, velocity
+    std::optional<std::vector<std::string>> closed = {};  ///< unilateral contacts that are closed and stay so
+    std::vector<std::string> adjusted = {};               ///< in words, what was moved so that the constraints hold
+    Named outputs = {};
     struct Reaction {
         std::string constraint, coordinate;
         double force;
     };
-    std::vector<Reaction> reactions;      ///< where they were asked for
-    std::vector<JointLoad> joint_loads;   ///< likewise
+    std::vector<Reaction> reactions = {};      ///< where they were asked for
+    std::vector<JointLoad> joint_loads = {};   ///< likewise
 };
 
 /// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is negative;

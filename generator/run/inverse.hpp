@@ -17,9 +17,9 @@ struct InverseOptions {
 
 struct InverseLoads : Derived {
     double time = 0;
-    std::vector<std::string> coordinates;
-    std::vector<double> q, rates, accelerations, loads;
-    std::vector<std::pair<std::string, double>> multipliers;
+    std::vector<std::string> coordinates = {};
+    std::vector<double> q = {}, rates = {}, accelerations = {}, loads = {};
+    std::vector<std::pair<std::string, double>> multipliers = {};
 };
 
 /// M q'' = f + Aᵀλ + τ with A q'' = γ, for the loads τ. Accelerations that are not given follow from those that are (as many as there

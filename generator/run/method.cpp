@@ -84,4 +84,24 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     return automatic(request, d, program, start);
 }
 
+double longest_step(const RunOptions& wishes, const Start& start) { return wishes.max_step >= 0 ? wishes.max_step : start.max_step; }
+
+Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start) {
+    const bool fixed = has_fixed_step(choice.method) && choice.foreign.empty();
+    if (fixed && wishes.max_step >= 0)
+        throw ModelError(fmt::format("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose their steps (dop853, radau …) "
+                                     "take a longest one",
+                                     wishes.max_step, name(choice.method)));
+    const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
+    return {.method = choice.method,
+            .start = start.t,
+            .duration = wish(wishes.duration, start.duration),
+            .tolerance = wish(wishes.tolerance, start.tolerance),
+            .step = wish(wishes.step, start.step),
+            .longest_step = longest_step(wishes, start),
+            .sample = wish(wishes.sample, start.sample),
+            .budget = wishes.budget,
+            .when_stiff = choice.when_stiff};
+}
+
 }  // namespace alembert

@@ -40,7 +40,10 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& der
 /// That, or the one that suits. `program` is what will run.
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program, const Start& start);
 
-/// The scene's wishes, those of `wishes` first.
+/// The longest step allowed (s; 0: no bound).
+double longest_step(const RunOptions& wishes, const Start& start);
+
+/// The scene's wishes, those of `wishes` first. Throws ModelError for a longest step with a method that has a fixed one.
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start);
 
 }  // namespace alembert

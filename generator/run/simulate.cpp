@@ -63,7 +63,7 @@ public:
         choice_ = method_for(wishes_, run_, program, start_);
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
-        run_.seconds = {.derive = run_.Derived::seconds, .emit = process_seconds() - begin};
+        run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
         Watch watch{.drift = Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
         Modes modes(wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
                     [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
@@ -118,10 +118,10 @@ private:
         const auto making = [&] { return modes.seconds().derive + modes.seconds().emit + modes.seconds().compile; };
         const double made_before = making(), begin = process_seconds();
         run_.motion = followed(modes, options_, initial_);
-        run_.seconds.integrate = process_seconds() - begin - (making() - made_before);
-        run_.seconds.derive += modes.seconds().derive;
-        run_.seconds.emit += modes.seconds().emit;
-        run_.seconds.compile += modes.seconds().compile;
+        run_.timings.integrate = process_seconds() - begin - (making() - made_before);
+        run_.timings.derive += modes.seconds().derive;
+        run_.timings.emit += modes.seconds().emit;
+        run_.timings.compile += modes.seconds().compile;
     }
 
     void settle_account(const Watch& watch) {
@@ -154,7 +154,7 @@ private:
              .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
              .fixed_step = fixed ? options_.step : 0,
              .inputs = options_.quick_times});
-        run_.seconds.estimate = process_seconds() - begin;
+        run_.timings.estimate = process_seconds() - begin;
     }
 
     /// Names, rows and the end, so that nobody has to ask the loaded modes again.

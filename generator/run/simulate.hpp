@@ -44,21 +44,21 @@ struct Solver {
 };
 
 struct Run : Derived {
-    PhasedMotion motion;
-    std::string why_method;  ///< in words; empty where the method was given
-    Solver solver;
-    std::vector<std::string> coordinates, speeds;  ///< names; speeds where the scene has its own
-    std::vector<double> final_coordinates, final_rates, final_speeds;
-    std::vector<std::string> contacts;  ///< names of all unilateral constraints
-    EnergyAccount energy;
+    PhasedMotion motion = {};
+    std::string why_method = {};  ///< in words; empty where the method was given
+    Solver solver = {};
+    std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds where the scene has its own
+    std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
+    std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
+    EnergyAccount energy = {};
     double constraint_drift = 0;        ///< the largest residual
-    std::optional<ErrorEstimate> estimate;
-    std::vector<std::string> doubts;    ///< why the result is not to be trusted
-    std::vector<std::string> adjusted;  ///< what was moved at the start so that the constraints hold
-    Table rows;
-    Timings seconds;
+    std::optional<ErrorEstimate> estimate = {};
+    std::vector<std::string> doubts = {};    ///< why the result is not to be trusted
+    std::vector<std::string> adjusted = {};  ///< what was moved at the start so that the constraints hold
+    Table rows = {};
+    Timings timings = {};
     /// Why the motion broke off, in terms of the scene. What was computed until then is there.
-    std::optional<std::string> failure;
+    std::optional<std::string> failure = {};
 
     bool is_constrained() const { return !mechanism.constraints.empty() || !contacts.empty(); }
 };

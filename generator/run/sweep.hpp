@@ -22,11 +22,11 @@ struct Member {
 };
 
 struct Sweep : Derived {
-    Grid grid;
-    std::vector<std::string> coordinates, speeds;
-    std::vector<Member> members;  ///< as Grid::point
+    Grid grid = {};
+    std::vector<std::string> coordinates = {}, speeds = {};
+    std::vector<Member> members = {};  ///< as Grid::point
     bool conserved = true;        ///< the energy is; else `drift` is that of E − E₀ − W
-    std::string method, formulation;
+    std::string method = {}, formulation = {};
     int operations = 0;           ///< of one right-hand side
     bool packed = false;          ///< eight motions ran side by side
     int threads = 1;

@@ -309,7 +309,7 @@ private:
         }
         const Legal constant{.subject = "a setting of the simulation", .definitions = false};
         const Simulation& s = scene_.simulation;
-        for (const Expression* value : {&s.start, &s.duration, &s.tolerance, &s.step, &s.sample, &s.period})
+        for (const Expression* value : {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})
             quantities_.check(*value, constant);
     }
 

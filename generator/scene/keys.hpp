@@ -72,7 +72,7 @@ inline constexpr TableKeys table_keys[] = {
     {"event", TableKeys::Shape::list, {"name", "when", "stop", "direction", "impulses"}},
     {"simulation",
      TableKeys::Shape::one,
-     {"start", "duration", "tolerance", "step", "sample", "method", "period"}},
+     {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "period"}},
     {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
 };
 

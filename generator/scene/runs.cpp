@@ -56,6 +56,8 @@ std::optional<Name> read_method(const Table& table) {
         table.complain("step",
                        fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
                                    with_fixed_steps(), known->name));
+    if (table.has("max_step") && known->takes_step)
+        table.complain("max_step", fmt::format("'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'", known->name));
     return name;
 }
 
@@ -68,6 +70,7 @@ void read_simulation(const Table& table, Scene& scene) {
     const std::pair<std::string_view, Expression*> positive[] = {{"duration", &simulation.duration},
                                                                  {"tolerance", &simulation.tolerance},
                                                                  {"step", &simulation.step},
+                                                                 {"max_step", &simulation.max_step},
                                                                  {"sample", &simulation.sample},
                                                                  {"period", &simulation.period}};
     for (const auto& [key, value] : positive) {

@@ -214,7 +214,7 @@ struct EventRule {
 };
 
 struct Simulation {
-    Expression start, duration, tolerance, step, sample, period;  ///< null where missing, but start: 0
+    Expression start, duration, tolerance, step, max_step, sample, period;  ///< null where missing, but start: 0
     std::optional<Name> method;
 };
 

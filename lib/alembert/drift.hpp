@@ -42,6 +42,8 @@ public:
             first_ = false;
         }
         largest_kinetic_ = std::max(largest_kinetic_, e.kinetic);
+        largest_energy_ = std::max(largest_energy_, std::abs(e.total));
+        largest_work_ = std::max(largest_work_, std::abs(work));
         energy_ = std::max(energy_, std::abs(e.total - energy_start_));
         balance_ = std::max(balance_, std::abs(e.total - energy_start_ - work));
         jacobi_ = std::max(jacobi_, std::abs(e.jacobi - jacobi_start_));
@@ -61,6 +63,12 @@ public:
         jumps_ += work + (b.total - b.jacobi) - (a.total - a.jacobi);
     }
 
+    /// These in units of the energy that moves, for a motion so small that E is nearly all at rest: of the largest kinetic energy, as
+    /// far as E is known to so many digits (1e-10), and for the balance as far as the work is (1e-4).
+    double energy_of_motion() const { return of_motion(energy_, largest_energy_, 0); }
+    double balance_of_motion() const { return of_motion(balance_, largest_energy_, largest_work_); }
+    double jacobi_of_motion() const { return of_motion(jacobi_, std::max(largest_energy_, std::abs(jacobi_start_)), 0); }
+
     double energy() const { return energy_ / scale(energy_start_); }
     double balance() const { return balance_ / scale(energy_start_); }
     double jacobi() const { return jacobi_ / scale(jacobi_start_); }
@@ -73,6 +81,11 @@ private:
         return {energy[0], energy[2], jacobi};
     }
 
+    double of_motion(double drift, double energy, double work) const {
+        const double size = std::max({largest_kinetic_, 1e-10 * energy, 1e-4 * work});
+        return drift > 0 ? drift / size : 0;
+    }
+
     double scale(double start) const {
         const double size = std::max(std::abs(start), largest_kinetic_);
         return size > nothing ? size : 1;
@@ -81,7 +94,7 @@ private:
     static constexpr double nothing = 1e-26;  // what rounding leaves of a body at rest, squared
     int size_;
     bool with_work_, first_ = true;
-    double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0;
+    double energy_start_ = 0, jacobi_start_ = 0, largest_kinetic_ = 0, largest_energy_ = 0, largest_work_ = 0;
     double energy_ = 0, balance_ = 0, jacobi_ = 0, jumps_ = 0;
 };
 

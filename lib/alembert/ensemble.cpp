@@ -51,6 +51,7 @@ void check(const Ensemble& e, const Options& options) {
          fmt::format("{} numbers are no sets of {} parameters for {} members", e.parameters.size(), p, count));
     need(e.starts.empty() || e.starts.size() == count, fmt::format("{} starts for {} members", e.starts.size(), count));
     need(e.durations.empty() || e.durations.size() == count, fmt::format("{} durations for {} members", e.durations.size(), count));
+    need(e.quick_times.empty() || e.quick_times.size() == count, fmt::format("{} lists of quick times for {} members", e.quick_times.size(), count));
     need(e.stops.empty() || e.stops.size() == static_cast<std::size_t>(table.events),
          fmt::format("{} flags for {} events", e.stops.size(), table.events));
     need(e.directions.empty() || e.directions.size() == e.stops.size(),
@@ -151,6 +152,7 @@ private:
         Options options = options_;
         options.start = member.start;
         options.duration = member.duration;
+        if (!e_.quick_times.empty()) options.quick_times = e_.quick_times[member.index];
         options.sample = member.duration;  // the end alone
         options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) { drift(table, par, t, y, rate); };
         std::optional<Projection> projection;

@@ -37,6 +37,7 @@ struct Ensemble {
     std::vector<double> durations = {};   ///< likewise
     Work work = Work::left_out;           ///< integrated: for the work balance, where energy is not conserved
     std::vector<bool> stops = {};         ///< which of the module's events end a motion; empty: none
+    std::vector<std::vector<QuickTime>> quick_times = {};  ///< for each; empty: Options::quick_times
     std::vector<int> directions = {};     ///< in which their zeros count (Event); empty: both
     int threads = 0;                      ///< 0: as many as there are cores
     std::function<void(double fraction)> progress = {};  ///< told now and then how much is done, on the calling thread

@@ -15,6 +15,7 @@ namespace {
 constexpr int points = 5;       ///< where a step is looked at, ends included
 constexpr int most_rounds = 8;  ///< of looking again before an event that stops
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
+constexpr double bend = 2;      ///< a function that heads for zero may fall this many times as steeply further on
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
@@ -75,6 +76,10 @@ EventWatch::EventWatch(const Events& events, const Rhs& rhs)
       rate_(state_.size()),
       out_(events.list.size()),
       last_(out_.size()),
+      slope_(out_.size()),
+      first_slope_(out_.size()),
+      ahead_(state_.size()),
+      ahead_values_(out_.size()),
       sign_(out_.size()),
       grid_(points * out_.size()) {}
 
@@ -83,16 +88,27 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
     if (last_.empty()) return;
     events_(t, state, rate, last_.data());
     std::transform(last_.begin(), last_.end(), sign_.begin(), sign);
+    std::fill(slope_.begin(), slope_.end(), no_place);  // until the length of the first step is known
+}
+
+/// By a difference along the tangent of the motion, y' as it is there: the price of one look at the events. An event that contains
+/// accelerations has the part of its slope that these leave.
+void EventWatch::slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values, double length) {
+    const double ahead = std::max(1e-6 * length, 64 * epsilon * std::abs(t));
+    for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = state[i] + ahead * rate[i];
+    events_(t + ahead, ahead_.data(), rate, ahead_values_.data());
+    for (std::size_t k = 0; k < slope_.size(); ++k) slope_[k] = (ahead_values_[k] - values[k]) / ahead;
 }
 
 std::vector<Crossing> EventWatch::look(const Stretch& step) {
     if (last_.empty()) return {};
-    const std::vector<double> value_before = last_;
+    const std::vector<double> value_before = last_, slope_before = slope_;
     const std::vector<int> sign_before = sign_;
     std::vector<Crossing> found = scan(step);
     const bool is_stopped = std::any_of(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
     for (int round = 0; is_stopped && round < most_rounds; ++round) {
         last_ = value_before;
+        slope_ = slope_before;
         sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
         if (!look_again(step, found)) break;
     }
@@ -133,12 +149,18 @@ std::vector<Crossing> EventWatch::scan(const Stretch& step) {
     std::vector<Crossing> found;
     const std::size_t count = last_.size();
     std::copy(last_.begin(), last_.end(), grid_.begin());
+    if (std::isnan(slope_[0])) {
+        value(step, 0, 0);
+        slopes_at(step.start, state_.data(), rate_.data(), last_, step.end - step.start);
+    }
+    first_slope_ = slope_;
     for (std::size_t i = 1; i + 1 < points; ++i) {
         value(step, 0, places[i]);
         std::copy(out_.begin(), out_.end(), grid_.begin() + static_cast<std::ptrdiff_t>(i * count));
     }
     events_(step.end, step.end_state, step.end_rate, last_.data());
     std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
+    slopes_at(step.end, step.end_state, step.end_rate, last_, step.end - step.start);
 
     for (std::size_t k = 0; k < count; ++k) look_at_one(step, static_cast<int>(k), found);
     order(found, step);
@@ -161,13 +183,10 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
     theta_.assign(places.begin(), places.end());
     g_.clear();
     for (std::size_t i = 0; i < points; ++i) g_.push_back(grid_[i * last_.size() + k]);
-    for (std::size_t i = 0; i + 2 < theta_.size(); ++i) {
-        const double turn = turning_point(step, index, &theta_[i], &g_[i]);
-        if (std::isnan(turn)) continue;
+    for (const double turn : turning_points(step, index)) {
         const auto after = std::upper_bound(theta_.begin(), theta_.end(), turn);
         g_.insert(g_.begin() + (after - theta_.begin()), value(step, index, turn));
         theta_.insert(after, turn);
-        i += 2;
     }
     int& last_sign = sign_[k];
     std::size_t left = 0;
@@ -190,28 +209,67 @@ void EventWatch::record(const Stretch& step, int index, double theta, int direct
         found.push_back({.index = index, .time = time, .theta = theta, .direction = direction, .counts = event.direction == 0 || event.direction == direction});
 }
 
-/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at
-/// all and the search then finds the other sign. Not a number otherwise.
-double EventWatch::turning_point(const Stretch& step, int index, const double* theta, const double* g) {
+/// Where g has the other sign between points that have the same.
+std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
+    const auto k = static_cast<std::size_t>(index);
+    const double length = step.end - step.start;
+    std::vector<double> found;
+    const auto add = [&](double theta) {
+        if (!std::isnan(theta)) found.push_back(theta);
+    };
+    // Between the two ends of a quarter, `from` being an end of the step: does g leave it towards zero, steeply enough, and come back?
+    const auto at_the_end = [&](std::size_t from, std::size_t to, double slope) {
+        const int side = sign(g_[from]);
+        const double width = (theta_[to] - theta_[from]) * length;
+        if (side == 0 || sign(g_[to]) != side || side * g_[from] + bend * side * slope * width >= 0 || side * g_[to] < side * g_[from]) return;
+        const double a = theta_[from], b = theta_[to];
+        add(from < to ? lowest(step, index, a, g_[from], (a + b) / 2, b, g_[to]) : lowest(step, index, b, g_[to], (a + b) / 2, a, g_[from]));
+    };
+    at_the_end(0, 1, first_slope_[k]);
+    for (std::size_t i = 0; i + 2 < points; ++i) {
+        const double turn = between(step, index, &theta_[i], &g_[i]);
+        add(turn);
+        if (!std::isnan(turn)) ++i;
+    }
+    at_the_end(points - 1, points - 2, slope_[k]);
+    return found;
+}
+
+/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at all, or a line
+/// through two of them meets zero before the third, and the search then finds the other sign. Not a number otherwise.
+double EventWatch::between(const Stretch& step, int index, const double* theta, const double* g) {
     const int side = sign(g[1]);
     if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return no_place;
     const double slope = (g[2] - g[0]) / (theta[2] - theta[0]);
     const double half = (theta[2] - theta[0]) / 2;
     const double curvature = (g[2] - 2 * g[1] + g[0]) / (half * half);
     const double vertex = theta[1] - slope / curvature;
-    const double lowest = side * (g[1] - slope * slope / (2 * curvature));
-    const double nearest = std::min({side * g[0], side * g[1], side * g[2]});
-    if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2] || lowest > nearest / 2)
-        return no_place;
+    if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2]) return no_place;
+    const double parabola = side * (g[1] - slope * slope / (2 * curvature));
+    const double nearest = std::min({side * g[0], side * g[1], side * g[2]}), farthest = std::max(side * g[0], side * g[2]);
+    const bool turns_back = side * g[1] < side * g[0] && side * g[1] < side * g[2] && side * g[1] < bend * (farthest - side * g[1]);
+    if (parabola > nearest / 2 && !turns_back) return no_place;
+    return lowest(step, index, theta[0], g[0], vertex, theta[2], g[2]);
+}
 
+/// Golden section for the place where g is nearest to zero, until it has the other sign; not a number where it has not, or where no
+/// function convex towards zero with the values found can have it.
+double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right, double g_right) {
     constexpr double golden = 0.6180339887498949;
-    double left = theta[0], right = theta[2];
-    double a = vertex, g_a = side * value(step, index, a);
-    for (int i = 0; i < 24 && g_a > 0; ++i) {
+    constexpr int enough = 4, most = 40;
+    const int side = sign(g_right);
+    g_left *= side, g_right *= side;
+    double a = middle, g_a = side * value(step, index, a);
+    for (int i = 0; i < most && g_a > 0; ++i) {
+        const double fall = (g_left - g_a) / (a - left), rise = (g_right - g_a) / (right - a);
+        if (i >= enough && g_a > fall * (right - a) && g_a > rise * (a - left)) return no_place;
         const double b = a - left > right - a ? a - (1 - golden) * (a - left) : a + (1 - golden) * (right - a);
         const double g_b = side * value(step, index, b);
-        (g_b < g_a ? (b < a ? right : left) : (b < a ? left : right)) = g_b < g_a ? a : b;
-        if (g_b < g_a) a = b, g_a = g_b;
+        const bool is_lower = g_b < g_a;
+        const bool moves_right = (b < a) == is_lower;  // the right end of the bracket
+        (moves_right ? right : left) = is_lower ? a : b;
+        (moves_right ? g_right : g_left) = is_lower ? g_a : g_b;
+        if (is_lower) a = b, g_a = g_b;
     }
     return g_a <= 0 ? a : no_place;
 }

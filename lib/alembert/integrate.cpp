@@ -54,7 +54,7 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
     number("end", options.start + options.duration, true, "start + duration must be finite");
     number("tolerance", options.tolerance, options.tolerance > 0, "a finite positive number is needed");
     number("step", options.step, options.step >= 0, "a finite number, zero or more, is needed");
-    number("longest_step", options.longest_step, options.longest_step >= 0,
+    number("longest_step (max_step of a scene)", options.longest_step, options.longest_step >= 0,
            "a finite number, zero or more, is needed");
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
     check(!needs_series(options.method) || rhs.series.width == rhs.dimension,

@@ -45,6 +45,7 @@
 #include <vector>
 
 #include "alembert/events.hpp"
+#include "alembert/quick_times.hpp"
 #include "alembert/rhs.hpp"
 #include "alembert/trajectory.hpp"
 
@@ -84,6 +85,7 @@ struct Options {
     double tolerance = 1e-9;  ///< adaptive methods
     double step = 0;          ///< of methods with a fixed step, and of taylor where given; first step of the others, 0: found automatically
     double longest_step = 0;  ///< adaptive methods; 0: no bound
+    std::vector<QuickTime> quick_times = {};  ///< adaptive methods: when steps have to be shorter (quick_times.hpp)
     double sample = 0;        ///< time between rows; 0: duration/200
     std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
     long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it

@@ -104,9 +104,21 @@ private:
         } else {
             lane.h = std::min(lane.h, longest(lane.member));
             if (lane.h < 16 * std::numeric_limits<double>::epsilon() * std::abs(t) || t + lane.h == t) return false;
-            step_.end[i] = t + 1.01 * lane.h < lane.end ? t + lane.h : lane.end;
+            const double h = within_quick_times(lane, t);
+            const double reach = t + std::min(1.01 * h, longest(lane.member) * (1 + 1e-9));
+            step_.end[i] = reach < lane.end ? t + h : lane.end;
         }
         return true;
+    }
+
+    const std::vector<QuickTime>& quick_times(const Member& member) const {
+        return ensemble_.quick_times.empty() ? options_.quick_times : ensemble_.quick_times[member.index];
+    }
+
+    double within_quick_times(const Lane& lane, double t) const {
+        const std::vector<QuickTime>& quick = quick_times(lane.member);
+        if (quick.empty()) return lane.h;
+        return std::min(lane.h, std::max(latest_end(quick, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
 
     double longest(const Member& member) const { return options_.longest_step > 0 ? options_.longest_step : member.duration; }
@@ -131,7 +143,8 @@ private:
             }
             if constexpr (!Step::has_fixed_step) {
                 const double ratio = step_.misfit[i] / options_.tolerance;
-                lane.h = is_good ? lane.control.after_accepted(length[i], ratio) : lane.control.after_rejected(length[i], ratio);
+                const double wish = quick_times(lane.member).empty() ? 0 : lane.h;  // what was held short is no forecast
+                lane.h = is_good ? std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0) : lane.control.after_rejected(length[i], ratio);
             }
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;

@@ -174,8 +174,10 @@ private:
             here.duration = end - t_ > 16 * epsilon * std::abs(end) ? end - t_ : 0;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
-            if (here.longest_step == 0 && count_ > 0)
-                here.longest_step = options_.duration / 200;  // so that no short contact is passed over
+            if (count_ > 0) {  // so that no short contact is passed over
+                const double short_enough = options_.duration / 200;
+                here.longest_step = here.longest_step > 0 ? std::min(here.longest_step, short_enough) : short_enough;
+            }
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
         here.project = mode.project;

@@ -133,12 +133,15 @@ private:
         }
         double misfit = 0;
         while (step_.time() < end_ && !ended()) {
-            h = std::min(h, longest);
+            const double wish = std::min(h, longest);
+            h = within_quick_times(wish);
+            const bool is_held = h < wish;
             if (is_over_budget()) return;
             if (h < 16 * std::numeric_limits<double>::epsilon() * std::abs(step_.time()) ||
                 step_.time() + h == step_.time())
                 return fail_underflow(misfit, h);
-            step_.attempt(step_.time() + 1.01 * h < end_ ? step_.time() + h : end_);
+            const double reach = step_.time() + std::min(1.01 * h, longest * (1 + 1e-9));
+            step_.attempt(reach < end_ ? step_.time() + h : end_);
             misfit = step_.misfit();
             if (misfit <= tolerance_ && !finish()) misfit = HUGE_VAL;
             const bool good = misfit <= tolerance_;
@@ -147,7 +150,16 @@ private:
             else
                 ++result_.statistics.rejected;
             if (step_.time() < end_) h = next_length(control, good, misfit / tolerance_);
+            if constexpr (!requires { step_.next_length(good, misfit); })
+                if (is_held && good) h = std::max(h, wish);  // a short step that was asked for is no forecast
         }
+    }
+
+    /// h, or what is left of it where an input changes fast.
+    double within_quick_times(double h) const {
+        if (options_.quick_times.empty()) return h;
+        const double t = step_.time();
+        return std::min(h, std::max(latest_end(options_.quick_times, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
 
     double next_length(StepSize& control, bool accepted, double ratio) {
