@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 #include "commands/command.hpp"
+#include "commands/streams.hpp"
 
 namespace {
 
@@ -39,6 +40,7 @@ int guarded(int (*command)(const Request&), const Request& request) {
     } catch (const std::bad_alloc&) {
         return complain("out of memory", environment_failed);
     } catch (const std::exception& e) {
+        if (alembert::output_failed()) return environment_failed;  // told at the end
         return complain(fmt::format("{}: internal error: {}", request.scene, e.what()), environment_failed);
     }
 }
@@ -46,6 +48,7 @@ int guarded(int (*command)(const Request&), const Request& request) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    alembert::guard_streams();
     CLI::App app{"alembert derives the equations of motion of a mechanical system, and runs them."};
     app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
     app.require_subcommand(1);
@@ -149,7 +152,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         const int code = app.exit(e);
-        return code == 0 ? 0 : input_is_wrong;
+        return alembert::finished(code == 0 ? 0 : input_is_wrong);
     }
-    return guarded(command, request);
+    return alembert::finished(guarded(command, request));
 }

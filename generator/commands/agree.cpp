@@ -39,7 +39,7 @@ int agree(const Request& request) {
         for (const auto& [name, reason] : all.refused) json["refused"][name] = reason;
         if (!result.reason.empty()) json["reason"] = result.reason;
         json["seconds"] = seconds;
-        std::cout << json.dump(2) << "\n";
+        std::cout << as_text(json);
         return verdict;
     }
     std::string names;

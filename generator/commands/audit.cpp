@@ -118,7 +118,7 @@ int audit(const Request& request) {
     check_bodies(scene, mechanism, {});
     const Audit result = audit_of(mechanism);
     if (request.json)
-        std::cout << json_of(result, mechanism).dump(2) << "\n";
+        std::cout << as_text(json_of(result, mechanism));
     else
         print(result, mechanism);
     if (result.problem.empty()) return 0;

@@ -12,6 +12,7 @@
 #include "analysis/assemble.hpp"
 #include "analysis/diagnose.hpp"
 #include "analysis/reference.hpp"
+#include "commands/output.hpp"
 #include "commands/bounces.hpp"
 #include "commands/canonical.hpp"
 #include "commands/measure.hpp"
@@ -183,9 +184,10 @@ struct Findings {
 };
 
 void deliver(const Request& request, const Derived& d, const Findings& f) {
-    if (!request.csv.empty()) write_file(request.csv, csv(f.runs));
+    if (!request.csv.empty()) write_file(request.csv, csv(f.runs), request);
     if (!request.svg.empty())
-        write_file(request.svg, work_precision(curves_of(f.runs), fmt::format("{} until t = {:g}", d.mechanism.title.empty() ? d.mechanism.name : d.mechanism.title, f.end)));
+        write_file(request.svg, work_precision(curves_of(f.runs), fmt::format("{} until t = {:g}", d.mechanism.title.empty() ? d.mechanism.name : d.mechanism.title, f.end)),
+                   request);
     if (request.json) {
         Json result;
         result["scene"] = d.mechanism.name;
@@ -194,7 +196,7 @@ void deliver(const Request& request, const Derived& d, const Findings& f) {
         result["reference"] = reference_json(f.exact, f.judge, f.program, f.end);
         result["runs"] = Json::array();
         for (const Measured& run : f.runs) result["runs"].push_back(as_json(run));
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
         return;
     }
     fmt::print("{}: {} operations a right-hand side; to t = {:g}\n", f.formulation, f.operations, f.end);
@@ -227,6 +229,7 @@ std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& mo
 }  // namespace
 
 int bench(const Request& request) {
+    for (const std::string& file : {request.csv, request.svg}) check_output(file, request);
     if (!request.method.empty() && !method_named(request.method))
         throw ModelError(fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others come with --peers)", request.method, method_names()));
     const Derived d = derived(request, Use::run);

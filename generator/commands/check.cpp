@@ -93,7 +93,7 @@ int check(const Request& request) {
         json["claims"] = Json::array();
         for (std::size_t k = 0; k < result.claims.size(); ++k) json["claims"].push_back(as_json(d.scene.claims[k], result.claims[k]));
         json["complete"] = result.complete;
-        std::cout << json.dump(2) << "\n";
+        std::cout << as_text(json);
     } else {
         for (std::size_t k = 0; k < result.claims.size(); ++k) print(d.scene.claims[k], result.claims[k]);
         fmt::print("{}\n", result.complete ? "With the constraints, the claims that hold determine the motion."

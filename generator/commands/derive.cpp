@@ -330,7 +330,7 @@ int derive(const Request& request) {
     if (request.json) {
         Json result = as_json(shown, d.mechanism);
         for (const Statement& s : joints) result["joint_reactions"][s.of][s.letter] = text(s.value);
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
         return 0;
     }
     const Notation n = notation_of(request.format);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "commands/output.hpp"
 #include "commands/pipeline.hpp"
 #include "lower/differentiate.hpp"
 
@@ -24,7 +25,7 @@ int emit_files(const Request& request) {
     std::filesystem::create_directories(request.output, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", request.output, failed.message()));
     const std::string path = (std::filesystem::path(request.output) / source.file).string();
-    write_file(path, source.text);
+    write_file(path, source.text, request);
     const bool has_contacts = !d.mechanism.unilateral.empty();
     if (request.json) {
         Json result;
@@ -42,7 +43,7 @@ int emit_files(const Request& request) {
             result["jacobian_route"] = derivatives->route;
         }
         if (has_contacts) result["closed"] = Json::array();
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
     } else {
         fmt::print("{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} "
                    "functions)\n",

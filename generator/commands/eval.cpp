@@ -115,7 +115,7 @@ int eval(const Request& request) {
         for (const JointLoad& load : joint_loads) result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
     }
     if (request.json) {
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
         return 0;
     }
     std::size_t width = 16;

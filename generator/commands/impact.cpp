@@ -110,7 +110,7 @@ int impact(const Request& request) {
     check_bodies(scene, mechanism, {});
     const Impact hit = impact(mechanism);
     if (request.json) {
-        std::cout << as_json(hit, mechanism).dump(2) << "\n";
+        std::cout << as_text(as_json(hit, mechanism));
         return 0;
     }
     if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "commands/output.hpp"
 #include "commands/pipeline.hpp"
 #include "scene/text.hpp"
 #include "urdf/robot_scene.hpp"
@@ -14,7 +15,7 @@ int import_robot(const Request& request) {
     const std::string file = std::filesystem::path(request.scene).filename().string();
     const RobotScene scene = robot_scene(read_robot(request.scene), {.source = file, .floating = request.floating, .quaternion = request.quaternion});
     parse_scene(scene.text, request.output);  // what it refuses is not written
-    write_file(request.output, scene.text);
+    write_file(request.output, scene.text, request);
     for (const std::string& sentence : scene.notes) std::cerr << fmt::format("{}: note: {}\n", request.scene, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
         std::cerr << fmt::format("{}: dropped: {}{}{}\n", request.scene, escaped(dropped.what), dropped.of.empty() ? "" : ": ",
@@ -27,7 +28,7 @@ int import_robot(const Request& request) {
         result["merged"] = scene.merged;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
-        std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+        std::cout << as_text(result);
         return 0;
     }
     fmt::print("{}\n{} bodies, {} coordinates: {}\n", request.output, scene.bodies, scene.coordinates.size(), fmt::join(scene.coordinates, ", "));

@@ -142,7 +142,7 @@ int inverse(const Request& request) {
         result["multipliers"] = Json::object();
         for (std::size_t k = 0; k < m.constraints.size(); ++k)
             result["multipliers"][m.constraints[k].multiplier.get_name()] = loads.multiplier[static_cast<Eigen::Index>(k)];
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
         return 0;
     }
     std::size_t width = 16;

@@ -229,7 +229,7 @@ int linearize(const Request& request) {
     if (request.json) {
         Json result = as_json(near, d, start);
         for (const auto& [name, rows] : symbols) result["symbolic"][name] = rows;
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
         return 0;
     }
     if (!d.scene.title.empty()) fmt::print("{}\n\n", d.scene.title);

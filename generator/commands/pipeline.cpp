@@ -3,13 +3,8 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
 #include "analysis/assemble.hpp"
@@ -187,26 +182,8 @@ Overrides overrides_of(const Request& request) {
     return result;
 }
 
-void write_file(const std::string& path, const std::string& text) {
-    const std::string beside = fmt::format("{}.{}.part", path, getpid());
-    {
-        std::ofstream out(beside, std::ios::binary);
-        out << text;
-        out.flush();
-        if (!out) {
-            const std::string reason = std::strerror(errno);
-            std::error_code ignored;
-            std::filesystem::remove(beside, ignored);
-            throw CompileError(fmt::format("cannot write '{}': {}", path, reason));
-        }
-    }
-    std::error_code failed;
-    std::filesystem::rename(beside, path, failed);
-    if (failed) {
-        std::error_code ignored;
-        std::filesystem::remove(beside, ignored);
-        throw CompileError(fmt::format("cannot write '{}': {}", path, failed.message()));
-    }
+std::string as_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Json by_coordinate(const Program& program, const double* values) {

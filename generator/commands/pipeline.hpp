@@ -49,8 +49,8 @@ std::optional<std::string> failure_at(const Derived& derived, const State<double
 /// The values of --at. Throws ModelError for what is not NAME=VALUE.
 Overrides overrides_of(const Request& request);
 
-/// Writes beside and renames. Throws CompileError (the environment failed) with the reason.
-void write_file(const std::string& path, const std::string& text);
+/// As it is printed; bytes that are not UTF-8 (of a file's name, say) are U+FFFD.
+std::string as_text(const Json& json);
 
 /// Processor time of this process and its finished children, in seconds.
 double process_seconds();

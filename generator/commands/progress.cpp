@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "commands/streams.hpp"
 
 namespace alembert {
 
@@ -21,7 +22,7 @@ Progress::Progress(std::string what)
     : what_(std::move(what)), on_terminal_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + first_after) {}
 
 Progress::~Progress() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) raw_to_terminal("\r\033[K");
 }
 
 void Progress::at(double fraction) {
@@ -38,9 +39,7 @@ void Progress::at_stage(double fraction) {
     drawn_ = true;
     fraction = std::clamp(fraction, 0.0, 1.0);
     const int full = static_cast<int>(fraction * width);
-    fmt::print(stderr, "\r{} [{}{}] {:3.0f} %", what_, std::string(full, '='), std::string(width - full, ' '),
-               100 * fraction);
-    std::fflush(stderr);
+    raw_to_terminal(fmt::format("\r{} [{}{}] {:3.0f} %", what_, std::string(full, '='), std::string(width - full, ' '), 100 * fraction));
 }
 
 }  // namespace alembert

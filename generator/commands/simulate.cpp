@@ -9,6 +9,7 @@
 #include "analysis/assemble.hpp"
 #include "analysis/contacts.hpp"
 #include "analysis/joint_reactions.hpp"
+#include "commands/output.hpp"
 #include "commands/estimate.hpp"
 #include "commands/method.hpp"
 #include "commands/progress.hpp"
@@ -178,6 +179,7 @@ void print(const PhasedMotion& motion, const Contacts& contacts, const Derived& 
 }  // namespace
 
 int simulate(const Request& request) {
+    check_output(request.output, request);
     const Derived d = derived(request, Use::run);
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
@@ -251,9 +253,9 @@ int simulate(const Request& request) {
 
     std::optional<JointReactions> reactions;
     if (request.reactions && !request.output.empty() && !d.mechanism.joints.empty()) reactions = joint_reactions(d.scene, d.mechanism);
-    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first));
+    if (!request.output.empty()) write_file(request.output, csv(motion, d, modes, reactions ? &*reactions : nullptr, first), request);
     if (request.json)
-        std::cout << as_json(motion, contacts, d, free, account, moved).dump(2) << "\n";
+        std::cout << as_text(as_json(motion, contacts, d, free, account, moved));
     else
         print(motion, contacts, d, free, account, moved);
     if (!request.json && !request.output.empty()) fmt::print("wrote {}\n", request.output);

@@ -10,6 +10,7 @@
 #include "alembert/compile.hpp"
 #include "alembert/ensemble.hpp"
 #include "analysis/assemble.hpp"
+#include "commands/output.hpp"
 #include "commands/grid.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"
@@ -194,6 +195,7 @@ Sum sum_of(const Table& table, const Grid& grid) {
 }  // namespace
 
 int sweep(const Request& request) {
+    check_output(request.output, request);
     const Grid grid = grid_of(request.vary);
     const Derived d = derived(request, Use::run);
     if (!d.mechanism.unilateral.empty())
@@ -238,7 +240,7 @@ int sweep(const Request& request) {
 
     const Table table(d, program, grid, begin, ends, energy.conserved);
     const Sum sum = sum_of(table, grid);
-    if (!request.output.empty()) write_file(request.output, table.csv());
+    if (!request.output.empty()) write_file(request.output, table.csv(), request);
     if (request.json) {
         Json result;
         result["members"] = grid.size();
@@ -257,7 +259,7 @@ int sweep(const Request& request) {
             result["file"] = request.output;
         else
             for (std::size_t k = 0; k < grid.size(); ++k) result["rows"].push_back(table.json(k));
-        std::cout << result.dump(2) << "\n";
+        std::cout << as_text(result);
     } else if (request.output.empty()) {
         std::cout << table.csv();
     } else {
