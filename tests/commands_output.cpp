@@ -8,8 +8,8 @@
 #include <iterator>
 #include <string>
 
-#include "shell.hpp"
 #include "scenes.hpp"
+#include "shell.hpp"
 
 using namespace alembert::test;
 namespace fs = std::filesystem;
@@ -35,14 +35,20 @@ std::string contents(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 /// A folder with a scene in it.
 struct Place {
     fs::path folder = temporary_folder("output"), scene = folder / "falling.toml";
     Place() { std::ofstream(scene) << falling; }
-    Run simulate(const fs::path& output) const { return run({"simulate", scene.string(), "--no-estimate", "-o", output.string()}); }
-    std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(folder), fs::directory_iterator()); }
+    Run simulate(const fs::path& output) const {
+        return run({"simulate", scene.string(), "--no-estimate", "-o", output.string()});
+    }
+    std::ptrdiff_t files() const {
+        return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+    }
 };
 
 }  // namespace
@@ -60,9 +66,12 @@ TEST_CASE("output: a file is replaced as a whole and keeps its mode; nothing els
     CHECK(place.files() == 2);
 }
 
-TEST_CASE("output: of a symbolic link the target is written, and the link stays; one that leads nowhere yet makes its target") {
+TEST_CASE(
+    "output: of a symbolic link the target is written, and the link stays; one that leads nowhere yet makes its "
+    "target") {
     const Place place;
-    const fs::path link = place.folder / "link.csv", far = place.folder / "far.csv", target = place.folder / "target.csv";
+    const fs::path link = place.folder / "link.csv", far = place.folder / "far.csv",
+                   target = place.folder / "target.csv";
     fs::create_symlink("far.csv", link);
     fs::create_symlink(target, far);
     for (int k = 0; k < 2; ++k) {
@@ -79,18 +88,31 @@ TEST_CASE("output: what a pipe takes, and what a link to /dev/stdout gives, is w
     const Place place;
     REQUIRE(place.simulate(place.folder / "motion.csv").exit == 0);
     const std::string expected = contents(place.folder / "motion.csv");
-    const Run piped = run_shell(R"(cd "$1" && mkfifo pipe && { timeout 20 cat pipe >got & } && "$ALEMBERT" simulate falling.toml --no-estimate -o pipe; code=$?; wait; test -p pipe || exit 99; exit $code)",
-                                {place.folder.string()});
+    const Run piped = run_shell(
+        R"(cd "$1" && mkfifo pipe && { timeout 20 cat pipe >got & }
+           "$ALEMBERT" simulate falling.toml --no-estimate -o pipe
+           code=$?
+           wait
+           test -p pipe && exit $code)",
+        {place.folder.string()});
     CHECK(piped.exit == 0);
     CHECK(contents(place.folder / "got") == expected);
-    const Run shown = run_shell(R"(cd "$1" && ln -s /dev/stdout link && "$ALEMBERT" simulate falling.toml --no-estimate -o link && test -L link)", {place.folder.string()});
+    const Run shown = run_shell(
+        R"(cd "$1" && ln -s /dev/stdout link &&
+           "$ALEMBERT" simulate falling.toml --no-estimate -o link && test -L link)",
+        {place.folder.string()});
     CHECK(shown.exit == 0);
     CHECK(shown.out.starts_with(expected));
     CHECK(contains(shown.out, "at t = 1\n"));
-    const Run other = run_shell(R"(cd "$1" && "$ALEMBERT" simulate falling.toml --no-estimate -o /dev/fd/7 7>seventh)", {place.folder.string()});
+    const Run other =
+        run_shell(R"(cd "$1" && "$ALEMBERT" simulate falling.toml --no-estimate -o /dev/fd/7 7>seventh)",
+                  {place.folder.string()});
     CHECK(other.exit == 0);
     CHECK(contents(place.folder / "seventh") == expected);
-    const Run gone = run_shell(R"(cd "$1" && mkfifo lost && { timeout 20 true <lost & } && "$ALEMBERT" sweep falling.toml --vary x=1:2:2000 --duration 0.01 -o lost)", {place.folder.string()});
+    const Run gone = run_shell(
+        R"(cd "$1" && mkfifo lost && { timeout 20 true <lost & }
+           "$ALEMBERT" sweep falling.toml --vary x=1:2:2000 --duration 0.01 -o lost)",
+        {place.folder.string()});
     CHECK(gone.exit == 5);
     CHECK(contains(gone.err, "cannot write 'lost': Broken pipe"));
 }
@@ -118,10 +140,11 @@ TEST_CASE("output: the scene itself is refused, under its name and through links
     fs::create_hard_link(place.scene, place.folder / "code" / "falling.cpp");
     const std::string scene = place.scene.string();
     for (const fs::path& file : {place.scene, soft, hard})
-        for (const std::vector<std::string>& words : {std::vector<std::string>{"simulate", scene, "-o", file.string()},
-                                                      {"sweep", scene, "--vary", "x=1:2:2", "-o", file.string()},
-                                                      {"bench", scene, "--csv", file.string()},
-                                                      {"bench", scene, "--svg", file.string()}}) {
+        for (const std::vector<std::string>& words :
+             {std::vector<std::string>{"simulate", scene, "-o", file.string()},
+              {"sweep", scene, "--vary", "x=1:2:2", "-o", file.string()},
+              {"bench", scene, "--csv", file.string()},
+              {"bench", scene, "--svg", file.string()}}) {
             const Run result = run(words);
             CAPTURE(words[0]);
             CHECK(result.exit == 3);
@@ -136,7 +159,9 @@ TEST_CASE("output: the scene itself is refused, under its name and through links
     CHECK(contents(robot) == before);
 }
 
-TEST_CASE("output: a read-only file, a folder and a missing folder are errors of the environment, told before the work begins") {
+TEST_CASE(
+    "output: a read-only file, a folder and a missing folder are errors of the environment, told before the work "
+    "begins") {
     const Place place;
     const fs::path file = place.folder / "kept.csv";
     std::ofstream(file) << "kept";

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// A program that is told to stop while the compiler runs leaves nothing behind: no temporary file, no folder, no compiler.
+// A program that is told to stop while the compiler runs leaves nothing behind: no temporary file, no folder, no
+// compiler.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "shell.hpp"
 #include "scenes.hpp"
+#include "shell.hpp"
 
 using namespace alembert::test;
 namespace fs = std::filesystem;

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Runs every verb, with all its options, on every scene of the repository: none may crash, whatever its answer is.
-#   every_verb.sh --sanitize [SCENE...]    builds the program with the address and undefined-behaviour sanitizers, and runs that (hours of one core)
-#   every_verb.sh PROGRAM [SCENE...]       runs this one (many minutes)
+#   every_verb.sh --sanitize [SCENE...]    with the address and undefined-behaviour sanitizers, built for it (long)
+#   every_verb.sh PROGRAM [SCENE...]       this one (many minutes)
 #   every_verb.sh --fast PROGRAM           eval, inverse and impact alone (seconds)
-# A command fails here if it ends by a signal or by a sanitizer, or says that it met an internal error. One that is still running
-# after $SECONDS_EACH seconds of processor time (120 if not set) is ended and counted, and is no failure.
+# A command fails here if it ends by a signal or by a sanitizer, or says that it met an internal error. One that
+# is still running after $SECONDS_EACH seconds of processor time (120 if not set) is ended and counted: no failure.
 set -eu
 usage() {
     sed -n '4,6s/^#   //p' "$0" >&2
@@ -20,7 +20,8 @@ if [ "$1" = --fast ]; then
     [ $# -ge 1 ] || usage
 fi
 if [ "$1" = --sanitize ]; then
-    (cd "$root" && cmake --preset sanitize >/dev/null && cmake --build --preset sanitize --target alembert) || exit 5
+    cd "$root"
+    cmake --preset sanitize >/dev/null && cmake --build --preset sanitize --target alembert || exit 5
     PROGRAM=$root/build/sanitize/generator/alembert
 else
     PROGRAM=$1
@@ -35,6 +36,9 @@ WORK=$(mktemp -d)
 export WORK
 trap 'rm -rf "$WORK"' EXIT
 export XDG_CACHE_HOME=$WORK/cache
+formalisms="lagrange lagrange1 routh kane dalembert nielsen schiehlen roberson-wittenburg recursive hamilton"
+export formalisms="$formalisms routhian"
+export accident='internal error|runtime error:|Sanitizer'
 # A sanitizer's own exit code is 1, which here means "refuted".
 export ASAN_OPTIONS=exitcode=199:detect_leaks=0 UBSAN_OPTIONS=exitcode=199:print_stacktrace=1
 
@@ -43,7 +47,7 @@ run() { # VERB SCENE OPTIONS...
     (ulimit -t "$SECONDS_EACH" && exec "$PROGRAM" "$@") >/dev/null 2>"$log" </dev/null || code=$?
     if [ "$code" -eq 137 ] || [ "$code" -eq 152 ]; then
         echo "too long: alembert $*"
-    elif [ "$code" -ge 128 ] || { [ "$code" -ne 0 ] && grep -qE 'internal error|runtime error:|Sanitizer' "$log"; }; then
+    elif [ "$code" -ge 128 ] || { [ "$code" -ne 0 ] && grep -qE "$accident" "$log"; }; then
         echo "FAILED with $code: alembert $*"
         grep -vE '^ *$' "$log" | head -n 25 | sed 's/^/    /'
     else
@@ -65,19 +69,17 @@ every() { # SCENE
     run derive "$scene" --steps --reactions
     for format in latex mathml; do run derive "$scene" --format "$format" --steps --reactions; done
     run derive "$scene" --json --reactions
-    for by in lagrange lagrange1 routh kane dalembert nielsen schiehlen roberson-wittenburg recursive hamilton routhian; do
-        run derive "$scene" --by "$by" --steps
-    done
+    for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
     for verb in agree audit check eval linearize inverse impact; do run "$verb" "$scene"; done
     for verb in agree audit check linearize; do run "$verb" "$scene" --json; done
     run emit "$scene" -o "$folder"
     run emit "$scene" -o "$folder" --fold --jacobian --batch --json
     run simulate "$scene" "${short[@]}" --json --reactions -o "$folder/motion.csv" --sample 0.01
-    for method in rk4 gauss; do run simulate "$scene" "${short[@]}" --no-estimate --method "$method" --step 0.005; done
-    for method in radau taylor; do run simulate "$scene" "${short[@]}" --no-estimate --method "$method"; done
+    for method in rk4 gauss; do run simulate "$scene" "${short[@]}" --method "$method" --step 0.005; done
+    for method in radau taylor; do run simulate "$scene" "${short[@]}" --method "$method" --no-estimate; done
     run sweep "$scene" "${short[@]}" --vary t=0:0.1:11 --threads 2
     run sweep "$scene" "${short[@]}" --vary t=0:0.1:2 --json -o "$folder/table.csv"
-    run bench "$scene" "${short[@]}" --reference-seconds 0.1 --csv "$folder/bench.csv" --svg "$folder/bench.svg"
+    run bench "$scene" "${short[@]}" --reference-seconds 0.1 --csv "$folder/b.csv" --svg "$folder/b.svg"
     rm -rf "$folder"
 }
 imported() { # ROBOT
@@ -102,5 +104,6 @@ cat "$WORK"/result.* >"$WORK/results"
 grep -v '^ran$' "$WORK/results" || true
 commands=$(grep -cvE '^    ' "$WORK/results")
 failed=$(grep -c '^FAILED' "$WORK/results" || true)
-echo "$# scenes, $commands commands, $failed failed, $(grep -c '^too long' "$WORK/results" || true) ended for their length"
+long=$(grep -c '^too long' "$WORK/results" || true)
+echo "$# scenes, $commands commands, $failed failed, $long ended for their length"
 [ "$failed" = 0 ]

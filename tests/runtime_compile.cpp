@@ -320,7 +320,8 @@ TEST_CASE("compile: a cache in which others can write, or that belongs to somebo
     compile(pendulum_source(), "pendulum", cache.options());
     for (const fs::perms right : {fs::perms::group_write, fs::perms::others_write}) {
         fs::permissions(cache.path, fs::perms::owner_all | right);
-        const std::string message = compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); });
+        const std::string message =
+            compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); });
         CHECK(contains(message, cache.path.string()));
         CHECK(contains(message, "chmod go-w"));
     }
@@ -328,15 +329,19 @@ TEST_CASE("compile: a cache in which others can write, or that belongs to somebo
     CHECK(compile(pendulum_source(), "pendulum", cache.options()).from_cache);
     if (geteuid() != 0) return;  // only the superuser can give a folder away
     REQUIRE(chown(cache.path.c_str(), 1, 1) == 0);
-    CHECK(contains(compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); }), "belongs to user 1"));
+    CHECK(contains(compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); }),
+                   "belongs to user 1"));
 }
 
-TEST_CASE("compile: an entry that is a link, a pipe, or that somebody else can write is not loaded but compiled again") {
+TEST_CASE(
+    "compile: an entry that is a link, a pipe, or that somebody else can write is not loaded but compiled again") {
     const Cache cache;
-    const fs::path object = compile(pendulum_source(), "pendulum", cache.options()).object, elsewhere = cache.path / "elsewhere";
+    const fs::path object = compile(pendulum_source(), "pendulum", cache.options()).object,
+                   elsewhere = cache.path / "elsewhere";
     const auto is_renewed = [&] {
         const bool renewed = !compile(pendulum_source(), "pendulum", cache.options()).from_cache;
-        return renewed && fs::symlink_status(object).type() == fs::file_type::regular && compile(pendulum_source(), "pendulum", cache.options()).from_cache;
+        return renewed && fs::symlink_status(object).type() == fs::file_type::regular &&
+               compile(pendulum_source(), "pendulum", cache.options()).from_cache;
     };
     fs::rename(object, elsewhere);
     fs::create_symlink(elsewhere, object);  // the very bytes that would be taken as a file

@@ -26,7 +26,9 @@ public:
         : start_(start), m_(m), p_(p), rows_(p.nodes_of("row")) {
         const std::size_t n = m.q.size();
         if (rows_.size() != n * m.constraints.size() || p.nodes_of("form_row").size() != n * m.speeds.size())
-            throw std::logic_error("assemble: this program does not have all rows of the constraints and the speeds; take lower_constraints");
+            throw std::logic_error(
+                "assemble: this program does not have all rows of the constraints and the speeds; take "
+                "lower_constraints");
         const auto may_move = [&](const std::string& name, bool guess) {
             return guess && std::none_of(held.begin(), held.end(), [&](const auto& h) { return h.first == name; });
         };
@@ -61,7 +63,8 @@ public:
 private:
     /// All rates from the initial speeds and, if these are obeyed, the constraints; both are linear in them.
     void solve_for_rates(bool obeyed) {
-        std::vector<int> nodes = obeyed ? p_.nodes_of("velocity") : std::vector<int>(), rows = obeyed ? rows_ : std::vector<int>();
+        std::vector<int> nodes = obeyed ? p_.nodes_of("velocity") : std::vector<int>(),
+                         rows = obeyed ? rows_ : std::vector<int>();
         const std::vector<int> speeds = p_.nodes_of("speed"), forms = p_.nodes_of("form_row");
         nodes.insert(nodes.end(), speeds.begin(), speeds.end());
         rows.insert(rows.end(), forms.begin(), forms.end());

@@ -42,7 +42,8 @@ struct Descriptor {
     int number;
 };
 
-/// Where a path leads, links followed: a file that is there or is to be made, or a descriptor of this process (/dev/stdout).
+/// Where a path leads, links followed: a file that is there or is to be made, or a descriptor of this process
+/// (/dev/stdout).
 struct Target {
     fs::path file;
     std::optional<int> descriptor = {};
@@ -72,7 +73,8 @@ Target target_of(const std::string& path) {
 /// What is there now.
 std::optional<struct stat> status_of(const Target& target) {
     struct stat info {};
-    const bool there = target.descriptor ? fstat(*target.descriptor, &info) == 0 : stat(target.file.c_str(), &info) == 0;
+    const bool there =
+        target.descriptor ? fstat(*target.descriptor, &info) == 0 : stat(target.file.c_str(), &info) == 0;
     return there ? std::optional(info) : std::nullopt;
 }
 
@@ -91,20 +93,25 @@ void check(const std::string& path, const Target& target, const Request& request
     if (!S_ISREG(here->st_mode)) return;
     for (const std::string* input : {&request.scene, &request.claims}) {
         struct stat read {};
-        if (!input->empty() && stat(input->c_str(), &read) == 0 && read.st_dev == here->st_dev && read.st_ino == here->st_ino)
+        if (!input->empty() && stat(input->c_str(), &read) == 0 && read.st_dev == here->st_dev &&
+            read.st_ino == here->st_ino)
             throw ModelError(
-                fmt::format("'{}' is the same file as the input '{}', which would be overwritten; name another file for the output", path, *input));
+                fmt::format("'{}' is the same file as the input '{}', which would be overwritten; name another "
+                            "file for the output",
+                            path, *input));
     }
     if (target.descriptor) return;
     // The mode counts for the superuser too, who may write anyway: it says what the owner wants.
     if ((here->st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0)
-        fail(path, fmt::format("it is read-only (mode {:04o}); chmod +w it, or name another file", here->st_mode & 07777));
+        fail(path, fmt::format("it is read-only (mode {:04o}); chmod +w it, or name another file",
+                               here->st_mode & 07777));
     if (access(target.file.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
 }
 
 /// The errno of the write that failed; 0: all is written. A pipe whose reader has gone is an error and no signal.
 int write_all(int descriptor, std::string_view text) {
-    struct sigaction ignored {}, before {};
+    struct sigaction ignored {
+    }, before{};
     ignored.sa_handler = SIG_IGN;
     sigaction(SIGPIPE, &ignored, &before);
     int error = 0;
@@ -126,7 +133,8 @@ void write_to_device(const std::string& path, const fs::path& file, const std::s
 }
 
 /// `before`: of the file that is replaced.
-void write_beside(const std::string& path, const fs::path& file, const std::string& text, const std::optional<struct stat>& before) {
+void write_beside(const std::string& path, const fs::path& file, const std::string& text,
+                  const std::optional<struct stat>& before) {
     fs::path part;
     int made = -1;
     for (int k = 0; k < 100 && made < 0; ++k) {  // names of processes that were killed are passed over
@@ -148,7 +156,9 @@ void write_beside(const std::string& path, const fs::path& file, const std::stri
 }
 
 void write_to_descriptor(const std::string& path, int descriptor, const std::string& text) {
-    std::FILE* const stream = descriptor == STDOUT_FILENO ? stdout : descriptor == STDERR_FILENO ? stderr : nullptr;
+    std::FILE* const stream = descriptor == STDOUT_FILENO   ? stdout
+                              : descriptor == STDERR_FILENO ? stderr
+                                                            : nullptr;
     if (stream == nullptr) {
         if (const int error = write_all(descriptor, text); error != 0) fail(path, std::strerror(error));
     } else if (std::fwrite(text.data(), 1, text.size(), stream) != text.size()) {

@@ -38,8 +38,8 @@ std::size_t unfinished(std::string_view text) {
 /// Where a stream's bytes go.
 struct Way {
     int descriptor;
-    int error = 0;           ///< errno of the first write that failed
-    std::string held = {};   ///< the beginning of a character
+    int error = 0;          ///< errno of the first write that failed
+    std::string held = {};  ///< the beginning of a character
 
     bool put(std::string_view text) {
         while (!text.empty() && error == 0) {
@@ -69,7 +69,8 @@ ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
 }
 
 std::FILE* guarded(Way& way, int buffering) {
-    std::FILE* const stream = fopencookie(&way, "w", {.read = nullptr, .write = pass_on, .seek = nullptr, .close = nullptr});
+    std::FILE* const stream =
+        fopencookie(&way, "w", {.read = nullptr, .write = pass_on, .seek = nullptr, .close = nullptr});
     if (stream != nullptr) std::setvbuf(stream, nullptr, buffering, BUFSIZ);
     return stream;
 }
@@ -90,11 +91,13 @@ private:
     std::FILE* file_;
 };
 
-/// A closed descriptor would be given to the next file that is opened, and messages would be written into it. Writing to what
-/// takes its place fails.
+/// A closed descriptor would be given to the next file that is opened, and messages would be written into it.
+/// Writing to what takes its place fails.
 void keep_descriptors() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+        if (fcntl(descriptor, F_GETFD) < 0 &&
+            open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            return;
 }
 
 extern "C" void end_by_signal(int signal) {
@@ -115,7 +118,8 @@ void clean_up_after_signals() {
 }  // namespace
 
 std::string harmless(std::string_view text) {
-    if (std::none_of(text.begin(), text.end(), [](char c) { return may_need_escape(static_cast<unsigned char>(c)); }))
+    if (std::none_of(text.begin(), text.end(),
+                     [](char c) { return may_need_escape(static_cast<unsigned char>(c)); }))
         return std::string(text);
     std::string result;
     for (std::size_t i = 0; i < text.size();) {
@@ -126,7 +130,8 @@ std::string harmless(std::string_view text) {
         else if (c == invalid_character)
             result += fmt::format("\\x{:02X}", static_cast<unsigned char>(text[begin]));
         else if (c > 0xFFFF)
-            result += fmt::format("\\u{:04X}\\u{:04X}", 0xD7C0 + (static_cast<unsigned>(c) >> 10), 0xDC00 + (static_cast<unsigned>(c) & 0x3FF));
+            result += fmt::format("\\u{:04X}\\u{:04X}", 0xD7C0 + (static_cast<unsigned>(c) >> 10),
+                                  0xDC00 + (static_cast<unsigned>(c) & 0x3FF));
         else
             result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
     }
@@ -136,7 +141,8 @@ std::string harmless(std::string_view text) {
 void guard_streams() {
     keep_descriptors();
     clean_up_after_signals();
-    std::FILE *const output = guarded(out, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF), *const errors = guarded(err, _IONBF);
+    std::FILE *const output = guarded(out, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF), *const errors =
+                                                                                              guarded(err, _IONBF);
     if (output == nullptr || errors == nullptr) return;
     stdout = output;
     stderr = errors;

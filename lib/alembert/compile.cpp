@@ -150,10 +150,12 @@ bool is_usable(const fs::path& folder) {
     struct stat info {};
     if (!make_folders(folder) || stat(folder.c_str(), &info) != 0) return false;
     if (S_ISDIR(info.st_mode) && !is_ours(info))
-        throw CompileError(fmt::format(
-            "the cache of compiled solvers, {}, belongs to user {} and has mode {:04o}; expected user {} and no right for others to "
-            "write, because what is in it is run: chmod go-w it if it is yours, or name another folder with $XDG_CACHE_HOME",
-            folder.string(), info.st_uid, info.st_mode & 07777, geteuid()));
+        throw CompileError(
+            fmt::format("the cache of compiled solvers, {}, belongs to user {} and has mode {:04o}; expected user "
+                        "{} and no right for others to "
+                        "write, because what is in it is run: chmod go-w it if it is yours, or name another "
+                        "folder with $XDG_CACHE_HOME",
+                        folder.string(), info.st_uid, info.st_mode & 07777, geteuid()));
     return S_ISDIR(info.st_mode) && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
@@ -177,8 +179,10 @@ std::optional<std::string> read_own_file(const fs::path& path) {
         std::size_t done = 0;
         for (ssize_t count = 0; done < text->size(); done += static_cast<std::size_t>(count)) {
             count = read(file, text->data() + done, text->size() - done);
-            if (count < 0 && errno == EINTR) count = 0;
-            else if (count <= 0) break;
+            if (count < 0 && errno == EINTR)
+                count = 0;
+            else if (count <= 0)
+                break;
         }
         text->resize(done);
     }
@@ -236,7 +240,8 @@ void build(std::vector<std::string> command, const std::string& source_text, con
     if (compiler.status != 0)
         throw CompileError(fmt::format("the compiler failed with status {}:\n  {}\n{}", compiler.status,
                                        joined(command, " "), compiler.output.substr(0, 8000)));
-    for (const fs::path& file : {source.path(), result.path()}) chmod(file.c_str(), S_IRWXU);  // else the user's umask decides
+    for (const fs::path& file : {source.path(), result.path()})
+        chmod(file.c_str(), S_IRWXU);  // else the user's umask decides
     seal(result.path());
     move_into_place(source.path(), fs::path(object).replace_extension(".cpp"));
     move_into_place(result.path(), object);

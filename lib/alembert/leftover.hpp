@@ -8,7 +8,8 @@
 ///
 ///     extern "C" void on_signal(int) { remove_leftovers(); ... }   // and when the program ends by a signal
 ///
-/// The library installs no signal handlers; a program that wants this after signals calls remove_leftovers() in its own.
+/// The library installs no signal handlers; a program that wants this after signals calls remove_leftovers() in
+/// its own.
 
 #include <sys/types.h>
 
@@ -16,8 +17,8 @@
 
 namespace alembert {
 
-/// A file, or a folder with the files in it, that is removed when this goes out of scope in the process that made it. Nothing
-/// has to be there under the name.
+/// A file, or a folder with the files in it, that is removed when this goes out of scope in the process that made
+/// it. Nothing has to be there under the name.
 class Leftover {
 public:
     explicit Leftover(std::filesystem::path path);

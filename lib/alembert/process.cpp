@@ -85,8 +85,8 @@ int spawn(pid_t& child, const std::vector<std::string>& argv, int output, const 
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setsigmask(&attributes, &mask);
     const std::vector<std::string> environment = english_environment();
-    const int failure =
-        posix_spawn(&child, argv[0].c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
+    const int failure = posix_spawn(&child, argv[0].c_str(), &actions, &attributes, pointers(argv).data(),
+                                    pointers(environment).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return failure;
