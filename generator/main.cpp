@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "alembert/error.hpp"
+#include "commands/streams.hpp"
 #include "commands/verb.hpp"
 
 namespace {
@@ -35,6 +36,7 @@ int guarded(const alembert::Chosen& chosen) {
     } catch (const std::bad_alloc&) {
         return complain("out of memory", environment_failed);
     } catch (const std::exception& e) {
+        if (alembert::output_failed()) return environment_failed;  // told at the end
         return complain(fmt::format("{}: internal error: {}", subject, e.what()), environment_failed);
     }
 }
@@ -42,6 +44,7 @@ int guarded(const alembert::Chosen& chosen) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    alembert::guard_streams();
     CLI::App app{"alembert derives the equations of motion of a mechanical system, and runs them."};
     app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
     app.require_subcommand(1);
@@ -51,7 +54,7 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         const int code = app.exit(e);
-        return code == 0 ? 0 : input_is_wrong;
+        return alembert::finished(code == 0 ? 0 : input_is_wrong);
     }
-    return guarded(chosen);
+    return alembert::finished(guarded(chosen));
 }

@@ -183,3 +183,23 @@ restitution = "e"
           doctest::Approx(number(json["energy_loss"]) + number(json["work_of_moving_constraints"])).epsilon(1e-13));
     CHECK(json["solution"]["y"] == "(4+19*e)/5");
 }
+
+// The same motion in the scene's own speeds, whose initial values replace the rates; the reader takes these
+// nowhere else.
+TEST_CASE("impact: speeds with initial values give what the rates that they mean give") {
+    const std::string speeds =
+        "[speeds]\nu1 = { form = \"theta1'\", initial = \"w1\" }\nu2 = { form = \"theta2' - theta1'\", initial = "
+        "\"w2 - w1\" }\n";
+    for (const std::string& further :
+         {std::string(), lock}) {  // the lock contradicts the initial speeds, and is imposed
+        std::string in_rates = double_pendulum + further, in_speeds = in_rates;
+        for (const char* rate : {", rate = \"w1\"", ", rate = \"w2\""})
+            in_speeds.erase(in_speeds.find(rate), std::string(rate).size());
+        in_speeds += speeds;
+        const Json expected = impact_of(in_rates), json = impact_of(in_speeds);
+        for (const char* name : {"theta1", "theta2"})
+            for (const char* when : {"before", "after"})
+                CHECK(number(json[when][name]) == doctest::Approx(number(expected[when][name])).epsilon(1e-13));
+        CHECK(number(json["energy_loss"]) == doctest::Approx(number(expected["energy_loss"])).epsilon(1e-12));
+    }
+}

@@ -140,3 +140,20 @@ TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
     CHECK(run({"sweep", scene, "--vary", "k=1:2:3", "--vary", "k=1:2:3"}).err.find("varied twice") != std::string::npos);
     CHECK(run({"sweep", source_path("scenes/textbook/bouncing_ball.toml"), "--vary", "g=9:10:2"}).exit == 3);
 }
+
+// x = 1 - t²/2: a scene whose numbers are all in it has no parameters to hand on.
+TEST_CASE("sweep: a scene without parameters is swept, side by side and by every packed method") {
+    const std::string scene =
+        temporary("plain.toml",
+                  "[coordinates]\nx = 1\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n[[force]]\n"
+                  "at = \"P\"\nvector = [-1, 0]\n[simulation]\nduration = 0.5\n");
+    for (const char* method : {"rk4", "dopri5", "dop853", "verner76", "verner98"}) {
+        std::vector<std::string> words{scene, "--vary", "x=1:2:11", "--method", method};
+        if (std::string(method) == "rk4") words.insert(words.end(), {"--step", "0.1"});
+        const Json table = sweep(words);
+        CHECK(table["side_by_side"] == 8);
+        for (const Json& row : table["rows"])
+            CHECK(row["final"]["coordinates"]["x"].get<double>() ==
+                  doctest::Approx(row["varied"]["x"].get<double>() - 0.125).epsilon(1e-14));
+    }
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "program.hpp"
+#include "shell.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -47,9 +47,7 @@ double seconds_of(const rusage& usage) {
            1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
-}  // namespace
-
-Run run(const std::vector<std::string>& args) {
+Run execute(const char* program, const std::vector<std::string>& args) {
     const std::filesystem::path out = folder() / "out", err = folder() / "err";
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("fork failed");
@@ -61,10 +59,11 @@ Run run(const std::vector<std::string>& args) {
         redirect(out, STDOUT_FILENO);
         redirect(err, STDERR_FILENO);
         setenv("XDG_CACHE_HOME", (folder() / "cache").c_str(), 1);
-        std::vector<char*> argv{const_cast<char*>(ALEMBERT_PROGRAM)};
+        setenv("ALEMBERT", ALEMBERT_PROGRAM, 1);
+        std::vector<char*> argv{const_cast<char*>(program)};
         for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
         argv.push_back(nullptr);
-        execv(ALEMBERT_PROGRAM, argv.data());
+        execv(program, argv.data());
         _exit(127);
     }
     int status = 0;
@@ -77,9 +76,28 @@ Run run(const std::vector<std::string>& args) {
             .megabytes = usage.ru_maxrss / 1024};
 }
 
+}  // namespace
+
+Run run(const std::vector<std::string>& args) {
+    return execute(ALEMBERT_PROGRAM, args);
+}
+
+Run run_shell(const std::string& script, const std::vector<std::string>& args) {
+    std::vector<std::string> words{"-c", script, "sh"};
+    words.insert(words.end(), args.begin(), args.end());
+    return execute("/bin/sh", words);
+}
+
 std::string temporary(const std::string& name, const std::string& text) {
     const std::filesystem::path path = folder() / name;
     std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+}
+
+std::string temporary_folder(const std::string& name) {
+    const std::filesystem::path path = folder() / name;
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directory(path);
     return path.string();
 }
 

@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -302,6 +303,57 @@ TEST_CASE("compile: $XDG_CACHE_HOME is where the cache is") {
     const Cache cache;
     const Variable xdg("XDG_CACHE_HOME", cache.path.c_str());
     CHECK(compile(pendulum_source(), "pendulum", {}).object.parent_path() == cache.path / "alembert");
+}
+
+TEST_CASE("compile: folders of the cache and what is in them are their owner's alone, whatever the umask says") {
+    const Cache cache;
+    const mode_t before = umask(0);
+    const Compiled compiled = compile(pendulum_source(), "pendulum", {.cache = cache.path / "a" / "b"});
+    umask(before);
+    for (const fs::path& path : {cache.path / "a", cache.path / "a" / "b", compiled.object})
+        CHECK(fs::status(path).permissions() == fs::perms::owner_all);
+    CHECK(compile(pendulum_source(), "pendulum", {.cache = cache.path / "a" / "b"}).from_cache);
+}
+
+TEST_CASE("compile: a cache in which others can write, or that belongs to somebody else, is refused") {
+    const Cache cache;
+    compile(pendulum_source(), "pendulum", cache.options());
+    for (const fs::perms right : {fs::perms::group_write, fs::perms::others_write}) {
+        fs::permissions(cache.path, fs::perms::owner_all | right);
+        const std::string message =
+            compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); });
+        CHECK(contains(message, cache.path.string()));
+        CHECK(contains(message, "chmod go-w"));
+    }
+    fs::permissions(cache.path, fs::perms::owner_all);
+    CHECK(compile(pendulum_source(), "pendulum", cache.options()).from_cache);
+    if (geteuid() != 0) return;  // only the superuser can give a folder away
+    REQUIRE(chown(cache.path.c_str(), 1, 1) == 0);
+    CHECK(contains(compile_error([&] { compile(pendulum_source(), "pendulum", cache.options()); }),
+                   "belongs to user 1"));
+}
+
+TEST_CASE(
+    "compile: an entry that is a link, a pipe, or that somebody else can write is not loaded but compiled again") {
+    const Cache cache;
+    const fs::path object = compile(pendulum_source(), "pendulum", cache.options()).object,
+                   elsewhere = cache.path / "elsewhere";
+    const auto is_renewed = [&] {
+        const bool renewed = !compile(pendulum_source(), "pendulum", cache.options()).from_cache;
+        return renewed && fs::symlink_status(object).type() == fs::file_type::regular &&
+               compile(pendulum_source(), "pendulum", cache.options()).from_cache;
+    };
+    fs::rename(object, elsewhere);
+    fs::create_symlink(elsewhere, object);  // the very bytes that would be taken as a file
+    CHECK(is_renewed());
+    fs::remove(object);
+    REQUIRE(mkfifo(object.c_str(), 0600) == 0);
+    CHECK(is_renewed());
+    fs::permissions(object, fs::perms::owner_all | fs::perms::others_write);
+    CHECK(is_renewed());
+    if (geteuid() != 0) return;
+    REQUIRE(chown(object.c_str(), 1, 1) == 0);
+    CHECK(is_renewed());
 }
 
 TEST_CASE("compile: a source that cannot be written whole is an error of the environment") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
@@ -14,6 +15,7 @@ struct BenchVerb : SceneOptions {
 };
 
 int run(const BenchVerb& verb) {
+    for (const std::string& file : {verb.csv, verb.svg}) check_output(file, {verb.scene});
     BenchOptions options = verb.options;
     options.wishes.by = verb.by;
     Progress progress;
@@ -21,8 +23,8 @@ int run(const BenchVerb& verb) {
     const Bench measured = bench(read_scene(verb.scene), options);
     progress.wipe();
     warn(measured.warnings);
-    if (!verb.csv.empty()) write_file(verb.csv, as_csv(measured));
-    if (!verb.svg.empty()) write_file(verb.svg, as_svg(measured));
+    if (!verb.csv.empty()) write_file(verb.csv, as_csv(measured), {verb.scene});
+    if (!verb.svg.empty()) write_file(verb.svg, as_svg(measured), {verb.scene});
     if (verb.json)
         show(as_json(measured));
     else

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "alembert/error.hpp"
+#include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
 #include "report/emission.hpp"
@@ -26,7 +27,7 @@ int run(const EmitVerb& options) {
     std::filesystem::create_directories(options.folder, failed);
     if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
     const std::string path = (std::filesystem::path(options.folder) / e.source.file).string();
-    write_file(path, e.source.text);
+    write_file(path, e.source.text, {options.scene});
     if (options.json)
         show(as_json(e, path));
     else

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
 #include "scene/text.hpp"
@@ -22,7 +23,7 @@ int run(const ImportOptions& options) {
     const std::string file = std::filesystem::path(options.robot).filename().string();
     const RobotScene scene = robot_scene(read_robot(options.robot), {.source = file, .floating = options.floating, .quaternion = options.quaternion});
     parse_scene(scene.text, options.output);  // what it refuses is not written
-    write_file(options.output, scene.text);
+    write_file(options.output, scene.text, {options.robot});
     for (const std::string& sentence : scene.notes) std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
         std::cerr << fmt::format("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what), dropped.of.empty() ? "" : ": ",

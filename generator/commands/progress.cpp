@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
+
+#include "commands/streams.hpp"
 
 namespace alembert {
 
@@ -20,7 +21,7 @@ constexpr auto redraw_after = std::chrono::milliseconds(100);
 Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), next_(Clock::now() + first_after) {}
 
 void Progress::wipe() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_) raw_to_terminal("\r\033[K");
     drawn_ = false;
 }
 
@@ -30,8 +31,7 @@ void Progress::at(std::string_view what, double part) {
     drawn_ = true;
     part = std::clamp(part, 0.0, 1.0);
     const int full = static_cast<int>(part * width);
-    fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='), std::string(width - full, ' '), 100 * part);
-    std::fflush(stderr);
+    raw_to_terminal(fmt::format("\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='), std::string(width - full, ' '), 100 * part));
 }
 
 }  // namespace alembert

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Where results leave the program: standard output, standard error, files.
+/// Results and warnings on their way to standard output and standard error (streams.hpp).
 
 #include <string>
 #include <vector>
@@ -16,8 +16,5 @@ void show(const std::string& text);
 
 /// Prints each warning to standard error.
 void warn(const std::vector<std::string>& warnings);
-
-/// Writes beside and renames. Throws CompileError (the environment failed) with the reason.
-void write_file(const std::string& path, const std::string& text);
 
 }  // namespace alembert

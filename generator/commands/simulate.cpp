@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "alembert/error.hpp"
+#include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
@@ -10,6 +11,7 @@ namespace alembert {
 namespace {
 
 int run(const RunVerb& verb) {
+    check_output(verb.output, {verb.scene});
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     Progress progress;
@@ -17,7 +19,7 @@ int run(const RunVerb& verb) {
     const Run run = simulate(read_scene(verb.scene), wishes);
     progress.wipe();
     warn(run.warnings);
-    if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows));
+    if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows), {verb.scene});
     if (verb.json) {
         show(as_json(run));
     } else {

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
@@ -19,6 +20,7 @@ struct SweepVerb : RunVerb {
 };
 
 int run(const SweepVerb& verb) {
+    check_output(verb.output, {verb.scene});
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
     Progress progress;
@@ -27,7 +29,7 @@ int run(const SweepVerb& verb) {
     const Sweep swept = sweep(read_scene(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
-    if (!verb.output.empty()) write_file(verb.output, as_csv(swept));
+    if (!verb.output.empty()) write_file(verb.output, as_csv(swept), {verb.scene});
     if (verb.json) {
         Json result = as_json(swept);
         if (!verb.output.empty())

@@ -4,9 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
+#include "alembert/error.hpp"
+#include "alembert/leftover.hpp"
 #include "alembert/process.hpp"
 
 namespace alembert {
@@ -27,6 +32,15 @@ void write_list(std::ofstream& out, const std::vector<double>& list) {
     out << "\n";
 }
 
+/// Empty, in the folder for temporary files, under a name that nobody else knows before.
+std::filesystem::path new_file() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "alembert-peers-XXXXXX").string();
+    const int made = mkstemp(pattern.data());
+    if (made < 0) throw CompileError(fmt::format("cannot make a temporary file {}: {}; name a writable folder with $TMPDIR", pattern, std::strerror(errno)));
+    close(made);
+    return pattern;
+}
+
 }  // namespace
 
 Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>&)>& judge) {
@@ -34,17 +48,15 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
     if (program.empty())
         return {.runs = {}, .missing = "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, libgsl-dev "
                                        "or libboost-dev (Debian)"};
-    const std::filesystem::path task = std::filesystem::temp_directory_path() / fmt::format("alembert-peers.{}", getpid());
+    const Leftover task(new_file());
     {
-        std::ofstream out(task);
+        std::ofstream out(task.path());
         write_list(out, request.parameters);
         write_list(out, request.initial);
         write_list(out, request.tolerances);
         out << fmt::format("{:.17g} {:.17g} {:.17g}\n", request.start, request.duration, request.most_seconds);
     }
-    const Finished finished = run({program.string(), request.object.string(), task.string()});
-    std::error_code ignored;
-    std::filesystem::remove(task, ignored);
+    const Finished finished = run({program.string(), request.object.string(), task.path().string()});
 
     Peers peers;
     std::istringstream lines(finished.output);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "alembert/dense.hpp"
 #include "lower/lower.hpp"
@@ -23,6 +24,11 @@ class Assembly {
 public:
     Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
         : start_(start), m_(m), p_(p), rows_(p.nodes_of(Group::row)) {
+        const std::size_t n = m.q.size();
+        if (rows_.size() != n * m.constraints.size() || p.nodes_of(Group::form_row).size() != n * m.speeds.size())
+            throw std::logic_error(
+                "assemble: this program does not have all rows of the constraints and the speeds; take "
+                "lower_constraints");
         const auto may_move = [&](const std::string& name, bool guess) {
             return guess && std::none_of(held.begin(), held.end(), [&](const auto& h) { return h.first == name; });
         };
@@ -35,8 +41,13 @@ public:
     std::vector<std::string> go(bool rates_must_obey) {
         settle(Group::position, start_.q, q_free_, "");
         if (!start_.speeds.empty()) {
-            solve_for_rates();
-            check(p_.nodes_of(Group::velocity), start_.qdot, false, true);
+            try {
+                solve_for_rates(true);
+                check(p_.nodes_of(Group::velocity), start_.qdot, false, true);
+            } catch (const ModelError&) {
+                if (rates_must_obey || m_.speeds.size() < m_.q.size()) throw;
+                solve_for_rates(false);
+            }
             return std::move(moved_);
         }
         const std::vector<double> given = start_.qdot;
@@ -50,9 +61,10 @@ public:
     }
 
 private:
-    /// All rates from the initial speeds and the constraints, which are linear in them.
-    void solve_for_rates() {
-        std::vector<int> nodes = p_.nodes_of(Group::velocity), rows = rows_;
+    /// All rates from the initial speeds and, if these are obeyed, the constraints; both are linear in them.
+    void solve_for_rates(bool obeyed) {
+        std::vector<int> nodes = obeyed ? p_.nodes_of(Group::velocity) : std::vector<int>(),
+                         rows = obeyed ? rows_ : std::vector<int>();
         const std::vector<int> speeds = p_.nodes_of(Group::speed), forms = p_.nodes_of(Group::form_row);
         nodes.insert(nodes.end(), speeds.begin(), speeds.end());
         rows.insert(rows.end(), forms.begin(), forms.end());

@@ -21,6 +21,7 @@
 #include "alembert/abi.hpp"
 #include "alembert/error.hpp"
 #include "alembert/fingerprint.hpp"
+#include "alembert/leftover.hpp"
 #include "alembert/process.hpp"
 
 namespace alembert {
@@ -116,36 +117,46 @@ std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, 
 }
 
 /// A folder that nobody else can write, removed with what is in it when the process ends.
-struct PrivateFolder {
-    PrivateFolder() {
-        std::error_code none;
-        std::string pattern = (fs::temp_directory_path(none) / "alembert-XXXXXX").string();
-        if (none || mkdtemp(pattern.data()) == nullptr)
-            throw CompileError(
-                fmt::format("cannot write to the cache, nor make a temporary folder {}: {}; "
-                            "name a writable folder with $XDG_CACHE_HOME or $TMPDIR",
-                            pattern, std::strerror(errno)));
-        path = pattern;
-    }
-    PrivateFolder(const PrivateFolder&) = delete;
-    PrivateFolder& operator=(const PrivateFolder&) = delete;
-    ~PrivateFolder() {
-        std::error_code none;
-        if (owner == getpid()) fs::remove_all(path, none);
-    }
-    fs::path path;
-    pid_t owner = getpid();
-};
-
-const fs::path& private_folder() {
-    static const PrivateFolder folder;
-    return folder.path;
+fs::path new_private_folder() {
+    std::error_code none;
+    std::string pattern = (fs::temp_directory_path(none) / "alembert-XXXXXX").string();
+    if (none || mkdtemp(pattern.data()) == nullptr)
+        throw CompileError(
+            fmt::format("cannot write to the cache, nor make a temporary folder {}: {}; "
+                        "name a writable folder with $XDG_CACHE_HOME or $TMPDIR",
+                        pattern, std::strerror(errno)));
+    return pattern;
 }
 
-bool is_writable(const fs::path& folder) {
-    std::error_code failure;
-    fs::create_directories(folder, failure);
-    return !failure && access(folder.c_str(), W_OK | X_OK) == 0;
+const fs::path& private_folder() {
+    static const Leftover folder(new_private_folder());
+    return folder.path();
+}
+
+/// May what is there be loaded and run? Code that somebody else can replace is somebody else's code.
+bool is_ours(const struct stat& info) {
+    return info.st_uid == geteuid() && (info.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+/// The folder and those above it that are missing, each for its owner alone. False: it cannot be made.
+bool make_folders(const fs::path& folder) {
+    if (mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST) return true;
+    const fs::path above = folder.parent_path();
+    return errno == ENOENT && above != folder && make_folders(above) && mkdir(folder.c_str(), 0700) == 0;
+}
+
+/// Throws CompileError for a folder of somebody else, and for one in which others can write.
+bool is_usable(const fs::path& folder) {
+    struct stat info {};
+    if (!make_folders(folder) || stat(folder.c_str(), &info) != 0) return false;
+    if (S_ISDIR(info.st_mode) && !is_ours(info))
+        throw CompileError(
+            fmt::format("the cache of compiled solvers, {}, belongs to user {} and has mode {:04o}; expected user "
+                        "{} and no right for others to "
+                        "write, because what is in it is run: chmod go-w it if it is yours, or name another "
+                        "folder with $XDG_CACHE_HOME",
+                        folder.string(), info.st_uid, info.st_mode & 07777, geteuid()));
+    return S_ISDIR(info.st_mode) && access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
 fs::path cache_folder(const fs::path& wanted) {
@@ -154,15 +165,29 @@ fs::path cache_folder(const fs::path& wanted) {
     const char* const home = std::getenv("HOME");
     if (folder.empty() && xdg != nullptr && fs::path(xdg).is_absolute()) folder = fs::path(xdg) / "alembert";
     if (folder.empty() && home != nullptr && *home != '\0') folder = fs::path(home) / ".cache" / "alembert";
-    return !folder.empty() && is_writable(folder) ? folder : private_folder();
+    return !folder.empty() && is_usable(folder) ? folder : private_folder();
 }
 
-std::optional<std::string> read_file(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return std::nullopt;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return std::move(text).str();
+/// The bytes of a regular file that is ours; nothing for anything else, a link to such a file too.
+std::optional<std::string> read_own_file(const fs::path& path) {
+    const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return std::nullopt;
+    std::optional<std::string> text;
+    struct stat info {};
+    if (fstat(file, &info) == 0 && S_ISREG(info.st_mode) && is_ours(info)) {
+        text.emplace(static_cast<std::size_t>(info.st_size), '\0');
+        std::size_t done = 0;
+        for (ssize_t count = 0; done < text->size(); done += static_cast<std::size_t>(count)) {
+            count = read(file, text->data() + done, text->size() - done);
+            if (count < 0 && errno == EINTR)
+                count = 0;
+            else if (count <= 0)
+                break;
+        }
+        text->resize(done);
+    }
+    close(file);
+    return text;
 }
 
 void write_file(const fs::path& path, std::string_view text, std::ios::openmode mode) {
@@ -183,14 +208,14 @@ std::string fingerprint(std::string_view bytes) {
 /// Does the object end in the fingerprint of what comes before? (The loader does not mind bytes after the last
 /// section.)
 bool is_intact(const fs::path& object) {
-    const std::optional<std::string> bytes = read_file(object);
+    const std::optional<std::string> bytes = read_own_file(object);
     if (!bytes || bytes->size() <= digits) return false;
     const std::string_view view = *bytes;
     return view.substr(view.size() - digits) == fingerprint(view.substr(0, view.size() - digits));
 }
 
 void seal(const fs::path& object) {
-    const std::optional<std::string> bytes = read_file(object);
+    const std::optional<std::string> bytes = read_own_file(object);
     if (!bytes) throw CompileError("the compiler succeeded but left no " + object.string());
     write_file(object, fingerprint(*bytes), std::ios::app);
 }
@@ -203,33 +228,23 @@ void move_into_place(const fs::path& from, const fs::path& to) {
             fmt::format("cannot rename {} to {}: {}", from.string(), to.string(), failure.message()));
 }
 
-/// Removes what is left under a temporary name, whichever way the block ends.
-struct Leftover {
-    explicit Leftover(fs::path file) : path(std::move(file)) {}
-    Leftover(const Leftover&) = delete;
-    Leftover& operator=(const Leftover&) = delete;
-    ~Leftover() {
-        std::error_code none;
-        fs::remove(path, none);
-    }
-    fs::path path;
-};
-
 void build(std::vector<std::string> command, const std::string& source_text, const fs::path& object) {
     static std::atomic<int> counter = 0;
     const fs::path stem =
         object.parent_path() / fmt::format(".{}-{}-{}", object.stem().string(), getpid(), counter++);
     const Leftover source(fs::path(stem) += ".cpp");
     const Leftover result(fs::path(stem) += ".so");
-    write_file(source.path, source_text, std::ios::trunc);
-    command.insert(command.end(), {source.path.string(), "-o", result.path.string(), "-lm", "-lc"});
+    write_file(source.path(), source_text, std::ios::trunc);
+    command.insert(command.end(), {source.path().string(), "-o", result.path().string(), "-lm", "-lc"});
     const Finished compiler = run(command);
     if (compiler.status != 0)
         throw CompileError(fmt::format("the compiler failed with status {}:\n  {}\n{}", compiler.status,
                                        joined(command, " "), compiler.output.substr(0, 8000)));
-    seal(result.path);
-    move_into_place(source.path, fs::path(object).replace_extension(".cpp"));
-    move_into_place(result.path, object);
+    for (const fs::path& file : {source.path(), result.path()})
+        chmod(file.c_str(), S_IRWXU);  // else the user's umask decides
+    seal(result.path());
+    move_into_place(source.path(), fs::path(object).replace_extension(".cpp"));
+    move_into_place(result.path(), object);
 }
 
 std::string file_stem(const std::string& name, const std::string& key) {

@@ -14,6 +14,10 @@
 /// short or altered is compiled again rather than loaded. If the cache cannot be written, a private folder takes
 /// its place and is removed when the process ends.
 ///
+/// What is in the cache is run, so it must be of the user whom this process acts for: a folder of somebody else,
+/// or one in which others can write, is refused with CompileError; folders are made with mode 0700; an entry that
+/// is a link, no regular file, or that somebody else can write is not loaded but compiled again.
+///
 /// Flags: no -ffast-math, ever: at link time it would switch the whole process to flush-to-zero when the object is
 /// loaded. `fast_math` adds single flags to the same command, and these leave the link alone: the result then
 /// depends on how the compiler orders sums. The start files and libstdc++ are left out (-nostdlib): emitted code

@@ -24,8 +24,9 @@ struct alignas(lanes * sizeof(double)) Lanes {
     double operator[](int lane) const { return value[lane]; }
 };
 
-inline double* reals(Lanes* first) { return first->value; }
-inline const double* reals(const Lanes* first) { return first->value; }
+/// The numbers of consecutive Lanes; null for null, which an empty list of them gives.
+inline double* reals(Lanes* first) { return first != nullptr ? first->value : nullptr; }
+inline const double* reals(const Lanes* first) { return first != nullptr ? first->value : nullptr; }
 
 /// `prepared` (module.hpp) in every lane.
 inline std::vector<Lanes> prepared_packs(const Module& module, const std::vector<double>& values = {}) {

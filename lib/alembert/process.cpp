@@ -2,6 +2,7 @@
 #include "alembert/process.hpp"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -10,11 +11,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "alembert/error.hpp"
+#include "alembert/leftover.hpp"
 
 namespace alembert {
 namespace {
@@ -54,6 +58,40 @@ int wait_for(pid_t child) {
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
+/// Keeps signals away while a child has been started and not yet been noted.
+class SignalsHeld {
+public:
+    SignalsHeld() {
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, &before);
+    }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+    ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
+    sigset_t before;
+};
+
+/// Starts a program as the leader of a group of its own, so that what it starts can be ended with it.
+int spawn(pid_t& child, const std::vector<std::string>& argv, int output, const sigset_t& mask) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setsigmask(&attributes, &mask);
+    const std::vector<std::string> environment = english_environment();
+    const int failure = posix_spawn(&child, argv[0].c_str(), &actions, &attributes, pointers(argv).data(),
+                                    pointers(environment).data());
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return failure;
+}
+
 bool is_program(const std::filesystem::path& path) {
     struct stat info {};
     return stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode) && access(path.c_str(), X_OK) == 0;
@@ -66,16 +104,14 @@ Finished run(const std::vector<std::string>& argv) {
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
         throw CompileError(std::string("cannot make a pipe to a child process: ") + std::strerror(errno));
 
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-    const std::vector<std::string> environment = english_environment();
     pid_t child = 0;
-    const int failure = posix_spawn(&child, argv[0].c_str(), &actions, nullptr, pointers(argv).data(),
-                                    pointers(environment).data());
-    posix_spawn_file_actions_destroy(&actions);
+    int failure = 0;
+    std::optional<RunningGroup> group;
+    {
+        const SignalsHeld held;
+        failure = spawn(child, argv, ends[1], held.before);
+        if (failure == 0) group.emplace(child);
+    }
     close(ends[1]);
     if (failure != 0) {
         close(ends[0]);

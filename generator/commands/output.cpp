@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/output.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "alembert/error.hpp"
+#include "alembert/leftover.hpp"
+
+namespace alembert {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_links = 40;  // as the kernel follows
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+    throw CompileError(fmt::format("cannot write '{}': {}", path, reason));
+}
+
+/// An open file that is closed at the end of the block.
+struct Descriptor {
+    explicit Descriptor(int opened) : number(opened) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number >= 0) close(number);
+    }
+    int number;
+};
+
+/// Where a path leads, links followed: a file that is there or is to be made, or a descriptor of this process
+/// (/dev/stdout).
+struct Target {
+    fs::path file;
+    std::optional<int> descriptor = {};
+};
+
+std::optional<int> own_descriptor(const fs::path& file) {
+    std::error_code none;
+    if (fs::canonical(file.parent_path(), none) != fmt::format("/proc/{}/fd", getpid())) return {};
+    const std::string name = file.filename().string();
+    int number = -1;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    return error == std::errc() && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+}
+
+Target target_of(const std::string& path) {
+    fs::path file = fs::absolute(path);
+    for (int k = 0; k < most_links; ++k) {
+        if (const std::optional<int> number = own_descriptor(file)) return {file, number};
+        std::error_code none;
+        const fs::path next = fs::read_symlink(file, none);
+        if (none) return {file};
+        file = file.parent_path() / next;
+    }
+    fail(path, std::strerror(ELOOP));
+}
+
+/// What is there now.
+std::optional<struct stat> status_of(const Target& target) {
+    struct stat info {};
+    const bool there =
+        target.descriptor ? fstat(*target.descriptor, &info) == 0 : stat(target.file.c_str(), &info) == 0;
+    return there ? std::optional(info) : std::nullopt;
+}
+
+void check(const std::string& path, const Target& target, const std::vector<std::string>& inputs) {
+    const std::optional<struct stat> here = status_of(target);
+    if (!here) {
+        if (target.descriptor) fail(path, std::strerror(EBADF));
+        std::error_code none;
+        const fs::path folder = target.file.parent_path();
+        if (!fs::is_directory(folder, none)) fail(path, fmt::format("there is no folder '{}'", folder.string()));
+        if (!target.file.has_filename()) fail(path, "expected the name of a file");
+        return;
+    }
+    if (S_ISDIR(here->st_mode)) fail(path, "it is a folder; expected the name of a file");
+    if (S_ISBLK(here->st_mode)) fail(path, "it is a block device; expected the name of a file");
+    if (!S_ISREG(here->st_mode)) return;
+    for (const std::string& input : inputs) {
+        struct stat read {};
+        if (!input.empty() && stat(input.c_str(), &read) == 0 && read.st_dev == here->st_dev &&
+            read.st_ino == here->st_ino)
+            throw ModelError(
+                fmt::format("'{}' is the same file as the input '{}', which would be overwritten; name another "
+                            "file for the output",
+                            path, input));
+    }
+    if (target.descriptor) return;
+    // The mode counts for the superuser too, who may write anyway: it says what the owner wants.
+    if ((here->st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0)
+        fail(path, fmt::format("it is read-only (mode {:04o}); chmod +w it, or name another file",
+                               here->st_mode & 07777));
+    if (access(target.file.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+}
+
+/// The errno of the write that failed; 0: all is written. A pipe whose reader has gone is an error and no signal.
+int write_all(int descriptor, std::string_view text) {
+    struct sigaction ignored {
+    }, before{};
+    ignored.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &ignored, &before);
+    int error = 0;
+    while (!text.empty() && error == 0) {
+        const ssize_t count = write(descriptor, text.data(), text.size());
+        if (count >= 0)
+            text.remove_prefix(static_cast<std::size_t>(count));
+        else if (errno != EINTR)
+            error = errno;
+    }
+    sigaction(SIGPIPE, &before, nullptr);
+    return error;
+}
+
+void write_to_device(const std::string& path, const fs::path& file, const std::string& text) {
+    Descriptor opened(open(file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    if (opened.number < 0) fail(path, std::strerror(errno));
+    if (const int error = write_all(opened.number, text); error != 0) fail(path, std::strerror(error));
+}
+
+/// `before`: of the file that is replaced.
+void write_beside(const std::string& path, const fs::path& file, const std::string& text,
+                  const std::optional<struct stat>& before) {
+    fs::path part;
+    int made = -1;
+    for (int k = 0; k < 100 && made < 0; ++k) {  // names of processes that were killed are passed over
+        part = file.parent_path() / fmt::format(".alembert-{}-{}.part", getpid(), k);
+        made = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (made < 0 && errno != EEXIST) break;
+    }
+    if (made < 0) fail(path, std::strerror(errno));
+    const Leftover beside(part);
+    Descriptor opened(made);
+    if (before) {
+        std::ignore = fchown(made, before->st_uid, before->st_gid);  // only the superuser can, and need
+        if (fchmod(made, before->st_mode & 0777) != 0) fail(path, std::strerror(errno));
+    }
+    if (const int error = write_all(made, text); error != 0) fail(path, std::strerror(error));
+    opened.number = -1;
+    if (close(made) != 0) fail(path, std::strerror(errno));  // some file systems find only now that they are full
+    if (rename(part.c_str(), file.c_str()) != 0) fail(path, std::strerror(errno));
+}
+
+void write_to_descriptor(const std::string& path, int descriptor, const std::string& text) {
+    std::FILE* const stream = descriptor == STDOUT_FILENO   ? stdout
+                              : descriptor == STDERR_FILENO ? stderr
+                                                            : nullptr;
+    if (stream == nullptr) {
+        if (const int error = write_all(descriptor, text); error != 0) fail(path, std::strerror(error));
+    } else if (std::fwrite(text.data(), 1, text.size(), stream) != text.size()) {
+        fail(path, std::strerror(errno));
+    }
+}
+
+}  // namespace
+
+void check_output(const std::string& path, const std::vector<std::string>& inputs) {
+    if (!path.empty()) check(path, target_of(path), inputs);
+}
+
+void write_file(const std::string& path, const std::string& text, const std::vector<std::string>& inputs) {
+    const Target target = target_of(path);
+    check(path, target, inputs);
+    const std::optional<struct stat> before = status_of(target);
+    if (target.descriptor)
+        write_to_descriptor(path, *target.descriptor, text);
+    else if (before && !S_ISREG(before->st_mode))
+        write_to_device(path, target.file, text);
+    else
+        write_beside(path, target.file, text, before);
+}
+
+}  // namespace alembert

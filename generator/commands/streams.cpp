@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/streams.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+
+#include "alembert/leftover.hpp"
+#include "scene/text.hpp"
+
+namespace alembert {
+
+namespace {
+
+bool may_need_escape(unsigned char byte) {
+    return (byte < 0x20 && byte != '\n' && byte != '\t') || byte >= 0x7F;
+}
+
+/// Bytes at the end that begin a UTF-8 character whose rest has not come yet.
+std::size_t unfinished(std::string_view text) {
+    for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
+        const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+        if (byte < 0x80) return 0;
+        if (byte < 0xC0) continue;
+        const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
+        return length > back ? back : 0;
+    }
+    return 0;
+}
+
+/// Where a stream's bytes go.
+struct Way {
+    int descriptor;
+    int error = 0;          ///< errno of the first write that failed
+    std::string held = {};  ///< the beginning of a character
+
+    bool put(std::string_view text) {
+        while (!text.empty() && error == 0) {
+            const ssize_t count = write(descriptor, text.data(), text.size());
+            if (count >= 0)
+                text.remove_prefix(static_cast<std::size_t>(count));
+            else if (errno != EINTR)
+                error = errno;
+        }
+        return error == 0;
+    }
+};
+
+// Never destroyed: the C library flushes its streams after everything else.
+Way &out = *new Way{STDOUT_FILENO}, &err = *new Way{STDERR_FILENO};
+
+/// As fopencookie wants it: the number of bytes taken, 0 for an error.
+ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
+    Way& way = *static_cast<Way*>(cookie);
+    std::string text = way.held + std::string(bytes, size);
+    const std::size_t keep = unfinished(text);
+    way.held = text.substr(text.size() - keep);
+    text.resize(text.size() - keep);
+    if (way.put(harmless(text))) return static_cast<ssize_t>(size);
+    errno = way.error;
+    return 0;
+}
+
+std::FILE* guarded(Way& way, int buffering) {
+    std::FILE* const stream =
+        fopencookie(&way, "w", {.read = nullptr, .write = pass_on, .seek = nullptr, .close = nullptr});
+    if (stream != nullptr) std::setvbuf(stream, nullptr, buffering, BUFSIZ);
+    return stream;
+}
+
+/// std::cout and std::cerr on top of such a stream, without a buffer of their own.
+class OnFile : public std::streambuf {
+public:
+    explicit OnFile(std::FILE* file) : file_(file) {}
+
+protected:
+    int_type overflow(int_type c) override { return c == traits_type::eof() ? 0 : std::fputc(c, file_); }
+    std::streamsize xsputn(const char* text, std::streamsize size) override {
+        return static_cast<std::streamsize>(std::fwrite(text, 1, static_cast<std::size_t>(size), file_));
+    }
+    int sync() override { return std::fflush(file_); }
+
+private:
+    std::FILE* file_;
+};
+
+/// A closed descriptor would be given to the next file that is opened, and messages would be written into it.
+/// Writing to what takes its place fails.
+void keep_descriptors() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(descriptor, F_GETFD) < 0 &&
+            open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+            return;
+}
+
+extern "C" void end_by_signal(int signal) {
+    remove_leftovers();
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+}
+
+void clean_up_after_signals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+        struct sigaction action {};
+        if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
+        action.sa_handler = end_by_signal;
+        sigaction(signal, &action, nullptr);
+    }
+}
+
+}  // namespace
+
+std::string harmless(std::string_view text) {
+    if (std::none_of(text.begin(), text.end(),
+                     [](char c) { return may_need_escape(static_cast<unsigned char>(c)); }))
+        return std::string(text);
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t begin = i;
+        const char32_t c = decode(text, i);
+        if (c == U'\n' || c == U'\t' || !is_disturbing(c))
+            result += text.substr(begin, i - begin);
+        else if (c == invalid_character)
+            result += fmt::format("\\x{:02X}", static_cast<unsigned char>(text[begin]));
+        else if (c > 0xFFFF)
+            result += fmt::format("\\u{:04X}\\u{:04X}", 0xD7C0 + (static_cast<unsigned>(c) >> 10),
+                                  0xDC00 + (static_cast<unsigned>(c) & 0x3FF));
+        else
+            result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    }
+    return result;
+}
+
+void guard_streams() {
+    keep_descriptors();
+    clean_up_after_signals();
+    std::FILE *const output = guarded(out, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF), *const errors =
+                                                                                              guarded(err, _IONBF);
+    if (output == nullptr || errors == nullptr) return;
+    stdout = output;
+    stderr = errors;
+    static OnFile &on_output = *new OnFile(output), &on_errors = *new OnFile(errors);
+    std::cout.rdbuf(&on_output);
+    std::cerr.rdbuf(&on_errors);
+    std::clog.rdbuf(&on_errors);
+}
+
+bool output_failed() {
+    return out.error != 0;
+}
+
+int finished(int code) {
+    std::cout.flush();
+    std::fflush(stdout);
+    if (!out.held.empty()) out.put(harmless(out.held));
+    if (!output_failed()) return code;
+    std::cerr << "cannot write to the standard output: " << std::strerror(out.error) << "\n";
+    return 5;
+}
+
+void raw_to_terminal(std::string_view text) {
+    err.put(text);
+}
+
+}  // namespace alembert

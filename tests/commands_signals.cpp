@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// A program that is told to stop while the compiler runs leaves nothing behind: no temporary file, no folder, no
+// compiler.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "scenes.hpp"
+#include "shell.hpp"
+
+using namespace alembert::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A compiler that takes its time and notes its process.
+const std::string script = R"sh(
+cd "$1"
+cat >slow <<'END'
+#!/bin/sh
+echo $$ >"$NOTE"
+sleep 60 &
+wait
+END
+chmod +x slow
+export CXX="$PWD/slow" NOTE="$PWD/note" TMPDIR="$PWD/temporary" XDG_CACHE_HOME="$PWD/$4"
+mkdir temporary
+: >file
+"$ALEMBERT" simulate "$2" >out 2>err &
+program=$!
+for k in $(seq 200); do [ -s note ] && break; sleep 0.05; done
+[ -s note ] || { cat err >&2; exit 99; }
+kill "-$3" "$program"
+wait "$program"
+echo $?
+sleep 0.1
+kill -0 "$(cat note)" 2>/dev/null && echo "the compiler still runs"
+find temporary cache -mindepth 1 -not -path cache/alembert 2>/dev/null
+exit 0
+)sh";
+
+}  // namespace
+
+TEST_CASE("signals: a run that is ended while it compiles removes its files and its compiler") {
+    const std::string scene = source_path("scenes/textbook/cart_pole.toml");
+    for (const auto& [signal, exit] : {std::pair{"TERM", "143\n"}, std::pair{"HUP", "129\n"}})
+        for (const char* cache : {"cache", "file"}) {  // the second is none: a private folder takes its place
+            CAPTURE(signal);
+            CAPTURE(cache);
+            const Run result = run_shell(script, {temporary_folder("signals"), scene, signal, cache});
+            CHECK(result.exit == 0);
+            CHECK(result.out == exit);
+        }
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// What program.hpp has, for tests of descriptors, signals and folders.
+
+#include "program.hpp"
+
+namespace alembert::test {
+
+/// `sh -c SCRIPT`, where "$ALEMBERT" is the program and "$1" … are the arguments.
+Run run_shell(const std::string& script, const std::vector<std::string>& args = {});
+
+/// An empty folder of that name in the temporary folder of this test process.
+std::string temporary_folder(const std::string& name);
+
+}  // namespace alembert::test
