@@ -28,7 +28,7 @@ constexpr unsigned bit(Variable::Kind kind) { return 1U << static_cast<unsigned>
 /// Nodes of the right-hand side and of events that contain t, and nothing else but parameters; t itself is not one of them.
 std::vector<int> inputs_of(const Program& program) {
     std::vector<int> roots = program.right_hand_side();
-    const std::vector<int> events = program.nodes_of("event");
+    const std::vector<int> events = program.nodes_of(Group::event);
     roots.insert(roots.end(), events.begin(), events.end());
     std::vector<int> inputs;
     for (const int id : program.needed(roots)) {

@@ -104,16 +104,15 @@ struct Compilation {
     Source source;
     Compiled compiled;
     Module module;
-    SeriesModule series, series_with_work;
-    std::shared_ptr<const Canonical> canonical;
+    SeriesModule series = {}, series_with_work = {};
+    std::shared_ptr<const Canonical> canonical = {};
 };
 
 Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved, const RunOptions& wishes) {
-    Compilation c;
-    c.source = emit(with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved));
-    c.compiled = compile(c.source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
-    c.module = load(c.compiled.object);
-    c.series = series_of(program, false, wishes);
+    Source source = emit(with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved));
+    Compiled compiled = compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+    Module module = load(compiled.object);
+    Compilation c{.source = std::move(source), .compiled = std::move(compiled), .module = std::move(module), .series = series_of(program, false, wishes)};
     if (c.series && !conserved) c.series_with_work = series_of(program, true, wishes);
     c.canonical = canonical_of(d, c.module, start.parameters, wishes);
     return c;

@@ -5,6 +5,7 @@
 
 #include "alembert/canonical.hpp"
 #include "alembert/compile.hpp"
+#include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
 #include "state/diagnose.hpp"
 #include "run/canonical.hpp"

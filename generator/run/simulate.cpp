@@ -45,9 +45,9 @@ struct Watch {
 };
 
 /// One scene on its way to a Run.
-class Simulation {
+class Simulating {
 public:
-    Simulation(Run& run, const RunOptions& wishes)
+    Simulating(Run& run, const RunOptions& wishes)
         : run_(run),
           wishes_(wishes),
           has_contacts_(!run.mechanism.unilateral.empty()),
@@ -210,7 +210,7 @@ Run simulate(Scene scene, const RunOptions& wishes) {
     if (!result.mechanism.impulses.empty())
         result.warnings.push_back(fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                               result.scene.file));
-    Simulation(result, wishes).run();
+    Simulating(result, wishes).run();
     return result;
 }
 

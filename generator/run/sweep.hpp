@@ -30,9 +30,10 @@ struct Sweep : Derived {
     int operations = 0;           ///< of one right-hand side
     bool packed = false;          ///< eight motions ran side by side
     int threads = 1;
-    struct {
+    struct Timings {
         double compile = 0, start = 0, integrate = 0;
-    } timings;                    ///< processor time, s
+    };
+    Timings timings = {};         ///< processor time, s
 };
 
 /// `threads`: 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with contacts or impulses at events,
