@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 #include "commands/command.hpp"
+#include "formalism/formalisms.hpp"
 
 namespace {
 
@@ -56,7 +57,7 @@ int main(int argc, char** argv) {
         CLI::App* sub = app.add_subcommand(name, about);
         sub->add_option("scene", request.scene, "the scene, a TOML file")->required();
         sub->add_flag("--json", request.json, "print one JSON object");
-        sub->add_option("--by", request.by, "formalism: lagrange, lagrange1, routh, kane, dalembert, nielsen, schiehlen, roberson-wittenburg, recursive, hamilton or routhian");
+        sub->add_option("--by", request.by, "formalism: " + alembert::formalism_names());
         sub->callback([&command, run] { command = run; });
         return sub;
     };

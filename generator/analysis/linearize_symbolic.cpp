@@ -18,7 +18,7 @@ constexpr double largest_tree = 2000;
 
 std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
     const int n = m.size();
-    if (!m.constraints.empty() || !e.h.empty() || n > most_coordinates) return {};
+    if (!m.constraints.empty() || !e.speeds_are_rates() || n > most_coordinates) return {};
     GiNaC::exmap there;
     for (int i = 0; i < n; ++i) {
         there[m.q[i]] = m.z->expand(q0[i]);

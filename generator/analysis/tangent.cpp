@@ -19,7 +19,7 @@ using GiNaC::ex;
 using Index = Eigen::Index;
 
 Residuals::Residuals(const Mechanism& m, const Equations& e)
-    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.h.empty()) {
+    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.speeds_are_rates()) {
     Program all;
     std::vector<std::pair<GiNaC::symbol, int>> given;
     for (int i = 0; i < s; ++i) given.emplace_back(e.u[i], all.variable({Variable::Kind::rate, i}));
@@ -36,7 +36,7 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
         for (const ex& entry : e.A[k]) wanted.emplace_back("row", entry);
         wanted.emplace_back("gamma", e.gamma[k]);
     }
-    const auto rate_of = [&](int i) { return e.h.empty() ? ex(m.qdot[i]) : e.h[i]; };
+    const auto rate_of = [&](int i) { return e.h[i]; };
     for (int i = 0; i < n; ++i) wanted.emplace_back("rate", rate_of(i));
     for (const Mechanism::Constraint& c : m.constraints)
         if (c.position) {

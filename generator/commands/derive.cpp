@@ -8,8 +8,7 @@
 #include "analysis/expression_of.hpp"
 #include "analysis/joint_reactions.hpp"
 #include "commands/pipeline.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/own_steps.hpp"
+#include "formalism/formalisms.hpp"
 #include "report/derivation.hpp"
 #include "report/latex.hpp"
 #include "report/mathml.hpp"
@@ -316,15 +315,12 @@ Json as_json(const Derivation& shown, const Mechanism& m) {
 
 int derive(const Request& request) {
     Derived d = derived(request);
-    // First-order equations in momenta are shown beside the energies, not after their elimination.
-    const bool momenta = d.equations.formalism == "hamilton" || d.equations.formalism == "routhian";
     // Reactions of unilateral constraints stand in the equations, zero while the gap is open; not in those for
     // independent coordinates, where all gaps are.
-    const bool reactions = !d.mechanism.unilateral.empty() && !momenta && request.by != "lagrange";
+    const bool independent = !request.by.empty() && formalism(request.by).independent;
+    const bool reactions = !d.mechanism.unilateral.empty() && !independent;
     if (reactions) d = derived_again(d, with_all_closed(d.mechanism), request.by);
-    Derivation shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
-    shown.formalism = d.equations.formalism;
-    show_own_steps(shown, d.mechanism, d.equations);
+    Derivation shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
     if (request.reactions) show_reactions(shown, d.mechanism);
     const std::vector<Statement> joints = request.reactions ? borne(d) : std::vector<Statement>();
     if (request.json) {
@@ -354,7 +350,7 @@ int derive(const Request& request) {
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
                                   shown.title,
                                   !request.by.empty()        ? ""
-                                  : !d.equations.h.empty() ? "; the scene has generalized speeds"
+                                  : !d.equations.speeds_are_rates() ? "; the scene has generalized speeds"
                                   : free && reactions ? "; the coordinates are independent while all gaps are open"
                                   : free              ? "; the coordinates are independent"
                                                       : "; the coordinates are not independent"),

@@ -65,7 +65,7 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, cons
         for (const Mechanism::Constraint& c : *list) text += "," + c.multiplier.get_name();
     for (const Mechanism::Unilateral& c : d.mechanism.unilateral) text += "," + c.gap.multiplier.get_name();
     text += ",energy";
-    for (const Part& output : d.mechanism.outputs) text += "," + output.label;
+    for (const Mechanism::Definition& output : d.mechanism.outputs) text += "," + output.name;
     for (const Root& root : modes({}).program.roots)
         if (root.group == "speed") text += "," + root.name;
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
@@ -90,7 +90,7 @@ std::string csv(const PhasedMotion& motion, const Derived& d, Modes& modes, cons
 
 Json event_as_json(const EventRecord& event, const Mechanism& m) {
     const auto k = static_cast<std::size_t>(event.index);
-    Json result{{"name", m.events[k].label}, {"time", event.time}};
+    Json result{{"name", m.events[k].name}, {"time", event.time}};
     if (event.impulse.empty()) return result;
     result["impulses"] = Json::object();
     for (std::size_t i = 0; i < event.impulse.size(); ++i)
@@ -107,7 +107,7 @@ std::string events_as_text(const std::vector<EventRecord>& events, const Mechani
             i = events.size() - 1;
         }
         const EventRecord& event = events[i];
-        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].label, event.time,
+        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name, event.time,
                             event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
     }
     return text;

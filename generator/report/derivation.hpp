@@ -13,27 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "formalism/equations.hpp"
+#include "formalism/formalisms.hpp"
 #include "report/readable.hpp"
 
 namespace alembert {
-
-/// `label` (of `of`) = value: "T of particle M1", "dL/dtheta1'", "Q of theta1".
-struct Statement {
-    enum class Kind { energy, partial, force, work, definition };
-    Kind kind = Kind::energy;
-    std::string letter;             ///< T, V, L, Q, δW
-    std::string of;                 ///< a body, a load; may be empty
-    std::optional<Phrase> by;       ///< the variable of a partial derivative, the coordinate of a force
-    Phrase value;
-};
-
-/// What a formalism shows on its own way: words, then equalities.
-struct Section {
-    std::string words;
-    std::vector<Statement> statements = {};
-    std::vector<std::pair<Phrase, Phrase>> equalities = {};
-};
 
 struct Derivation {
     std::string formalism;
@@ -62,6 +45,10 @@ struct Derivation {
 /// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
 void show_reactions(Derivation& shown, const Mechanism& mechanism);
 
+/// With the steps that every formalism shares.
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
+
+/// With the formalism's own steps too, and its own first-order equations where it ends in these.
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by);
 
 }  // namespace alembert
