@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "formalism/appell.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/hamilton.hpp"
 #include "formalism/kane.hpp"
@@ -77,6 +78,11 @@ const std::vector<Formalism>& formalisms() {
          .steps = steps_of_routhian,
          .independent = true,
          .in_momenta = true},
+        {.name = "appell",
+         .title = "the Gibbs-Appell equations",
+         .obstacle = obstacle_to_appell,
+         .derive = appell,
+         .steps = steps_of_appell},
     };
     return all;
 }
