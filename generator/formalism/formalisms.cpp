@@ -9,6 +9,7 @@
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
+#include "formalism/maggi.hpp"
 #include "formalism/nielsen.hpp"
 #include "formalism/recursive.hpp"
 #include "formalism/roberson_wittenburg.hpp"
@@ -83,6 +84,11 @@ const std::vector<Formalism>& formalisms() {
          .obstacle = obstacle_to_appell,
          .derive = appell,
          .steps = steps_of_appell},
+        {.name = "maggi",
+         .title = "Maggi's equations",
+         .obstacle = obstacle_to_maggi,
+         .derive = maggi,
+         .steps = steps_of_maggi},
     };
     return all;
 }
