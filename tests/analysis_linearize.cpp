@@ -64,7 +64,7 @@ std::vector<Digits> solved(std::vector<std::vector<Digits>> S, std::vector<Digit
 class Nonlinear {
 public:
     explicit Nonlinear(const Case& c) : m_(c.mechanism) {
-        REQUIRE(c.equations.h.empty());
+        REQUIRE(c.equations.speeds_are_rates());
         program_ = lower(m_, c.equations, energy_of(m_));
         for (const double x : c.start.parameters) at_.parameters.push_back(Digits(x));
         for (const double x : c.start.q) at_.q.push_back(Digits(x));

@@ -388,7 +388,8 @@ lean = "tilt"
         CHECK(std::abs(number(end, "coordinates", "y") - (number(angles, "coordinates", "y") - 0.5 * std::sin(theta) * std::cos(psi) + 0.5 * std::sin(0.3))) < 1e-9);
     }
     const auto proved = run({"agree", scene});
-    CHECK(proved.out.rfind("routh, kane, dalembert, nielsen, schiehlen: proved", 0) == 0);
+    CHECK(proved.out.starts_with("routh, kane, dalembert, nielsen, schiehlen, "));
+    CHECK(proved.out.substr(0, proved.out.find('\n')).ends_with(": proved"));
 }
 
 TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {

@@ -18,6 +18,7 @@
 #include "formalism/routh.hpp"
 #include "formalism/schiehlen.hpp"
 #include "lower/lower.hpp"
+#include "scene/joint_moves.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
@@ -531,4 +532,20 @@ TEST_CASE("joints: every formalism that applies gives the same equations of the 
         CHECK(derivations.equations.size() >= 3);
         CHECK(agree(derivations.equations, m).verdict == Agreement::Verdict::proved);
     }
+}
+
+// Of six directions a joint leaves those in which it moves; a quaternion is four coordinates for three of them.
+TEST_CASE("joints: what is locked and what moves are six directions in all") {
+    for (const std::string& name : joint_types()) {
+        CAPTURE(name);
+        const Joint::Type type = joint_type_named(name).value();
+        CHECK(moves_of(type).name == name);
+        Joint joint;
+        joint.type = type;
+        const std::size_t by_quaternion = coordinates_of(joint);
+        joint.angles = "zxz";
+        CHECK(locked_directions(type) + static_cast<int>(coordinates_of(joint)) == 6);
+        CHECK(by_quaternion == coordinates_of(joint) + (moves_of(type).has(Move::Kind::turn_in_space) ? 1 : 0));
+    }
+    CHECK_FALSE(joint_type_named("hinge"));
 }

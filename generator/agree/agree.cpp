@@ -102,7 +102,7 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
 
 /// Are all entries equal by their normal forms? False too where that takes too long to tell.
 bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& m, double seconds) {
-    if (a.h.size() != b.h.size() || a.A.size() != b.A.size()) return false;
+    if (a.speeds_are_rates() != b.speeds_are_rates() || a.A.size() != b.A.size()) return false;
     const auto start = std::chrono::steady_clock::now();
     const auto equal = [&](const ex& x, const ex& y) {
         if (x.is_equal(y)) return true;
@@ -129,12 +129,11 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
 Derivations derive_all(const Mechanism& mechanism) {
     Derivations result;
     for (const Formalism& f : formalisms()) {
-        if (f.name == "routh" && mechanism.constraints.empty()) continue;  // Lagrange's, word for word
-        try {
+        if (!f.without_constraints.empty() && mechanism.constraints.empty()) continue;  // another one, word for word
+        if (const auto obstacle = f.obstacle(mechanism))
+            result.refused.emplace_back(f.name, *obstacle);
+        else
             result.equations.push_back(f.derive(mechanism));
-        } catch (const ModelError& e) {
-            result.refused.emplace_back(f.name, e.what());
-        }
     }
     return result;
 }
@@ -150,7 +149,7 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
     const Equations* in_speeds = nullptr;
     for (const Equations& e : equations) {
         for (const Equations::Eliminated& constraint : e.eliminated) eliminated.push_back(constraint.constraint);
-        if (e.h.empty()) continue;
+        if (e.speeds_are_rates()) continue;
         if (in_speeds == nullptr) in_speeds = &e;
         if (e.u != in_speeds->u) {
             result.reason = fmt::format("{} and {} are in different speeds", in_speeds->formalism, e.formalism);

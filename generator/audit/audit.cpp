@@ -121,11 +121,10 @@ private:
                                             "remove or correct one of them",
                                             names, dependent ? "they constrain the same rates differently; " : "",
                                             clash.size() == 2 ? "both" : "all", places_tried);
-        if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].closes_loop; })) {
-            std::vector<std::string> joints;  // of the rows, which are called JOINT_1 …
+        if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].joint.has_value(); })) {
+            std::vector<std::string> joints;
             for (const int k : clash) {
-                const std::string& row = m_.constraints[k].name;
-                const std::string joint = row.substr(0, row.rfind('_'));
+                const std::string& joint = m_.joints[static_cast<std::size_t>(*m_.constraints[k].joint)].name;
                 if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
             }
             result_.problem = fmt::format("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s",

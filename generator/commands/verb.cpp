@@ -22,12 +22,6 @@ CLI::Validator number(bool zero) {
         zero ? "NONNEGATIVE" : "POSITIVE");
 }
 
-std::string names_of_formalisms() {
-    std::string names;
-    for (const Formalism& f : formalisms()) names += (names.empty() ? "" : ", ") + f.name;
-    return names;
-}
-
 }  // namespace
 
 CLI::Validator positive_number() { return number(false); }
@@ -36,7 +30,7 @@ CLI::Validator nonnegative_number() { return number(true); }
 void add_scene_options(CLI::App& verb, SceneOptions& options) {
     verb.add_option("scene", options.scene, "the scene, a TOML file")->required();
     verb.add_flag("--json", options.json, "print one JSON object");
-    verb.add_option("--by", options.by, "formalism: " + names_of_formalisms());
+    verb.add_option("--by", options.by, "formalism: " + formalism_names());
 }
 
 void add_reactions_option(CLI::App& verb, bool& reactions) {

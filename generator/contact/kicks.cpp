@@ -20,7 +20,7 @@ constexpr double negligible = 1e-9, lost = 1e-12, epsilon = std::numeric_limits<
 
 KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     std::vector<ex> values;
-    for (const Part& event : m.events) values.push_back(event.value);
+    for (const Mechanism::Definition& event : m.events) values.push_back(event.value);
     std::vector<ex> wanted = values;
     const std::vector<ex> slopes = m.time_derivative(values);
     const std::vector<ex> bends = m.time_derivative(slopes);  // but for q''', where `when` holds rates

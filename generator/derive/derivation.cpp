@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
 #include "derive/euler_form.hpp"
 #include "derive/intermediate_form.hpp"
@@ -26,8 +27,8 @@ public:
         for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
         gaps();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
-        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.h.empty() ? m_.q[i] : e_.u[i]));
-        if (!e_.h.empty() && m_.speeds.empty()) choice();
+        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
+        if (!e_.speeds_are_rates() && m_.speeds.empty()) choice();
         for (const ex& pole : e_.poles)
             if (const auto f = normal(pole))
                 result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
@@ -65,7 +66,7 @@ private:
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right));
         }
-        if (!e_.h.empty()) write_as_euler(result_.equations, result_.rows);
+        if (!e_.speeds_are_rates()) write_as_euler(result_.equations, result_.rows);
         for (std::size_t i = 0; i < e_.h.size(); ++i) {
             if (e_.h[i].is_equal(m_.qdot[i])) continue;
             const auto rate = normal(e_.h[i]);
@@ -104,16 +105,16 @@ private:
         for (const MassElement& body : m_.masses) {
             if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero())) continue;
             for (int k = 0; k < 3; ++k)
-                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], body.label, {}, {}}, body.rotation->w_NB_B[k]);
+                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], label(body.origin), {}, {}}, body.rotation->w_NB_B[k]);
         }
     }
 
     bool energies() {
         using Kind = Statement::Kind;
         for (const Part& part : m_.kinetic)
-            if (!add(result_.energies, {Kind::energy, "T", part.label, {}, {}}, part.value)) return false;
+            if (!add(result_.energies, {Kind::energy, "T", label(part.origin), {}, {}}, part.value)) return false;
         for (const Part& part : m_.potential)
-            if (!add(result_.energies, {Kind::energy, "V", part.label, {}, {}}, part.value)) return false;
+            if (!add(result_.energies, {Kind::energy, "V", label(part.origin), {}, {}}, part.value)) return false;
         const Energy energy = energy_of(m_);
         const auto T = normal(energy.kinetic), V = normal(energy.potential), L = normal(m_.lagrangian());
         if (!T || !V || !L) return false;
@@ -127,18 +128,18 @@ private:
     void forces() {
         using Kind = Statement::Kind;
         GiNaC::exvector total(m_.size(), 0);
-        const auto add_all = [&](const std::string& label, const std::vector<ex>& Q) {
+        const auto add_all = [&](const std::string& of, const std::vector<ex>& Q) {
             for (int i = 0; i < m_.size(); ++i) {
                 if (Q[i].is_zero()) continue;
-                add(result_.forces, {Kind::work, "Q", label, symbol_of(m_.q[i]), {}}, Q[i]);
+                add(result_.forces, {Kind::work, "Q", of, symbol_of(m_.q[i]), {}}, Q[i]);
                 total[i] += Q[i];
             }
         };
-        for (const Part& part : m_.potential) add_all(part.label, m_.z->pull_back({{part.value, -1}}, m_.q));
+        for (const Part& part : m_.potential) add_all(label(part.origin), m_.z->pull_back({{part.value, -1}}, m_.q));
         for (const Load& load : m_.loads) {
             std::vector<std::pair<ex, ex>> targets;
             for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
-            add_all(load.label, m_.z->pull_back(targets, m_.qdot));
+            add_all(label(load.origin), m_.z->pull_back(targets, m_.qdot));
         }
         if (result_.forces.empty()) return;
         for (int i = 0; i < m_.size(); ++i) add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
@@ -215,6 +216,22 @@ void show_reactions(Derivation& shown, const Mechanism& m) {
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
     return Making(mechanism, equations).make();
+}
+
+Derivation derivation_of(const Mechanism& m, const Equations& equations, const Formalism& by) {
+    // First-order equations in momenta are shown beside the energies, not after their elimination.
+    Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations);
+    shown.formalism = by.name;
+    shown.title = by.title;
+    if (by.outline != nullptr) shown.sections = by.outline(m);
+    if (by.steps == nullptr || !shown.definitions.empty()) return shown;
+    OwnSteps own = by.steps(m, equations);
+    for (Section& section : own.sections) shown.sections.push_back(std::move(section));
+    if (!own.equations.empty()) {
+        shown.title = std::move(own.title);
+        shown.equations = std::move(own.equations);
+    }
+    return shown;
 }
 
 }  // namespace alembert

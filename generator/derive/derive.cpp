@@ -3,8 +3,6 @@
 
 #include "contact/contacts.hpp"
 #include "exact/expression_of.hpp"
-#include "formalism/lagrange.hpp"
-#include "formalism/own_steps.hpp"
 #include "reaction/joint_reactions.hpp"
 
 namespace alembert {
@@ -43,13 +41,10 @@ std::vector<Statement> borne(const Derived& d) {
 
 DerivedScene derive(Scene scene, const ShowOptions& options) {
     DerivedScene d{derived(std::move(scene), {.by = options.by})};
-    // First-order equations in momenta are shown beside the energies, not after their elimination.
-    const bool momenta = d.equations.formalism == "hamilton" || d.equations.formalism == "routhian";
-    d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !momenta && options.by != "lagrange";
+    const bool independent = !options.by.empty() && formalism(options.by).independent;
+    d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
     if (d.has_unilateral_reactions) static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
-    d.shown = derivation_of(d.mechanism, momenta ? lagrange(d.mechanism) : d.equations);
-    d.shown.formalism = d.equations.formalism;
-    show_own_steps(d.shown, d.mechanism, d.equations);
+    d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);
     d.joint_loads = borne(d);

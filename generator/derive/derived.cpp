@@ -36,20 +36,17 @@ constexpr int most_with_matrix = 80;  // joints; of more, M would be most of wha
 /// all formalisms but articulated bodies.
 std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
     if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m)) return {};
-    try {
-        const JointTree tree = joint_tree(m);
-        std::vector<int> depth;
-        int pairs = 0;
-        for (const TreeJoint& joint : tree.joints) {
-            depth.push_back(joint.link.parent < 0 ? 1 : depth[static_cast<std::size_t>(joint.link.parent)] + 1);
-            pairs += depth.back();
-        }
-        if (pairs < many_pairs) return {};
-        if (use == Use::run && static_cast<int>(tree.joints.size()) > most_with_matrix) return recursive_without_matrix(m);
-        return formalism("recursive").derive(m);
-    } catch (const ModelError&) {  // it does not apply
-        return {};
+    const Possible<JointTree> tree = joint_tree(m);
+    if (!tree.exists()) return {};
+    std::vector<int> depth;
+    int pairs = 0;
+    for (const TreeJoint& joint : tree.value().joints) {
+        depth.push_back(joint.link.parent < 0 ? 1 : depth[static_cast<std::size_t>(joint.link.parent)] + 1);
+        pairs += depth.back();
     }
+    if (pairs < many_pairs) return {};
+    if (use == Use::run && static_cast<int>(depth.size()) > most_with_matrix) return recursive_without_matrix(m);
+    return recursive(m);
 }
 
 /// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
@@ -80,7 +77,7 @@ std::vector<ReactionOutput> add_reactions(Mechanism& m) {
 /// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else needs to. A joint that
 /// closes a loop likewise.
 std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
-    if (c.closes_loop) return {};
+    if (c.joint) return {};
     if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == c.place; })) return {};
     return describe(p.scene, {{c.place,
                                fmt::format("constraint '{}' follows from the others; its equation is left "
@@ -124,19 +121,15 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
 }
 
 void need_rates(const Derived& d) {
-    if (!d.equations.h.empty())
-        throw ModelError("contacts are followed in coordinates and their rates, and impulses of events in these or the scene's own speeds; leave out --by kane, or "
-                         "take --by routh");
+    if (!d.equations.speeds_are_rates())
+        throw ModelError("contacts are followed in coordinates and their rates, and impulses of events in these or the scene's own speeds; derive by routh instead of "
+                         "kane");
 }
 
 Choice lowered(const Derived& d, bool fold) {
     std::vector<Equations> all{d.equations};
-    if (d.by.empty() && d.equations.h.empty() && !d.equations.tree) {
-        try {
-            all.push_back(formalism("recursive").derive(d.mechanism));
-        } catch (const ModelError&) {  // it does not apply
-        }
-    }
+    if (d.by.empty() && d.equations.speeds_are_rates() && !d.equations.tree && !obstacle_to_recursive(d.mechanism))
+        all.push_back(recursive(d.mechanism));
     return choose(d.mechanism, all, {.fold = fold});
 }
 

@@ -35,7 +35,7 @@ Moving moving(const Mechanism& m) {
         }
     };
     for (const MassElement& body : m.masses) {
-        SourceScope source(z, body.label);
+        SourceScope source(z, label(body.origin));
         const std::size_t centre = add_vector(body.position);
         couple(centre, centre, body.mass);
         if (!body.rotation) continue;
@@ -61,8 +61,10 @@ Moving moving(const Mechanism& m) {
 
 }  // namespace
 
+std::optional<std::string> obstacle_to_dalembert(const Mechanism& m) { return masses_unknown(m, "d'Alembert's equations"); }
+
 VirtualWork virtual_work(const Mechanism& m) {
-    check_masses_known(m, "d'Alembert's equations");
+    need_none(obstacle_to_dalembert(m));
     std::vector<std::pair<ex, ex>> pairs;
     for (const PlacedForce& force : conservative_forces(m)) pairs.emplace_back(force.place, force.force);
     const std::vector<ex> known = m.z->pull_back(pairs, m.q), rest = potential_without_forces(m);

@@ -9,7 +9,7 @@
 /// is its mass points, r_C + R ρ: no angular velocity is used. (Torques, of which only the turning that they work on
 /// is known, take ∂ω/∂q'.) Constraints enter with their multipliers.
 
-#include "formalism/equations.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
@@ -19,8 +19,12 @@ struct VirtualWork {
 };
 VirtualWork virtual_work(const Mechanism& mechanism);
 
-/// Σ (F − m a)·δr = 0 (Zhang & Qin (1-22), (1-44)). Throws ModelError as `kane` does.
+/// Σ (F − m a)·δr = 0 (Zhang & Qin (1-22), (1-44)). Throws ModelError with the obstacle where there is one.
 Equations dalembert(const Mechanism& mechanism);
+/// A scene whose energies are given without the bodies that have them.
+std::optional<std::string> obstacle_to_dalembert(const Mechanism& mechanism);
+/// Virtual works, and the condition of rest as a product with its roots (rest.cpp).
+OwnSteps steps_of_dalembert(const Mechanism& mechanism, const Equations& equations);
 
 /// The equations at rest relative to the coordinates: virtual work with q' = q'' = 0, inputs and t as they are.
 std::vector<GiNaC::ex> rest_conditions(const Mechanism& mechanism, const Equations& equations);

@@ -15,15 +15,15 @@ using GiNaC::ex;
 std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
     Intermediates& z = *m.z;
     std::vector<PlacedForce> forces;
-    const auto push = [&](const std::string& label, const Vector3& place, const Vector3& force) {
+    const auto push = [&](const Origin& origin, const Vector3& place, const Vector3& force) {
         for (int k = 0; k < 3; ++k)
-            if (!force[k].is_zero()) forces.push_back({label, place[k], force[k]});
+            if (!force[k].is_zero()) forces.push_back({origin, place[k], force[k]});
     };
     for (const MassElement& body : m.masses)
-        push("gravity on " + body.label, body.position, scale(body.mass, m.gravity, z));
+        push(gravity_on(body.origin), body.position, scale(body.mass, m.gravity, z));
     for (const SpringElement& spring : m.springs) {
         if (!spring.between) {
-            forces.push_back({spring.label, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
+            forces.push_back({spring.origin, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
             continue;
         }
         const auto& [first, second] = *spring.between;
@@ -31,8 +31,8 @@ std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
         const ex pull = spring.free_length.is_zero()
                             ? spring.stiffness
                             : z.name(spring.stiffness * (1 - spring.free_length / norm(d, z)));
-        push(spring.label, second, scale(-pull, d, z));
-        push(spring.label, first, scale(pull, d, z));
+        push(spring.origin, second, scale(-pull, d, z));
+        push(spring.origin, first, scale(pull, d, z));
     }
     return forces;
 }
@@ -40,7 +40,7 @@ std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
 std::vector<ex> potential_without_forces(const Mechanism& m) {
     std::vector<std::pair<ex, ex>> targets;
     for (const Part& part : m.potential)
-        if (part.label == "[energy] potential") targets.emplace_back(part.value, -1);
+        if (part.origin.kind == Origin::Kind::given_potential) targets.emplace_back(part.value, -1);
     return m.z->pull_back(targets, m.q);
 }
 
@@ -70,16 +70,19 @@ std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
 }
 
 bool masses_are_known(const Mechanism& m) {
-    return !m.given_lagrangian && (m.kinetic.empty() || m.kinetic.back().label != "[energy] kinetic");
+    return !m.given_lagrangian && (m.kinetic.empty() || m.kinetic.back().origin.kind != Origin::Kind::given_kinetic);
 }
 
-void check_masses_known(const Mechanism& m, const std::string& who) {
-    if (m.size() == 0) throw ModelError(who + " need at least one coordinate; the scene has none");
-    if (masses_are_known(m)) return;
-    const bool kinetic = !m.given_lagrangian;
-    throw ModelError(fmt::format("{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
-                                 "use --by lagrange, or give the scene its particles and bodies",
-                                 who, kinetic ? "kinetic" : "lagrangian"));
+std::optional<std::string> no_coordinates(const Mechanism& m, const std::string& who) {
+    if (m.size() > 0) return std::nullopt;
+    return who + " need at least one coordinate; the scene has none";
+}
+
+std::optional<std::string> masses_unknown(const Mechanism& m, const std::string& who) {
+    if (m.size() == 0 || masses_are_known(m)) return no_coordinates(m, who);
+    return fmt::format("{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
+                       "use the formalism 'lagrange', or give the scene its particles and bodies",
+                       who, m.given_lagrangian ? "lagrangian" : "kinetic");
 }
 
 std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, const GiNaC::exmap& by) {
@@ -125,6 +128,7 @@ Equations equations_without_terms(const std::string& formalism, const Mechanism&
     equations.udot = m.qddot;
     equations.M = GiNaC::matrix(m.size(), m.size());
     equations.z = m.z;
+    equations.h = equations.form = {m.qdot.begin(), m.qdot.end()};
     return equations;
 }
 

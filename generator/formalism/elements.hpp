@@ -5,12 +5,13 @@
 /// the refusal of scenes whose energies are given without the bodies that have them.
 
 #include "formalism/equations.hpp"
+#include "formalism/obstacle.hpp"
 
 namespace alembert {
 
 /// A force and the place that it acts on, both along N; or a generalized force along an expression.
 struct PlacedForce {
-    std::string label;
+    Origin origin;
     GiNaC::ex place, force;  ///< one component
 };
 
@@ -30,8 +31,11 @@ std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates&
 /// Does all kinetic energy belong to particles and bodies?
 bool masses_are_known(const Mechanism& mechanism);
 
-/// Throws ModelError for [energy] kinetic or lagrangian, and for a scene without coordinates. `who`: "Kane's equations".
-void check_masses_known(const Mechanism& mechanism, const std::string& who);
+/// Why a formalism does not apply to a scene without coordinates. `who`: "Kane's equations".
+std::optional<std::string> no_coordinates(const Mechanism& mechanism, const std::string& who);
+
+/// The same, and for [energy] kinetic or lagrangian, of one that starts from the velocities of particles and bodies.
+std::optional<std::string> masses_unknown(const Mechanism& mechanism, const std::string& who);
 
 /// `values` with symbols replaced, through the definitions of intermediate symbols.
 std::vector<GiNaC::ex> substitute(Intermediates& z, const std::vector<GiNaC::ex>& values, const GiNaC::exmap& by);

@@ -6,8 +6,8 @@
 ///     const Equations equations = lagrange(mechanism);
 ///     equations.M(0, 1); equations.f[0];
 ///
-/// Where the speeds are not the rates, q' = h(q,u,t) comes with them, and constraints whose rates they leave out are
-/// eliminated: those have no row of A, and their multipliers are recovered from the motion.
+/// The speeds are the rates, h = u, or others: then constraints whose rates they leave out are eliminated; those have no row
+/// of A, and their multipliers are recovered from the motion.
 ///
 /// For the readable form f is kept in three parts, as a textbook writes the equation:
 /// M u' − own − dissipative = applied + Aᵀλ.
@@ -22,9 +22,16 @@ namespace alembert {
 
 struct JointTree;
 
+/// Are all rates q' = h speeds, each u being its own form? A scene's [speeds] are symbols of their own, whatever they stand for.
+inline bool speeds_are_rates(const std::vector<GiNaC::symbol>& u, const std::vector<GiNaC::ex>& form,
+                             const std::vector<GiNaC::ex>& h) {
+    return u.size() == h.size() &&
+           std::equal(u.begin(), u.end(), form.begin(), [](const GiNaC::symbol& a, const GiNaC::ex& b) { return b.is_equal(a); });
+}
+
 struct Equations {
-    std::string formalism;                ///< as in --by: "lagrange"
-    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds, which are the rates unless there is an h
+    std::string formalism;                ///< its name: "lagrange"
+    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds
     std::vector<GiNaC::symbol> udot;      ///< the unknowns
     GiNaC::matrix M;                      ///< n×n, symmetric; no rows where it is left out (recursive_without_matrix)
     std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
@@ -37,8 +44,8 @@ struct Equations {
     std::vector<std::vector<std::string>> row_sources;
     std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
 
-    std::vector<GiNaC::ex> h = {};        ///< q' in q, u, t; empty: u = q'
-    std::vector<GiNaC::ex> form = {};     ///< u in q, q', t; empty likewise
+    std::vector<GiNaC::ex> h = {};        ///< q' in q, u, t
+    std::vector<GiNaC::ex> form = {};     ///< u in q, q', t
     struct Eliminated {
         int constraint;                   ///< position in Mechanism::constraints
         GiNaC::ex multiplier;             ///< in q, q', q'', t and the lambdas above
@@ -48,6 +55,8 @@ struct Equations {
     std::shared_ptr<const JointTree> tree = {};  ///< of the recursive formalism: what its programs are made from
 
     int size() const { return static_cast<int>(u.size()); }
+    /// u = q', symbol by symbol.
+    bool speeds_are_rates() const { return alembert::speeds_are_rates(u, form, h); }
     /// Positions in Mechanism::constraints of the rows of A.
     std::vector<int> kept(const Mechanism& mechanism) const {
         std::vector<int> result;

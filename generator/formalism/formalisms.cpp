@@ -3,15 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "formalism/appell.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/hamilton.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
 #include "formalism/lagrange1.hpp"
+#include "formalism/maggi.hpp"
 #include "formalism/nielsen.hpp"
 #include "formalism/recursive.hpp"
-#include "formalism/routh.hpp"
 #include "formalism/roberson_wittenburg.hpp"
+#include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 #include "formalism/schiehlen.hpp"
 
@@ -19,28 +21,89 @@ namespace alembert {
 
 const std::vector<Formalism>& formalisms() {
     static const std::vector<Formalism> all{
-        {"lagrange", "Lagrange's equations of the second kind", lagrange},
-        {"lagrange1", "Lagrange's equations of the first kind", lagrange1},
-        {"routh", "Routh's equations with multipliers", routh},
-        {"kane", "Kane's equations", kane},
-        {"dalembert", "the general equation of dynamics", dalembert},
-        {"nielsen", "Nielsen's equations", nielsen},
-        {"schiehlen", "Schiehlen's equations: Newton-Euler, projected", schiehlen},
-        {"roberson-wittenburg", "Roberson and Wittenburg's equations", roberson_wittenburg},
-        {"hamilton", "Hamilton's equations, the momenta eliminated", hamilton},
-        {"recursive", "the recursive equations from body to body", recursive},
-        {"routhian", "Routh's procedure, the momenta eliminated", routhian},
+        {.name = "lagrange",
+         .title = "Lagrange's equations of the second kind",
+         .obstacle = obstacle_to_lagrange,
+         .derive = lagrange,
+         .independent = true},
+        {.name = "lagrange1",
+         .title = "Lagrange's equations of the first kind",
+         .obstacle = obstacle_to_lagrange1,
+         .derive = lagrange1,
+         .steps = steps_of_lagrange1},
+        {.name = "routh",
+         .title = "Routh's equations with multipliers",
+         .obstacle = obstacle_to_routh,
+         .derive = routh,
+         .without_constraints = "lagrange"},
+        {.name = "kane",
+         .title = "Kane's equations",
+         .obstacle = obstacle_to_kane,
+         .derive = kane,
+         .steps = steps_of_kane},
+        {.name = "dalembert",
+         .title = "the general equation of dynamics",
+         .obstacle = obstacle_to_dalembert,
+         .derive = dalembert,
+         .steps = steps_of_dalembert},
+        {.name = "nielsen",
+         .title = "Nielsen's equations",
+         .obstacle = obstacle_to_nielsen,
+         .derive = nielsen,
+         .steps = steps_of_nielsen},
+        {.name = "schiehlen",
+         .title = "Schiehlen's equations: Newton-Euler, projected",
+         .obstacle = obstacle_to_schiehlen,
+         .derive = schiehlen,
+         .steps = steps_of_schiehlen},
+        {.name = "roberson-wittenburg",
+         .title = "Roberson and Wittenburg's equations",
+         .obstacle = obstacle_to_roberson_wittenburg,
+         .derive = roberson_wittenburg,
+         .outline = outline_of_roberson_wittenburg},
+        {.name = "hamilton",
+         .title = "Hamilton's equations, the momenta eliminated",
+         .obstacle = obstacle_to_hamilton,
+         .derive = hamilton,
+         .steps = steps_of_hamilton,
+         .independent = true,
+         .in_momenta = true},
+        {.name = "recursive",
+         .title = "the recursive equations from body to body",
+         .obstacle = obstacle_to_recursive,
+         .derive = recursive},
+        {.name = "routhian",
+         .title = "Routh's procedure, the momenta eliminated",
+         .obstacle = obstacle_to_routhian,
+         .derive = routhian,
+         .steps = steps_of_routhian,
+         .independent = true,
+         .in_momenta = true},
+        {.name = "appell",
+         .title = "the Gibbs-Appell equations",
+         .obstacle = obstacle_to_appell,
+         .derive = appell,
+         .steps = steps_of_appell},
+        {.name = "maggi",
+         .title = "Maggi's equations",
+         .obstacle = obstacle_to_maggi,
+         .derive = maggi,
+         .steps = steps_of_maggi},
     };
     return all;
 }
 
+std::string formalism_names() {
+    std::string names;
+    for (const Formalism& f : formalisms()) names += (names.empty() ? "" : ", ") + f.name;
+    return names;
+}
+
 const Formalism& formalism(const std::string& name) {
-    std::string known;
-    for (const Formalism& f : formalisms()) {
+    for (const Formalism& f : formalisms())
         if (f.name == name) return f;
-        known += (known.empty() ? "" : ", ") + f.name;
-    }
-    throw ModelError(fmt::format("--by {}: this formalism is not supported yet; expected one of: {}", name, known));
+    throw ModelError(
+        fmt::format("the formalism '{}' is not supported; expected one of: {}", name, formalism_names()));
 }
 
 }  // namespace alembert

@@ -11,15 +11,15 @@ namespace alembert {
 
 using GiNaC::ex;
 
-std::vector<ex> solve_named(const GiNaC::matrix& M, std::vector<ex> x, const Mechanism& m) {
+Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, std::vector<ex> x, const Mechanism& m) {
     Intermediates& z = *m.z;
     const int n = static_cast<int>(x.size());
     GiNaC::matrix L = M;
     std::vector<ex> inverse(n);
     for (int k = 0; k < n; ++k) {
         if (is_identically_zero(L(k, k), m))
-            throw ModelError("the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
-                             "a mass, or use --by lagrange");
+            return Obstacle{"the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
+                            "a mass, or use the formalism 'lagrange'"};
         inverse[k] = z.name(1 / L(k, k));
         for (int i = k + 1; i < n; ++i) {
             if (L(i, k).is_zero()) continue;
@@ -36,11 +36,11 @@ std::vector<ex> solve_named(const GiNaC::matrix& M, std::vector<ex> x, const Mec
     return x;
 }
 
-Canonical canonical(const Mechanism& m) {
+Possible<Canonical> canonical(const Mechanism& m) {
     const int n = m.size();
-    if (n == 0) throw ModelError("Hamilton's equations need at least one coordinate; the scene has none");
+    if (const auto none = no_coordinates(m, "Hamilton's equations")) return Obstacle{*none};
     if (!m.constraints.empty())
-        throw ModelError("Hamilton's equations need independent coordinates, and the scene has constraints; use --by routh");
+        return Obstacle{"Hamilton's equations need independent coordinates, and the scene has constraints; use the formalism 'routh'"};
     Intermediates& z = *m.z;
     const ex L = m.lagrangian();
     Canonical c{.p = {}, .momenta = z.pull_back({{L, 1}}, m.qdot), .M = GiNaC::matrix(n, n), .H = 0, .qdot = {}, .pdot = {}, .force = {}};
@@ -50,8 +50,8 @@ Canonical canonical(const Mechanism& m) {
             c.M(i, j) = short_form(column[i], m);
             for (const ex& third : z.push_forward({column[i]}, {{m.qdot[j], 1}}))
                 if (z.depends(column[i], m.qdot) && !is_identically_zero(third, m))
-                    throw ModelError("Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
-                                     "is not; use --by lagrange");
+                    return Obstacle{"Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
+                                    "is not; use the formalism 'lagrange'"};
         }
     }
     GiNaC::exmap still, rates;
@@ -70,7 +70,9 @@ Canonical canonical(const Mechanism& m) {
     for (ex& value : at_rest) value = short_form(value, m);
     std::vector<ex> w;
     for (int i = 0; i < n; ++i) w.push_back(z.name(c.p[i] - at_rest[i]));
-    const std::vector<ex> y = solve_named(c.M, w, m);
+    const Possible<std::vector<ex>> solution = solve_named(c.M, w, m);
+    if (const auto singular = solution.obstacle()) return Obstacle{*singular};
+    const std::vector<ex>& y = solution.value();
     GiNaC::exvector H{-at_rest[n]};
     for (int i = 0; i < n; ++i) H.push_back(w[i] * y[i] / 2);
     c.H = short_form(z.name(GiNaC::add(std::move(H))), m);
@@ -84,8 +86,10 @@ Canonical canonical(const Mechanism& m) {
     return c;
 }
 
+std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) { return canonical(m).obstacle(); }
+
 Equations hamilton(const Mechanism& m) {
-    const Canonical c = canonical(m);
+    const Canonical c = canonical(m).value();
     Intermediates& z = *m.z;
     GiNaC::exmap momenta;
     for (int i = 0; i < m.size(); ++i) momenta[c.p[i]] = c.momenta[i];
@@ -99,5 +103,20 @@ Equations hamilton(const Mechanism& m) {
     return equations;
 }
 
+OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
+    const StepWriter write(m);
+    const Canonical c = canonical(m).value();
+    Section section{.words = "Hamilton's function, with p = dL/dq':"};
+    for (int i = 0; i < m.size(); ++i) write.equality(section, write.symbol_of(c.p[i]), c.momenta[i]);
+    write.equality(section, StepWriter::letter("H"), c.H);
+    OwnSteps result{.sections = {std::move(section)}, .title = "Hamilton's canonical equations"};
+    for (int i = 0; i < 2 * m.size(); ++i) {
+        const int k = i % m.size();
+        const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);
+        if (!f) return {};
+        result.equations.push_back({i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), readable(*f), {}});
+    }
+    return result;
+}
 
 }  // namespace alembert

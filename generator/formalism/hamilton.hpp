@@ -3,12 +3,13 @@
 
 /// Hamilton's canonical equations.
 ///
-///     const Canonical c = canonical(mechanism);      // c.H in q, p_<coordinate> and t
+///     const Canonical c = canonical(mechanism).value();      // c.H in q, p_<coordinate> and t
 ///     const Equations equations = hamilton(mechanism);
 ///
 /// `hamilton` eliminates the momenta again by p = ∂L/∂q', so that the result compares with the other formalisms.
 
-#include "formalism/equations.hpp"
+#include "formalism/obstacle.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
@@ -21,11 +22,16 @@ struct Canonical {
     std::vector<GiNaC::ex> force;     ///< −∂H/∂q alone
 };
 
-/// Throws ModelError for constraints, and where L is not of second degree in the rates or its matrix is singular.
-Canonical canonical(const Mechanism& mechanism);
-Equations hamilton(const Mechanism& mechanism);
+/// An obstacle are constraints, an L that is not of second degree in the rates, and one whose matrix is singular.
+Possible<Canonical> canonical(const Mechanism& mechanism);
+std::optional<std::string> obstacle_to_hamilton(const Mechanism& mechanism);
 
-/// X with M X = right, by symbolic elimination on a symmetric M; throws ModelError if a pivot is zero.
-std::vector<GiNaC::ex> solve_named(const GiNaC::matrix& M, std::vector<GiNaC::ex> right, const Mechanism& mechanism);
+/// Throws ModelError with the obstacle where there is one.
+Equations hamilton(const Mechanism& mechanism);
+/// H, and the canonical equations.
+OwnSteps steps_of_hamilton(const Mechanism& mechanism, const Equations& equations);
+
+/// X with M X = right, by symbolic elimination on a symmetric M; an obstacle is a pivot that is zero.
+Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, std::vector<GiNaC::ex> right, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -41,11 +41,12 @@ class Finder {
 public:
     explicit Finder(const Mechanism& m) : m_(m), z_(*m.z) { tree_.coordinates = m.size(); }
 
-    JointTree find() {
+    Possible<JointTree> find() {
         for (int k = 0; k < 3; ++k) tree_.gravity[k] = named(m_.gravity[k]);
         for (const MassElement& body : m_.masses) {
-            label_ = body.label;
+            label_ = label(body.origin);
             add(body);
+            if (obstacle_) return *obstacle_;
         }
         return std::move(tree_);
     }
@@ -55,7 +56,10 @@ private:
     NamedVector named(const Vector3& v) { return {named(v[0]), named(v[1]), named(v[2])}; }
     bool moves(const ex& e) const { return m_.z->depends(e, moving_); }
 
-    [[noreturn]] void refuse(const std::string& why) const { throw ModelError("the recursive formalism goes from body to body along joints: " + why); }
+    /// The first obstacle is kept; what is made of the body after it is of no consequence, and left as it is.
+    void refuse(const std::string& why) {
+        if (!obstacle_) obstacle_ = Obstacle{"the recursive formalism goes from body to body along joints: " + why};
+    }
 
     std::string shown(const ex& e) const {
         if (z_.tree_size(e) > 300) return "…";
@@ -102,8 +106,12 @@ private:
     const Fixed& fixed(int f) {
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
         const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
-        if (turn_step.by_quaternion)
-            refuse(fmt::format("{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or --by routh or kane", label_));
+        if (turn_step.by_quaternion) {
+            refuse(fmt::format("{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or "
+                               "the formalism 'routh' or 'kane'",
+                               label_));
+            return fixed_[f] = {0, unity()};
+        }
         if (f == 0 || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
         const Fixed above = fixed(turn_step.parent);
         return fixed_[f] = {above.frame, above.R * turn(turn_step.axis, turn_step.angle)};
@@ -126,7 +134,9 @@ private:
         for (int i = 0; i < m_.size(); ++i) {
             const ex slope = plain.has(m_.q[i]) ? plain.diff(m_.q[i]) : ex(0);
             if (!GiNaC::is_a<GiNaC::numeric>(slope) || !slope.info(GiNaC::info_flags::rational))
-                refuse(fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use --by lagrange or kane", label_, what, shown(position)));
+                return refuse(fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
+                                          "formalism 'lagrange' or 'kane'",
+                                          label_, what, shown(position)));
             joint.row.push_back(GiNaC::ex_to<GiNaC::numeric>(slope));
             rest -= slope * m_.q[i];
             rate.push_back(slope * m_.qdot[i]);
@@ -222,7 +232,12 @@ private:
             for (int k = 0; k < 3; ++k) {
                 if (!is_moved[k] || !rest[k].has(m_.q[i])) continue;
                 const ex slope = rest[k].diff(m_.q[i]);
-                if (moves(slope)) refuse(fmt::format("{} is on a point shifted by '{}', which is not linear in the coordinates; place it by frames or joints, or use --by lagrange or kane", label_, shown(step.offset[k])));
+                if (moves(slope)) {
+                    refuse(fmt::format("{} is on a point shifted by '{}', which is not linear in the coordinates; place it by "
+                                       "frames or joints, or use the formalism 'lagrange' or 'kane'",
+                                       label_, shown(step.offset[k])));
+                    return {along.frame, seat};
+                }
                 direction[k] = named(slope);
                 rest[k] = (rest[k] - slope * m_.q[i]).expand();
                 any = true;
@@ -297,13 +312,14 @@ private:
     const std::vector<GiNaC::symbol> moving_ = m_.moving();
     JointTree tree_;
     std::string label_;
+    std::optional<Obstacle> obstacle_;
     std::map<int, Fixed> fixed_;
     std::map<std::pair<int, int>, Seat> seats_;
 };
 
 }  // namespace
 
-JointTree joint_tree(const Mechanism& m) { return Finder(m).find(); }
+Possible<JointTree> joint_tree(const Mechanism& m) { return Finder(m).find(); }
 
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
     std::vector<Dress> result(tree.joints.size());

@@ -15,6 +15,7 @@
 
 #include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
+#include "formalism/obstacle.hpp"
 #include "formalism/recursion.hpp"
 #include "model/mechanism.hpp"
 
@@ -34,8 +35,8 @@ struct JointTree {
     std::vector<GiNaC::ex> forces = {};       ///< generalized forces but for gravity and inertia, where the formalism has set them
 };
 
-/// Throws ModelError for a scene that is no such tree: what is missing, and where.
-JointTree joint_tree(const Mechanism& mechanism);
+/// The obstacle of a scene that is no such tree: what is missing, and where.
+Possible<JointTree> joint_tree(const Mechanism& mechanism);
 
 /// S as it belongs to `axes`: row by joint.
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes);

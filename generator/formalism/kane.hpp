@@ -10,7 +10,7 @@
 /// no room for are eliminated: partial velocities along them do not exist, and no multiplier appears. The others
 /// enter with their multipliers.
 
-#include "formalism/equations.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
@@ -32,8 +32,12 @@ struct KaneForces {
 };
 KaneForces kane_forces(const Mechanism& mechanism);
 
-/// F_r + F*_r = 0 (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapter 6). Throws ModelError for a scene without
-/// coordinates, for one with [energy] kinetic or lagrangian: its velocities are not known, and as `kinematics` does.
+/// F_r + F*_r = 0 (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapter 6). Throws ModelError with the obstacle where
+/// there is one.
 Equations kane(const Mechanism& mechanism);
+/// A scene without coordinates, one with [energy] kinetic or lagrangian: its velocities are not known, and those of `kinematics`.
+std::optional<std::string> obstacle_to_kane(const Mechanism& mechanism);
+/// Partial velocities, F and F*.
+OwnSteps steps_of_kane(const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

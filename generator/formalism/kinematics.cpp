@@ -22,6 +22,7 @@ using GiNaC::matrix;
 
 namespace {
 
+constexpr const char* dependent_constraints = "the nonholonomic constraints depend on each other";
 constexpr std::size_t largest_block = 10;  // minors of a block of k rows: k 2^k
 
 bool is_number(const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }
@@ -31,16 +32,15 @@ public:
     Elimination(matrix S, matrix right, const Mechanism& m, std::string message)
         : m_(m), z_(*m.z), S_(std::move(S)), right_(std::move(right)), message_(std::move(message)), n_(S_.rows()), x_(n_, right_.cols()) {}
 
-    std::vector<ex> poles;
-
-    matrix solve() {
+    Possible<Solution> solve() {
         for (unsigned i = 0; i < n_; ++i) {
             for (unsigned j = 0; j < n_; ++j) S_(i, j) = tidy(S_(i, j));
             rows_.push_back(i);
             columns_.push_back(i);
         }
         while (eliminate_number()) {}
-        while (!rows_.empty()) solve_block();
+        while (!rows_.empty())
+            if (const auto obstacle = solve_block()) return Obstacle{*obstacle};
         for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend(); ++pivot) {
             const auto [p, c] = *pivot;
             for (unsigned k = 0; k < right_.cols(); ++k) {
@@ -50,7 +50,7 @@ public:
                 x_(c, k) = tidy(GiNaC::add(std::move(terms)) / S_(p, c));
             }
         }
-        return x_;
+        return Solution{x_, poles_};
     }
 
 private:
@@ -82,7 +82,7 @@ private:
     }
 
     /// The rows and columns that are tied to the first row.
-    void solve_block() {
+    std::optional<std::string> solve_block() {
         std::vector<unsigned> block{rows_.front()}, columns;
         for (std::size_t i = 0; i < block.size(); ++i)
             for (const unsigned c : columns_) {
@@ -93,11 +93,11 @@ private:
             }
         std::sort(block.begin(), block.end());
         std::sort(columns.begin(), columns.end());
-        if (block.size() > largest_block) throw ModelError(message_ + ", in symbols: too many of them are tied to each other");
+        if (block.size() > largest_block) return message_ + ", in symbols: too many of them are tied to each other";
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
-        if (det.is_zero() || is_identically_zero(det, m_)) throw ModelError(message_);
-        if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) poles.push_back(moving);
+        if (det.is_zero() || is_identically_zero(det, m_)) return message_;
+        if (const ex moving = moving_factors(det); z_.depends(moving, m_.moving())) poles_.push_back(moving);
         for (std::size_t c = 0; c < columns.size(); ++c)
             for (std::size_t r = 0; r < block.size(); ++r) {
                 std::vector<unsigned> other_rows = block, other_columns = columns;
@@ -110,6 +110,7 @@ private:
             for (unsigned k = 0; k < right_.cols(); ++k) x_(c, k) = tidy(x_(c, k));
         for (const unsigned r : block) std::erase(rows_, r);
         for (const unsigned c : columns) std::erase(columns_, c);
+        return std::nullopt;
     }
 
     /// 2 l cos²φ vanishes where cos φ does.
@@ -152,6 +153,7 @@ private:
     std::string message_;
     unsigned n_;
     matrix x_;
+    std::vector<ex> poles_;
     std::vector<unsigned> rows_, columns_;                    // not yet solved for
     std::vector<std::pair<unsigned, unsigned>> pivots_;
     std::map<std::pair<std::vector<unsigned>, std::vector<unsigned>>, ex> minors_;
@@ -165,7 +167,7 @@ std::vector<int> nonholonomic(const Mechanism& m) {
 }
 
 /// h for these speeds: [W; A] q' = (u − w, −b), columns of the right side for each u and for 1.
-Kinematics solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds, const std::vector<int>& eliminated,
+Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds, const std::vector<int>& eliminated,
                             const std::string& message) {
     const int n = m.size(), count = static_cast<int>(speeds.size());
     Kinematics k;
@@ -184,7 +186,10 @@ Kinematics solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Spe
         for (int i = 0; i < n; ++i) S(r, i) = constraint.row[i];
         right(r, count) = -constraint.drift;
     }
-    const matrix x = solve_exactly(S, right, m, message, &k.poles);
+    Possible<Solution> solved = solve_exactly(S, right, m, message);
+    if (const auto obstacle = solved.obstacle()) return Obstacle{*obstacle};
+    auto [x, poles] = std::move(solved).value();
+    k.poles = std::move(poles);
     for (int i = 0; i < n; ++i) {
         GiNaC::exvector terms{x(i, count)};
         for (int r = 0; r < count; ++r) terms.push_back(x(i, r) * k.u[r]);
@@ -193,7 +198,7 @@ Kinematics solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Spe
     return k;
 }
 
-Kinematics with_given_speeds(const Mechanism& m) {
+Possible<Kinematics> with_given_speeds(const Mechanism& m) {
     const int n = m.size(), count = static_cast<int>(m.speeds.size());
     std::vector<int> eliminated, all;
     for (std::size_t c = 0; c < m.constraints.size(); ++c) all.push_back(static_cast<int>(c));
@@ -201,13 +206,13 @@ Kinematics with_given_speeds(const Mechanism& m) {
     if (count + static_cast<int>(eliminated.size()) != n) {
         std::string numbers;
         for (const int allowed : allowed_speeds(m)) numbers += (numbers.empty() ? "" : " or ") + std::to_string(allowed);
-        throw ModelError(fmt::format("the scene has {} generalized speed{}; expected {}", count, count == 1 ? "" : "s", numbers));
+        return Obstacle{fmt::format("the scene has {} generalized speed{}; expected {}", count, count == 1 ? "" : "s", numbers)};
     }
     return solved_for_rates(m, m.speeds, eliminated, "the speeds, with the constraints, do not determine the rates of the coordinates");
 }
 
 /// The rate that each constraint is solved for: rows are reduced in floating point at the start, pivots as the header says.
-std::vector<int> dependent_rates(const Mechanism& m, const std::vector<int>& constraints) {
+Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector<int>& constraints) {
     const ParameterValues values(m);
     GiNaC::exmap start{{m.t, m.run.start.value_or(0)}};
     for (int i = 0; i < m.size(); ++i) start[m.q[i]] = m.q_start[i];
@@ -241,8 +246,8 @@ std::vector<int> dependent_rates(const Mechanism& m, const std::vector<int>& con
                     std::tie(row, column, best_kind, best) = std::tuple(r, c, kind[r][c], size);
             }
         if (best_kind < 0)
-            throw ModelError("Kane's equations: the nonholonomic constraints do not determine as many rates at the start; "
-                             "give the scene generalized speeds, [speeds]");
+            return Obstacle{"the nonholonomic constraints do not determine as many rates at the start; "
+                            "give the scene generalized speeds, [speeds]"};
         result[row] = static_cast<int>(column);
         for (std::size_t r = 0; r < rows.size(); ++r) {
             if (result[r] >= 0 || rows[r][column] == 0) continue;
@@ -332,19 +337,22 @@ std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vecto
         speed.form = m.z->name(GiNaC::add(std::move(terms)));
         speeds.push_back(std::move(speed));
     }
-    Kinematics result = solved_for_rates(m, speeds, constraints, "Kane's equations: the nonholonomic constraints depend on each other");
-    if (!result.poles.empty()) return std::nullopt;
-    return result;
+    Possible<Kinematics> result = solved_for_rates(m, speeds, constraints, dependent_constraints);
+    if (!result.exists() || !result.value().poles.empty()) return std::nullopt;
+    return std::move(result).value();
 }
 
-Kinematics with_remaining_rates(const Mechanism& m, const std::vector<int>& constraints) {
-    const std::vector<int> dependent = dependent_rates(m, constraints);
+Possible<Kinematics> with_remaining_rates(const Mechanism& m, const std::vector<int>& constraints) {
+    const Possible<std::vector<int>> pivots = dependent_rates(m, constraints);
+    if (const auto obstacle = pivots.obstacle()) return Obstacle{*obstacle};
+    const std::vector<int>& dependent = pivots.value();
     std::vector<Mechanism::Speed> speeds;
     for (int i = 0; i < m.size(); ++i)
         if (std::find(dependent.begin(), dependent.end(), i) == dependent.end()) speeds.push_back(rate_as_speed(m, i));
-    Kinematics rates = solved_for_rates(m, speeds, constraints, "Kane's equations: the nonholonomic constraints depend on each other");
-    if (rates.poles.empty()) return rates;
-    return with_null_vectors(m, constraints).value_or(rates);
+    Possible<Kinematics> rates = solved_for_rates(m, speeds, constraints, dependent_constraints);
+    if (!rates.exists() || rates.value().poles.empty()) return rates;
+    if (std::optional<Kinematics> free = with_null_vectors(m, constraints)) return *std::move(free);
+    return rates;
 }
 
 }  // namespace
@@ -359,12 +367,8 @@ std::vector<ex> accelerations(const Mechanism& m, const Equations& e) {
     return result;
 }
 
-matrix solve_exactly(const matrix& S, const matrix& right, const Mechanism& m, const std::string& message,
-                     std::vector<ex>* poles) {
-    Elimination elimination(S, right, m, message);
-    matrix x = elimination.solve();
-    if (poles != nullptr) *poles = std::move(elimination.poles);
-    return x;
+Possible<Solution> solve_exactly(const matrix& S, const matrix& right, const Mechanism& m, const std::string& message) {
+    return Elimination(S, right, m, message).solve();
 }
 
 std::vector<int> allowed_speeds(const Mechanism& m) {
@@ -374,10 +378,14 @@ std::vector<int> allowed_speeds(const Mechanism& m) {
     return result;
 }
 
-Kinematics kinematics(const Mechanism& m) {
+Kinematics rates_as_speeds(const Mechanism& m) {
+    return {.u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
+}
+
+Possible<Kinematics> kinematics(const Mechanism& m) {
     if (!m.speeds.empty()) return with_given_speeds(m);
     if (const std::vector<int> constraints = nonholonomic(m); !constraints.empty()) return with_remaining_rates(m, constraints);
-    return {.u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}};
+    return rates_as_speeds(m);
 }
 
 }  // namespace alembert

@@ -4,20 +4,27 @@
 // ∂L/∂(q, q̇) comes from one reverse pass, each column of M and the bracket from one forward pass.
 #include "formalism/lagrange.hpp"
 
+#include "formalism/elements.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
 
-Equations lagrange(const Mechanism& mechanism) {
+std::optional<std::string> obstacle_to_lagrange(const Mechanism& mechanism) {
     if (!mechanism.constraints.empty())
-        throw ModelError("Lagrange's equations of the second kind need independent coordinates, and the scene has "
-                         "constraints; use --by routh, which carries multipliers");
+        return "Lagrange's equations of the second kind need independent coordinates, and the scene has "
+               "constraints; use the formalism 'routh', which carries multipliers";
+    return no_coordinates(mechanism, "Lagrange's equations");
+}
+
+Equations lagrange(const Mechanism& mechanism) {
+    need_none(obstacle_to_lagrange(mechanism));
     return lagrange_operator(mechanism);
 }
 
 Equations lagrange_operator(const Mechanism& mechanism) {
     const int n = mechanism.size();
-    if (n == 0) throw ModelError("Lagrange's equations need at least one coordinate; the scene has none");
+    need_none(no_coordinates(mechanism, "Lagrange's equations"));
     Intermediates& z = *mechanism.z;
 
     std::vector<GiNaC::symbol> state = mechanism.q;
@@ -26,19 +33,9 @@ Equations lagrange_operator(const Mechanism& mechanism) {
     const std::vector<ex> p(gradient.begin() + n, gradient.end());
     const std::vector<ex> pdot = mechanism.time_derivative_without_acceleration(p);
 
-    Equations equations{.formalism = "lagrange",
-                        .q = mechanism.q,
-                        .u = mechanism.qdot,
-                        .udot = mechanism.qddot,
-                        .M = GiNaC::matrix(n, n),
-                        .own = {},
-                        .dissipative = mechanism.generalized_forces(true),
-                        .applied = mechanism.generalized_forces(false),
-                        .A = {},
-                        .gamma = {},
-                        .lambda = {},
-                        .row_sources = {},
-                        .z = mechanism.z};
+    Equations equations = equations_without_terms("lagrange", mechanism);
+    equations.dissipative = mechanism.generalized_forces(true);
+    equations.applied = mechanism.generalized_forces(false);
     for (int j = 0; j < n; ++j) {
         // M is symmetric: only the rows from j on.
         const std::vector<ex> rows(p.begin() + j, p.end());

@@ -10,9 +10,11 @@
 namespace alembert {
 
 /// d/dt ∂L/∂q' − ∂L/∂q = Q (Zhang & Qin, §1.5, equations (1-45) and (1-54)).
-/// Throws ModelError if the scene has no coordinates,
-/// or has constraints: then its coordinates are not independent.
+/// Throws ModelError with the obstacle where there is one.
 Equations lagrange(const Mechanism& mechanism);
+
+/// A scene without coordinates, or with constraints: then its coordinates are not independent.
+std::optional<std::string> obstacle_to_lagrange(const Mechanism& mechanism);
 
 /// The left side and the forces of Lagrange's equations, whether the coordinates are independent or not.
 Equations lagrange_operator(const Mechanism& mechanism);

@@ -33,39 +33,55 @@ std::string advice(const MassElement& particle, const Mechanism& m) {
     std::string position;
     const bool planar = particle.position[2].is_zero();
     for (int k = 0; k < (planar ? 2 : 3); ++k) position += (k == 0 ? "" : ", ") + text_of(particle.position[k], m);
-    return fmt::format("Lagrange's equations of the first kind want Cartesian coordinates: {} is at ({}); give it coordinates "
-                       "{} and put what ties them into a [[constraint]]",
-                       particle.label, position, planar ? "x, y" : "x, y, z");
+    return fmt::format(
+        "Lagrange's equations of the first kind want Cartesian coordinates: {} is at ({}); give it coordinates "
+        "{} and put what ties them into a [[constraint]]",
+        label(particle.origin), position, planar ? "x, y" : "x, y, z");
 }
 
-}  // namespace
-
-Equations lagrange1(const Mechanism& m) {
-    check_masses_known(m, "Lagrange's equations of the first kind");
-    Equations equations = equations_without_terms("lagrange1", m);
+/// The particle that each coordinate belongs to.
+Possible<std::vector<const MassElement*>> owners(const Mechanism& m) {
+    if (const auto unknown = masses_unknown(m, "Lagrange's equations of the first kind"))
+        return Obstacle{*unknown};
     std::vector<const MassElement*> owner(m.q.size(), nullptr);
     for (const MassElement& particle : m.masses) {
         const auto turns = [](const Vector3& w) { return !w[0].is_zero() || !w[1].is_zero() || !w[2].is_zero(); };
         if (particle.rotation && turns(particle.rotation->w_NB_B))
-            throw ModelError(fmt::format("Lagrange's equations of the first kind know particles only, and {} turns; use --by routh",
-                                         particle.label));
+            return Obstacle{
+                fmt::format("Lagrange's equations of the first kind know particles only, and {} turns; "
+                            "use the formalism 'routh'",
+                            label(particle.origin))};
         for (const ex& component : particle.position) {
             const std::optional<int> i = coordinate_of(component, m);
-            if (!i) throw ModelError(advice(particle, m));
+            if (!i) return Obstacle{advice(particle, m)};
             if (*i < 0) continue;
             if (owner[*i] != nullptr)
-                throw ModelError(fmt::format("Lagrange's equations of the first kind want coordinates of their own for each particle: "
-                                             "'{}' belongs to {} and to {}",
-                                             m.q[*i].get_name(), owner[*i]->label, particle.label));
+                return Obstacle{
+                    fmt::format("Lagrange's equations of the first kind want coordinates of their own for each "
+                                "particle: '{}' belongs to {} and to {}",
+                                m.q[*i].get_name(), label(owner[*i]->origin), label(particle.origin))};
             owner[*i] = &particle;
-            equations.M(*i, *i) = particle.mass;
         }
     }
     for (int i = 0; i < m.size(); ++i)
         if (owner[i] == nullptr)
-            throw ModelError(fmt::format("Lagrange's equations of the first kind want Cartesian coordinates of particles, and '{}' is "
-                                         "none; leave it out, with a [[constraint]] in its place",
-                                         m.q[i].get_name()));
+            return Obstacle{fmt::format(
+                "Lagrange's equations of the first kind want Cartesian coordinates of particles, and '{}' "
+                "is none; leave it out, with a [[constraint]] in its place",
+                m.q[i].get_name())};
+    return owner;
+}
+
+}  // namespace
+
+std::optional<std::string> obstacle_to_lagrange1(const Mechanism& m) {
+    return owners(m).obstacle();
+}
+
+Equations lagrange1(const Mechanism& m) {
+    const std::vector<const MassElement*> owner = owners(m).value();
+    Equations equations = equations_without_terms("lagrange1", m);
+    for (int i = 0; i < m.size(); ++i) equations.M(i, i) = owner[i]->mass;
 
     // In these coordinates a force's generalized force is the force; along an expression it acts by its gradient.
     std::vector<GiNaC::exvector> own(m.q.size());
@@ -88,6 +104,16 @@ Equations lagrange1(const Mechanism& m) {
     }
     attach_constraints(m, equations);
     return equations;
+}
+
+OwnSteps steps_of_lagrange1(const Mechanism& m, const Equations& e) {
+    const StepWriter write(m);
+    Section section{.words =
+                        "Newton's law for each Cartesian coordinate, m x'' = F + A^T lambda, with the forces:"};
+    for (int i = 0; i < m.size(); ++i)
+        if (const auto f = write.normal(e.forcing(i)))
+            section.statements.push_back({Statement::Kind::force, "F", "", write.symbol_of(m.q[i]), readable(*f)});
+    return {.sections = {std::move(section)}};
 }
 
 }  // namespace alembert

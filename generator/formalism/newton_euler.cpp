@@ -28,7 +28,7 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const MassElement& body = m.masses[b];
         const BodyMotion& motion = bodies[b];
-        SourceScope source(z, body.label);
+        SourceScope source(z, label(body.origin));
         // The rows J of one kind, their block of M̄, and what stands beside them on the right.
         const auto add_rows = [&](const std::vector<Vector3>& J, const auto& block, const Vector3& right) {
             for (int r = 0; r < n; ++r) {
@@ -52,7 +52,7 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
     equations.applied = work_of_loads(m, false);
     std::vector<std::pair<ex, ex>> springs;
     for (const PlacedForce& force : conservative_forces(m))
-        if (force.label.rfind("gravity", 0) != 0) springs.emplace_back(force.place, force.force);
+        if (force.origin.kind != Origin::Kind::gravity) springs.emplace_back(force.place, force.force);
     const std::vector<ex> known = z.pull_back(springs, m.q), rest = potential_without_forces(m);
     for (int r = 0; r < n; ++r) {
         for (int s = 0; s <= r; ++s)

@@ -8,12 +8,26 @@ namespace alembert {
 
 using GiNaC::ex;
 
-Equations nielsen(const Mechanism& m) {
-    const int n = m.size();
-    if (n == 0) throw ModelError("Nielsen's equations need at least one coordinate; the scene has none");
-    Intermediates& z = *m.z;
+namespace {
+
+/// ∂L̇/∂q̇ and ∂L/∂q.
+std::pair<std::vector<ex>, std::vector<ex>> slopes(const Mechanism& m) {
     const ex L = m.lagrangian();
-    const std::vector<ex> rate = z.pull_back({{m.time_derivative({L})[0], 1}}, m.qdot), force = z.pull_back({{L, 1}}, m.q);
+    const std::vector<ex> rate = m.z->pull_back({{m.time_derivative({L})[0], 1}}, m.qdot);
+    return {rate, m.z->pull_back({{L, 1}}, m.q)};
+}
+
+}  // namespace
+
+std::optional<std::string> obstacle_to_nielsen(const Mechanism& m) {
+    return no_coordinates(m, "Nielsen's equations");
+}
+
+Equations nielsen(const Mechanism& m) {
+    need_none(obstacle_to_nielsen(m));
+    const int n = m.size();
+    Intermediates& z = *m.z;
+    const auto [rate, force] = slopes(m);
     std::vector<ex> left;
     for (int i = 0; i < n; ++i) left.push_back(z.name(rate[i] - 2 * force[i]));
 
@@ -31,6 +45,19 @@ Equations nielsen(const Mechanism& m) {
     for (int i = 0; i < n; ++i) equations.own.push_back(z.name(-still[i]));
     attach_constraints(m, equations);
     return equations;
+}
+
+OwnSteps steps_of_nielsen(const Mechanism& m, const Equations&) {
+    const StepWriter write(m);
+    const auto [rate, force] = slopes(m);
+    Section section{
+        .words =
+            "With L' the time derivative of L along any motion, for Nielsen's equations dL'/dq' - 2 dL/dq = Q:"};
+    for (int i = 0; i < m.size(); ++i) {
+        write.partial(section, "L'", m.qdot[i], rate[i]);
+        write.partial(section, "L", m.q[i], force[i]);
+    }
+    return {.sections = {std::move(section)}};
 }
 
 }  // namespace alembert

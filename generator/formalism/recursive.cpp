@@ -15,15 +15,23 @@ namespace {
 std::vector<ex> potential_forces(const Mechanism& m) {
     std::vector<std::pair<ex, ex>> targets;
     for (const Part& part : m.potential)
-        if (!part.label.starts_with("gravity on ")) targets.emplace_back(part.value, -1);
+        if (part.origin.kind != Origin::Kind::gravity) targets.emplace_back(part.value, -1);
     return m.z->pull_back(targets, m.q);
+}
+
+Possible<JointTree> tree_with_masses(const Mechanism& m) {
+    if (const auto unknown = masses_unknown(m, "The recursive equations")) return Obstacle{*unknown};
+    return joint_tree(m);
 }
 
 }  // namespace
 
-JointTree loaded_tree(const Mechanism& m) {
-    check_masses_known(m, "The recursive equations");
-    JointTree joints = joint_tree(m);
+std::optional<std::string> obstacle_to_recursive(const Mechanism& m) { return tree_with_masses(m).obstacle(); }
+
+Possible<JointTree> loaded_tree(const Mechanism& m) {
+    Possible<JointTree> found = tree_with_masses(m);
+    if (!found.exists()) return found;
+    JointTree joints = std::move(found).value();
     const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true), others = m.generalized_forces(false);
     for (int a = 0; a < m.size(); ++a) joints.forces.push_back(m.z->name(springs[a] + dampers[a] + others[a]));
     return joints;
@@ -32,13 +40,12 @@ JointTree loaded_tree(const Mechanism& m) {
 Equations recursive_without_matrix(const Mechanism& m) {
     Equations equations = equations_without_terms("recursive", m);
     equations.M = GiNaC::matrix(0, 0);
-    equations.tree = std::make_shared<const JointTree>(loaded_tree(m));
+    equations.tree = std::make_shared<const JointTree>(loaded_tree(m).value());
     return equations;
 }
 
 Equations recursive(const Mechanism& m) {
-    check_masses_known(m, "The recursive equations");
-    JointTree joints = joint_tree(m);
+    JointTree joints = tree_with_masses(m).value();
     Intermediates& z = *m.z;
     const BodyTree<Named> tree = dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
     const std::vector<std::vector<Named>> M = composite_bodies(tree);

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// The condition of rest: Σ F·δr = 0 with the inertia forces of the motion that is prescribed (Zhang & Qin,
+// equation (20) of example 1-1), as a product; a factor a cos x + b or a sin x + b that is linear in it gives its
+// root.
 #include "formalism/rest.hpp"
+
+#include <algorithm>
+#include <tuple>
 
 #include "formalism/dalembert.hpp"
 #include "notation/readable.hpp"
@@ -59,9 +65,74 @@ TrigonometricProduct product_of(const ex& e, const Mechanism& m) {
 
 Phrase leading_positive(const Fourier& factor) {
     for (const Term& term : factor.terms())
-        if (circular(term.monomial) != nullptr) return readable(term.coefficient < 0 ? Rational(-1) * factor : factor);
-    return readable(factor);
+        if (circular(term.monomial) != nullptr)
+            return readable(term.coefficient < 0 ? Rational(-1) * factor : factor);
+    const bool minus = factor.size() > 0 && factor.terms()[0].coefficient < 0;
+    return readable(minus ? Rational(-1) * factor : factor);
 }
+
+namespace {
+
+/// The conditions of rest as products, and the roots that their factors have.
+struct RestSteps {
+    explicit RestSteps(const Mechanism& mechanism) : m(mechanism) {}
+
+    const Mechanism& m;
+    Section products{.words = "With all rates and accelerations zero:"};
+    Section roots{.words = "with the roots (modulo the period):"};
+
+    void add(const Phrase& sum) {
+        const TrigonometricProduct found = product_of(expression(sum), m);
+        std::vector<Phrase> atoms, sums;
+        for (const ex& base : found.bases) {
+            const auto f = fourier(base.subs(found.functions), *m.symbols);
+            if (!f || f->size() == 0) continue;
+            (GiNaC::is_a<GiNaC::add>(base) ? sums : atoms).push_back(leading_positive(*f));
+            if (m.size() == 1) add_root(base, found.functions);
+        }
+        // GiNaC's order changes from run to run.
+        const auto by_text = [](const Phrase& a, const Phrase& b) { return text(a) < text(b); };
+        std::sort(atoms.begin(), atoms.end(), by_text);
+        std::sort(sums.begin(), sums.end(), by_text);
+        atoms.insert(atoms.end(), sums.begin(), sums.end());
+        std::sort(roots.equalities.begin(), roots.equalities.end(), [](const auto& a, const auto& b) {
+            const int simple_a = a.first.kind == Phrase::Kind::call, simple_b = b.first.kind == Phrase::Kind::call;
+            return std::tuple(simple_a, text(a.first), text(a.second)) <
+                   std::tuple(simple_b, text(b.first), text(b.second));
+        });
+        products.equalities.emplace_back(found.vanishes ? phrases::number(0) : phrases::product(std::move(atoms)),
+                                         phrases::number(0));
+    }
+
+private:
+    void add_root(const ex& base, const GiNaC::exmap& functions) {
+        const ex q = m.q[0];
+        const auto normal = [&](const ex& e) { return fourier(e.subs(functions), *m.symbols); };
+        for (const auto& [s, call] : functions) {
+            if (!base.has(s) || base.degree(s) != 1) continue;
+            const ex slope = base.coeff(s, 1), rest = base.coeff(s, 0);
+            if (slope.subs(functions).has(q) || rest.subs(functions).has(q)) continue;
+            const std::string name = GiNaC::ex_to<GiNaC::function>(call).get_name();
+            const auto arg = fourier(call.op(0), *m.symbols);
+            if (!arg || (name != "sin" && name != "cos")) continue;
+            if (rest.is_zero()) {
+                const Phrase half_turn = phrases::quotient(phrases::pi(), phrases::number(2));
+                roots.equalities.emplace_back(readable(*arg), name == "sin" ? phrases::number(0) : half_turn);
+                if (name == "sin") roots.equalities.emplace_back(readable(*arg), phrases::pi());
+            } else if (normal(-rest / slope)) {
+                // numerator and denominator apart: a quotient of two readable sums
+                const ex sign = normal(slope)->terms()[0].coefficient < 0 ? -1 : 1;
+                roots.equalities.emplace_back(
+                    phrases::call(name, {readable(*arg)}),
+                    phrases::quotient(readable(*normal(-rest * sign)), readable(*normal(slope * sign))));
+            }
+        }
+        if (base.is_equal(q))
+            roots.equalities.emplace_back(phrases::symbol(m.q[0], m.symbols->info(m.q[0])), phrases::number(0));
+    }
+};
+
+}  // namespace
 
 std::vector<RestFactor> rest_factors(const Mechanism& m, const Equations& e) {
     std::vector<RestFactor> result;
@@ -72,9 +143,30 @@ std::vector<RestFactor> rest_factors(const Mechanism& m, const Equations& e) {
         const TrigonometricProduct product = product_of(expression(readable(*sum)), m);
         for (const ex& base : product.bases) {
             const ex value = base.subs(product.functions);
-            if (const auto f = fourier(value, *m.symbols); f && f->size() > 0) result.push_back({value, text(leading_positive(*f))});
+            if (const auto f = fourier(value, *m.symbols); f && f->size() > 0)
+                result.push_back({value, text(leading_positive(*f))});
         }
     }
+    return result;
+}
+
+OwnSteps steps_of_dalembert(const Mechanism& m, const Equations& e) {
+    const StepWriter write(m);
+    const VirtualWork work = virtual_work(m);
+    Section works{
+        .words =
+            "Virtual work of the applied forces, dW = sum of Q dq, and of the inertia forces, dW* = sum of Q* dq; "
+            "Q + Q* = 0:"};
+    for (int i = 0; i < m.size(); ++i) {
+        const std::string of = m.q[i].get_name();
+        write.statement(works, "Q", of, work.conservative[i] + work.dissipative[i] + work.applied[i]);
+        write.statement(works, "Q*", of, work.inertia[i]);
+    }
+    RestSteps rest(m);
+    for (const ex& condition : rest_conditions(m, e))
+        if (const auto f = write.normal(condition)) rest.add(readable(*f));
+    OwnSteps result{.sections = {std::move(works), std::move(rest.products)}};
+    if (!rest.roots.equalities.empty()) result.sections.push_back(std::move(rest.roots));
     return result;
 }
 

@@ -29,7 +29,7 @@ struct RestFactor {
 /// The factors of all equations of rest that can be factored.
 std::vector<RestFactor> rest_factors(const Mechanism& mechanism, const Equations& equations);
 
-/// The factor with a plus before its first sine or cosine.
+/// The factor with a plus before its first sine or cosine, or before its first term where there is none.
 Phrase leading_positive(const Fourier& factor);
 
 }  // namespace alembert

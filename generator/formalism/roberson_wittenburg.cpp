@@ -22,9 +22,7 @@ using GiNaC::ex;
 namespace {
 
 std::string name_of(const Mechanism& m, int body) {
-    if (body < 0) return "N";
-    const std::string& label = m.masses[body].label;  // "body A", "particle M1"
-    return label.substr(label.find(' ') + 1);
+    return body < 0 ? "N" : m.masses[body].origin.name;
 }
 
 /// What one coordinate does to all bodies beyond an arc.
@@ -55,7 +53,7 @@ public:
     std::vector<BodyMotion> motions() const {
         std::vector<BodyMotion> result;
         for (std::size_t i = 0; i < states_.size(); ++i) {
-            SourceScope source(z_, m_.masses[i].label);
+            SourceScope source(z_, label(m_.masses[i].origin));
             const std::optional<MassElement::Rotation>& rotation = m_.masses[i].rotation;
             const State& state = states_[i];
             const Vector3 zero{0, 0, 0};
@@ -108,7 +106,7 @@ private:
     /// A body on its own: by its position and frame.
     void start(std::size_t a, int body) {
         const MassElement& element = m_.masses[body];
-        SourceScope source(z_, element.label);
+        SourceScope source(z_, label(element.origin));
         State& state = states_[body];
         state = {element.velocity, derivative(element.velocity), {0, 0, 0}, {0, 0, 0}};
         if (element.rotation) {
@@ -210,12 +208,43 @@ SystemGraph system_graph(const Mechanism& m) {
     return graph;
 }
 
+std::optional<std::string> obstacle_to_roberson_wittenburg(const Mechanism& m) {
+    if (auto unknown = masses_unknown(m, "Roberson and Wittenburg's equations")) return unknown;
+    if (!m.joints.empty()) return std::nullopt;
+    return "Roberson and Wittenburg's equations are written on a graph of bodies and joints, and the scene has no "
+           "[[joint]]; use the formalism 'schiehlen', or let joints hold the bodies";
+}
+
 Equations roberson_wittenburg(const Mechanism& m) {
-    check_masses_known(m, "Roberson and Wittenburg's equations");
-    if (m.joints.empty())
-        throw ModelError("Roberson and Wittenburg's equations are written on a graph of bodies and joints, and the scene has no "
-                         "[[joint]]; use --by schiehlen, or let joints hold the bodies");
+    need_none(obstacle_to_roberson_wittenburg(m));
     return projected("roberson-wittenburg", m, Paths(m, system_graph(m)).motions());
+}
+
+std::vector<Section> outline_of_roberson_wittenburg(const Mechanism& m) {
+    const SystemGraph g = system_graph(m);
+    std::string arcs, bodies, chords;
+    for (const SystemGraph::Arc& arc : g.arcs) {
+        const auto name = [&](int body) { return body < 0 ? std::string("N") : g.bodies[body]; };
+        arcs += fmt::format("{}{}: {} -> {}", arcs.empty() ? "" : ", ", arc.name, name(arc.from), name(arc.to));
+    }
+    for (const std::string& body : g.bodies) bodies += (bodies.empty() ? "" : ", ") + body;
+    for (const std::string& chord : g.chords) chords += (chords.empty() ? " Chords, which close loops: " : ", ") + chord;
+    if (!chords.empty()) chords += ".";
+    const auto row = [](const std::string& letter, const std::string& of, const std::vector<int>& entries) {
+        std::vector<Phrase> phrases;
+        for (const int entry : entries) phrases.push_back(phrases::number(entry));
+        return Statement{Statement::Kind::energy, letter, of, {}, phrases::tuple(std::move(phrases))};
+    };
+    Section S{.words = fmt::format("The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each "
+                                   "body, a column for each arc (1 where it begins, -1 where it ends):",
+                                   arcs, chords)};
+    S.statements.push_back(row("S", "N", g.S_0));
+    for (std::size_t i = 0; i < g.bodies.size(); ++i) S.statements.push_back(row("S", g.bodies[i], g.S[i]));
+    Section T{.words = fmt::format("Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's "
+                                   "path and points to the ground, -1 where it points away):",
+                                   bodies)};
+    for (std::size_t a = 0; a < g.arcs.size(); ++a) T.statements.push_back(row("T", g.arcs[a].name, g.T[a]));
+    return {std::move(S), std::move(T)};
 }
 
 }  // namespace alembert

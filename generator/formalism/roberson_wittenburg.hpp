@@ -12,6 +12,7 @@
 /// say; particles too. The equations are in the rates.
 
 #include "formalism/newton_euler.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
@@ -35,7 +36,11 @@ struct SystemGraph {
 };
 SystemGraph system_graph(const Mechanism& mechanism);
 
-/// Throws ModelError for a scene without joints, which has no graph, and as `schiehlen` does.
+/// Throws ModelError with the obstacle where there is one.
 Equations roberson_wittenburg(const Mechanism& mechanism);
+/// That of `schiehlen`, and a scene without joints, which has no graph.
+std::optional<std::string> obstacle_to_roberson_wittenburg(const Mechanism& mechanism);
+/// The graph in words, S and T.
+std::vector<Section> outline_of_roberson_wittenburg(const Mechanism& mechanism);
 
 }  // namespace alembert

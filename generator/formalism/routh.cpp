@@ -3,18 +3,19 @@
 // ∂f/∂q and b = ∂f/∂t; differentiated once more, A q̈ = γ with γ = −Ȧ q̇ − ḃ.
 #include "formalism/routh.hpp"
 
+#include "formalism/elements.hpp"
 #include "formalism/lagrange.hpp"
 
 namespace alembert {
 
+std::optional<std::string> obstacle_to_routh(const Mechanism& mechanism) {
+    return no_coordinates(mechanism, "Lagrange's equations");
+}
+
 Equations routh(const Mechanism& mechanism) {
     Equations equations = lagrange_operator(mechanism);
     equations.formalism = "routh";
-    for (const Mechanism::Constraint& constraint : mechanism.constraints) {
-        equations.A.push_back(constraint.row);
-        equations.gamma.push_back(constraint.acceleration);
-        equations.lambda.push_back(constraint.multiplier);
-    }
+    attach_constraints(mechanism, equations);
     return equations;
 }
 

@@ -13,5 +13,6 @@ namespace alembert {
 /// d/dt ∂L/∂q' − ∂L/∂q = Q + Aᵀλ with A q' + b = 0 (Zhang & Qin, §1.6, (1-76); also named after Ferrers). Without
 /// constraints these are Lagrange's equations. Throws ModelError if the scene has no coordinates.
 Equations routh(const Mechanism& mechanism);
+std::optional<std::string> obstacle_to_routh(const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -22,13 +22,15 @@ std::vector<int> cyclic_coordinates(const Mechanism& m) {
     return cyclic;
 }
 
-Reduction reduction(const Mechanism& m) {
+Possible<Reduction> reduction(const Mechanism& m) {
     Intermediates& z = *m.z;
     Reduction r{.cyclic = cyclic_coordinates(m), .remaining = {}, .p = {}, .momenta = {}, .rates = {}, .R = 0, .M = {}, .own = {}};
     if (r.cyclic.empty())
-        throw ModelError("Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
-                         "a force acts on it");
-    const Canonical all = canonical(m);  // its checks, p and M
+        return Obstacle{"Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
+                        "a force acts on it"};
+    const Possible<Canonical> possible = canonical(m);  // its obstacles, p and M
+    if (const auto obstacle = possible.obstacle()) return Obstacle{*obstacle};
+    const Canonical& all = possible.value();
     const int c = static_cast<int>(r.cyclic.size()), e = m.size() - c;
     for (int i = 0, k = 0; i < m.size(); ++i)
         if (k < c && r.cyclic[k] == i) ++k;
@@ -43,7 +45,9 @@ Reduction reduction(const Mechanism& m) {
     }
     std::vector<ex> right = substitute(z, r.momenta, still);
     for (int i = 0; i < c; ++i) right[i] = z.name(r.p[i] - right[i]);
-    r.rates = solve_named(Mcc, right, m);
+    Possible<std::vector<ex>> rates_of_cyclic = solve_named(Mcc, right, m);
+    if (const auto singular = rates_of_cyclic.obstacle()) return Obstacle{*singular};
+    r.rates = std::move(rates_of_cyclic).value();
     GiNaC::exmap rates;
     for (int i = 0; i < c; ++i) rates[m.qdot[r.cyclic[i]]] = r.rates[i];
     GiNaC::exvector R{short_form(substitute(z, {m.lagrangian()}, rates)[0], m)};
@@ -65,8 +69,10 @@ Reduction reduction(const Mechanism& m) {
     return r;
 }
 
+std::optional<std::string> obstacle_to_routhian(const Mechanism& m) { return reduction(m).obstacle(); }
+
 Equations routhian(const Mechanism& m) {
-    const Reduction r = reduction(m);
+    const Reduction r = reduction(m).value();
     Intermediates& z = *m.z;
     const int n = m.size(), c = static_cast<int>(r.cyclic.size()), e = n - c;
     Equations equations = equations_without_terms("routhian", m);
@@ -89,7 +95,7 @@ Equations routhian(const Mechanism& m) {
     for (int i = 0; i < e; ++i) {
         std::vector<ex> row;
         for (const int k : r.cyclic) row.push_back(equations.M(k, r.remaining[i]));
-        const std::vector<ex> X = solve_named(Mcc, row, m);  // M_cc⁻¹ M_ce, column e
+        const std::vector<ex> X = solve_named(Mcc, row, m).value();  // M_cc⁻¹ M_ce, column e
         GiNaC::exvector f{own[i]};
         for (int k = 0; k < c; ++k) f.push_back(X[k] * equations.own[r.cyclic[k]]);
         equations.own[r.remaining[i]] = z.name(GiNaC::add(std::move(f)));
@@ -100,6 +106,29 @@ Equations routhian(const Mechanism& m) {
         }
     }
     return equations;
+}
+
+OwnSteps steps_of_routhian(const Mechanism& m, const Equations& equations) {
+    const StepWriter write(m);
+    const Reduction r = reduction(m).value();
+    std::string names;
+    for (const int i : r.cyclic) names += (names.empty() ? "" : ", ") + m.q[i].get_name();
+    Section section{.words = "Cyclic coordinates: " + names + ". Their momenta are constants; the Routhian R = L - sum of p q':"};
+    for (std::size_t k = 0; k < r.cyclic.size(); ++k) write.equality(section, write.symbol_of(r.p[k]), r.momenta[k]);
+    for (std::size_t k = 0; k < r.cyclic.size(); ++k) write.equality(section, write.symbol_of(m.qdot[r.cyclic[k]]), r.rates[k]);
+    write.equality(section, StepWriter::letter("R"), r.R);
+    OwnSteps result{.sections = {std::move(section)}, .title = "Routh's equations of the coordinates that are not cyclic"};
+    const int e = static_cast<int>(r.remaining.size());
+    for (int i = 0; i < e; ++i) {
+        GiNaC::exvector left{-r.own[i], -equations.dissipative[r.remaining[i]]};
+        for (int j = 0; j < e; ++j) left.push_back(r.M(i, j) * m.qddot[r.remaining[j]]);
+        const auto f = write.normal(GiNaC::add(std::move(left))), right = write.normal(equations.applied[r.remaining[i]]);
+        if (!f || !right) return {};
+        result.equations.push_back(readable_equation(*f, *right));
+        result.equations.back().divided_by.reset();
+    }
+    for (const GiNaC::symbol& p : r.p) result.equations.push_back({write.rate(p), phrases::number(0), {}});
+    return result;
 }
 
 }  // namespace alembert

@@ -3,10 +3,11 @@
 
 /// Routh's procedure: cyclic coordinates are found and removed, their momenta are constants.
 ///
-///     const Reduction r = reduction(mechanism);   // r.cyclic = {1}: theta; r.R in the others and p_theta
+///     const Reduction r = reduction(mechanism).value();   // r.cyclic = {1}: theta; r.R in the others and p_theta
 ///     const Equations equations = routhian(mechanism);
 
-#include "formalism/equations.hpp"
+#include "formalism/obstacle.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
@@ -23,10 +24,14 @@ struct Reduction {
     std::vector<GiNaC::ex> own;         ///< the rest of d/dt ∂R/∂q' − ∂R/∂q, to the right; with p
 };
 
-/// Throws ModelError if no coordinate is cyclic, and as `canonical` does.
-Reduction reduction(const Mechanism& mechanism);
+/// An obstacle is a scene in which no coordinate is cyclic, and those of `canonical`.
+Possible<Reduction> reduction(const Mechanism& mechanism);
+std::optional<std::string> obstacle_to_routhian(const Mechanism& mechanism);
 
 /// All coordinates' equations, the momenta eliminated: comparable with the other formalisms.
+/// Throws ModelError with the obstacle where there is one.
 Equations routhian(const Mechanism& mechanism);
+/// R, and the equations of the coordinates that are left.
+OwnSteps steps_of_routhian(const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

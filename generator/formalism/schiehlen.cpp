@@ -93,9 +93,32 @@ std::vector<BodyMotion> global_motions(const Mechanism& m) {
     return result;
 }
 
+std::optional<std::string> obstacle_to_schiehlen(const Mechanism& m) { return masses_unknown(m, "Schiehlen's equations"); }
+
 Equations schiehlen(const Mechanism& m) {
-    check_masses_known(m, "Schiehlen's equations");
+    need_none(obstacle_to_schiehlen(m));
     return projected("schiehlen", m, global_motions(m));
+}
+
+OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
+    const StepWriter write(m);
+    const std::vector<BodyMotion> motions = global_motions(m);
+    OwnSteps result;
+    for (std::size_t b = 0; b < motions.size(); ++b) {
+        Section section{.words = "Global Jacobians of " + label(m.masses[b].origin) +
+                                 ", J_T = dr/dq along N and J_R = dw/dq' along its axes, and the accelerations at q'' = 0:"};
+        const auto add_rows = [&](const std::string& letter, const std::vector<Vector3>& J) {
+            for (int j = 0; j < m.size(); ++j)
+                for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], m.q[j], J[j][k]);
+        };
+        add_rows("r", motions[b].J_T);
+        if (m.masses[b].rotation) add_rows("s", motions[b].J_R);
+        for (int k = 0; k < 3; ++k)
+            if (const auto f = write.normal(motions[b].a_bar[k]); f && f->size() > 0)
+                section.statements.push_back({Statement::Kind::energy, std::string("a_") + "xyz"[k], "", {}, readable(*f)});
+        result.sections.push_back(std::move(section));
+    }
+    return result;
 }
 
 }  // namespace alembert

@@ -10,13 +10,18 @@
 /// [speeds] the scene has. Reactions of joints: reactions.hpp.
 
 #include "formalism/newton_euler.hpp"
+#include "formalism/steps.hpp"
 
 namespace alembert {
 
 /// J̄, and the accelerations at q'' = 0, of every body.
 std::vector<BodyMotion> global_motions(const Mechanism& mechanism);
 
-/// J̄ᵀ M̄ J̄ q'' + J̄ᵀ k̄ = J̄ᵀ q̄ᵉ. Throws ModelError for a scene whose energies are given without the bodies that have them.
+/// J̄ᵀ M̄ J̄ q'' + J̄ᵀ k̄ = J̄ᵀ q̄ᵉ. Throws ModelError with the obstacle where there is one.
 Equations schiehlen(const Mechanism& mechanism);
+/// A scene whose energies are given without the bodies that have them.
+std::optional<std::string> obstacle_to_schiehlen(const Mechanism& mechanism);
+/// The rows of J̄, and ā, of every body.
+OwnSteps steps_of_schiehlen(const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

@@ -211,8 +211,8 @@ private:
                 result_.moving.push_back(coordinate(j));
         }
         if (!residual.empty())
-            throw ModelError(fmt::format("this state is no equilibrium and no steady motion: {}; expected zeros. Give one with --at, or as "
-                                         "initial values",
+            throw ModelError(fmt::format("this state is no equilibrium and no steady motion: {}; expected zeros. Ask at a state where "
+                                         "they are, or give it as initial values",
                                          fmt::join(residual, "; ")));
         // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then only what is held is a state.
         bool constant = true;

@@ -24,7 +24,7 @@ bool has_unknown_derivative(const ex& e) {
 
 std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
     const int n = m.size();
-    if (!m.constraints.empty() || !e.h.empty() || n > most_coordinates) return {};
+    if (!m.constraints.empty() || !e.speeds_are_rates() || n > most_coordinates) return {};
     GiNaC::exmap there;
     for (int i = 0; i < n; ++i) {
         there[m.q[i]] = m.z->expand(q0[i]);

@@ -20,7 +20,7 @@ using GiNaC::ex;
 using Index = Eigen::Index;
 
 Residuals::Residuals(const Mechanism& m, const Equations& e)
-    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.h.empty()) {
+    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.speeds_are_rates()) {
     Program all;
     all.source_labels = m.z->source_labels();
     std::vector<std::pair<GiNaC::symbol, int>> given;
@@ -38,7 +38,7 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
         for (const ex& entry : e.A[k]) wanted.emplace_back(Group::row, entry);
         wanted.emplace_back(Group::gamma, e.gamma[k]);
     }
-    const auto rate_of = [&](int i) { return e.h.empty() ? ex(m.qdot[i]) : e.h[i]; };
+    const auto rate_of = [&](int i) { return e.h[i]; };
     for (int i = 0; i < n; ++i) wanted.emplace_back(Group::rate, rate_of(i));
     for (const Mechanism::Constraint& c : m.constraints)
         if (c.position) {

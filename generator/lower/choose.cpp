@@ -36,14 +36,14 @@ bool make_readable(std::vector<ex*> values, const Mechanism& m) {
 /// The bodies, springs and loads that depend on coordinate i or its rate.
 std::vector<std::string> sources_of_row(const Mechanism& m, int i) {
     std::vector<std::string> labels;
-    const auto add = [&](const std::string& label, const ex& value) {
-        if (m.z->depends(value, {m.q[i], m.qdot[i]})) labels.push_back(label);
+    const auto add = [&](const Origin& origin, const ex& value) {
+        if (m.z->depends(value, {m.q[i], m.qdot[i]})) labels.push_back(label(origin));
     };
     for (const auto* parts : {&m.kinetic, &m.potential})
-        for (const Part& part : *parts) add(part.label, part.value);
-    if (m.given_lagrangian) labels.emplace_back("[energy] lagrangian");
+        for (const Part& part : *parts) add(part.origin, part.value);
+    if (m.given_lagrangian) labels.push_back(label({Origin::Kind::given_lagrangian}));
     for (const Load& load : m.loads)
-        for (const Load::Pair& pair : load.pairs) add(load.label, pair.velocity);
+        for (const Load::Pair& pair : load.pairs) add(load.origin, pair.velocity);
     return labels;
 }
 
@@ -63,7 +63,7 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
-        equations.row_sources.push_back(equations.h.empty() ? sources_of_row(m, i) : m.z->source_labels());
+        equations.row_sources.push_back(equations.speeds_are_rates() ? sources_of_row(m, i) : m.z->source_labels());
     }
     for (ex& rate : equations.h)
         if (!make_readable({&rate}, m)) return std::nullopt;

@@ -51,7 +51,7 @@ std::vector<int> held_loads(Program& program, const Mechanism& m, int first, con
 
     std::vector<std::pair<ex, ex>> virtual_work, potential;
     for (const MassElement* body : bodies) {
-        SourceScope source(z, body->label);
+        SourceScope source(z, label(body->origin));
         const std::size_t at = virtual_work.size();
         for (std::size_t k = at; k < at + 3; ++k) virtual_work.emplace_back(velocities[k], z.name(body->mass * accelerations[k]));
         if (!body->rotation) continue;

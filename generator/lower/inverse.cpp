@@ -14,26 +14,12 @@ namespace alembert {
 
 using GiNaC::ex;
 
-namespace {
-
-/// Nothing for what is no tree of joints.
-std::optional<JointTree> tree_of(const Mechanism& m) {
-    try {
-        return loaded_tree(m);
-    } catch (const ModelError&) {
-        return {};
-    }
-}
-
-}  // namespace
-
 std::vector<int> inverse_loads(Program& program, const Mechanism& m, const std::vector<std::pair<GiNaC::symbol, int>>& given) {
     std::vector<std::pair<GiNaC::symbol, int>> known = given;
     for (const Mechanism::Unilateral& contact : m.unilateral) known.emplace_back(contact.gap.multiplier, program.number(0));
-    const auto tree = tree_of(m);
-    if (tree) {
+    if (const Possible<JointTree> tree = loaded_tree(m); tree.exists()) {
         const auto lowering = lowering_into(program, m, known);
-        return inverse_recursion(program, *tree, *m.z, m.qddot, lowering);
+        return inverse_recursion(program, tree.value(), *m.z, m.qddot, lowering);
     }
     const Equations e = m.constraints.empty() ? lagrange(m) : routh(m);
     const auto lowering = lowering_into(program, m, known);

@@ -173,7 +173,7 @@ private:
 
 /// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& udot) {
-    if (e.h.empty()) return;
+    if (e.speeds_are_rates()) return;
     for (int k = 0; k < e.size(); ++k) {
         lowering.define(e.u[k], program.variable({Variable::Kind::rate, k}));
         lowering.define(e.udot[k], udot[k]);
@@ -192,7 +192,7 @@ void define_rates(Lowering& lowering, Program& program, const Mechanism& m, cons
 
 /// The scene's generalized speeds and their rates.
 void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e) {
-    const bool in_state = !e.h.empty();
+    const bool in_state = !e.speeds_are_rates();
     std::vector<ex> values, rates;
     for (const Mechanism::Speed& speed : m.speeds) {
         values.push_back(in_state ? speed.u : speed.form);
@@ -264,7 +264,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     Lowering lowering(program, m, options.fold);
 
     const int n = equations.size();
-    const bool has_speeds = !equations.h.empty();
+    const bool has_speeds = !equations.speeds_are_rates();
     std::vector<int> udot;
     for (int k = 0; k < n && has_speeds; ++k) {
         const SymbolInfo& info = m.symbols->info(equations.u[k]);
@@ -363,7 +363,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.roots.push_back({Group::velocity, constraint.name, program.sum(0, velocity)});
     }
     if (!has_matrix && !by_tree.acceleration)
-        throw ModelError("the rates of the joints do not determine those of the coordinates; take --by recursive");
+        throw ModelError("the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'");
     if (const auto solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration : solve_symmetric(program, mass, forcing, n)) {
         for (int i = 0; i < n; ++i) program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
@@ -396,7 +396,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     add_speed_roots(lowering, program, m, equations);
     wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
     for (const auto* parts : {&m.outputs, &m.events})
-        for (const Part& part : *parts) wanted.push_back(part.value);
+        for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
     lowering.lower_definitions(wanted);
     const int T = lowering(energy.kinetic), V = lowering(energy.potential);
     const int E = m.given_lagrangian ? lowering(energy.energy) : program.sum(0, {{1, T}, {1, V}});
@@ -405,8 +405,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     program.roots.push_back({Group::energy, "E", E});
     program.roots.push_back({Group::power, "P", lowering(energy.power)});
     program.roots.push_back({Group::jacobi, "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
-    for (const Part& part : m.outputs) program.roots.push_back({Group::output, part.label, lowering(part.value)});
-    for (const Part& part : m.events) program.roots.push_back({Group::event, part.label, lowering(part.value)});
+    for (const Mechanism::Definition& part : m.outputs) program.roots.push_back({Group::output, part.name, lowering(part.value)});
+    for (const Mechanism::Definition& part : m.events) program.roots.push_back({Group::event, part.name, lowering(part.value)});
     return program.canonical();
 }
 

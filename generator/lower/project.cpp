@@ -39,7 +39,7 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
 }  // namespace
 
 void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K, bool fold) {
-    const bool own_speeds = !equations.h.empty();
+    const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
     std::vector<int> across;  // constraints that the speeds have eliminated and coordinates may leave

@@ -110,7 +110,7 @@ Start start_of(const Mechanism& m, const Overrides& overrides) {
 
 State<double> state_of(const Start& start, const Mechanism& m, const Equations& equations) {
     State<double> state = start.state();
-    if (equations.h.empty()) return state;
+    if (equations.speeds_are_rates()) return state;
     if (!start.speeds.empty()) {
         state.qdot = start.speeds;
         return state;

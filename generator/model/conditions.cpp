@@ -141,7 +141,7 @@ void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
                      joint.name.text, k, moves ? "as time goes on" : fmt::format("by {:.6g}", gap))}};
 }
 
-void close(Building& here, const Joint& joint) {
+void close(Building& here, const Joint& joint, int index) {
     SourceScope source(*here.m.z, "joint " + joint.name.text);
     int k = 0;
     for (const ClosingRow& row : closing_rows(joint, here.places)) {
@@ -164,7 +164,7 @@ void close(Building& here, const Joint& joint) {
                            .place = joint.name.place,
                            .at = joint.name.place},
                           here.m));
-        here.m.constraints.back().closes_loop = true;
+        here.m.constraints.back().joint = index;
         here.translator.know(multiplier, here.m.constraints.back().multiplier);
     }
 }
@@ -204,8 +204,9 @@ void add_conditions(Building& here) {
         here.attempt([&] { add_rolling(here, rule, index); });
         index += 3;
     }
-    for (const Joint& joint : here.scene.joints)
-        if (joint.closes_loop) here.attempt([&] { close(here, joint); });
+    for (std::size_t j = 0; j < here.scene.joints.size(); ++j)
+        if (here.scene.joints[j].closes_loop)
+            here.attempt([&] { close(here, here.scene.joints[j], static_cast<int>(j)); });
     for (const UnilateralRule& rule : here.scene.unilateral)
         here.attempt([&] { add_unilateral(here, rule, index++); });
 }

@@ -61,7 +61,8 @@ Energy energy_of(const Mechanism& m) {
         result.kinetic = m.kinetic_energy();
         result.potential = m.potential_energy();
         result.energy = z.name(result.kinetic + result.potential);
-        const bool bodies_alone = !(m.kinetic.empty()) && m.kinetic.back().label != "[energy] kinetic";
+        const bool bodies_alone =
+            !m.kinetic.empty() && m.kinetic.back().origin.kind != Origin::Kind::given_kinetic;
         const bool scleronomic = bodies_alone && !z.depends(result.kinetic, clock(m));
         if (!scleronomic) extra = z.name(2 * result.kinetic - pq);
         if (is_identically_zero(extra, m)) extra = 0;

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
-#include "scene/placing.hpp"
+#include "scene/joint_moves.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
-using Type = Joint::Type;
 
 namespace {
 
@@ -31,41 +30,35 @@ struct Motion {
     Vector3 shift{0, 0, 0};
 };
 
+/// x, y, z of the joint's axes, or the axis that the scene gives.
+Vector3 direction_of(const Move& move, const Joint& joint, Places& places) {
+    return move.along == 'a' ? places.unit_axis(joint.axis) : unit(move.along - 'x');
+}
+
 Motion motion_of(const Joint& joint, Places& places) {
     std::vector<ex> q;
     for (const Name& name : joint.coordinates) q.push_back(places.value(name));
     Intermediates& z = places.z();
-    const auto turns_in_space = [&](std::size_t first) {
-        Motion motion;
-        if (joint.angles.empty()) {
-            motion.turns.push_back({.axis = {}, .quaternion = std::array<ex, 4>{q[first], q[first + 1], q[first + 2], q[first + 3]}});
-            return motion;
+    Motion motion;
+    std::size_t next = 0;
+    for (const Move& move : moves_of(joint.type).moves) {
+        if (move.kind == Move::Kind::turn_in_space) {
+            if (joint.angles.empty())
+                motion.turns.push_back(
+                    {.axis = {}, .quaternion = std::array<ex, 4>{q[next], q[next + 1], q[next + 2], q[next + 3]}});
+            for (const char letter : joint.angles) motion.turns.push_back({unit(letter - 'x'), q[next++]});
+            continue;
         }
-        for (std::size_t k = 0; k < 3; ++k) motion.turns.push_back({unit(joint.angles.at(k) - 'x'), q[first + k]});
-        return motion;
-    };
-    switch (joint.type) {
-        case Type::fixed: return {};
-        case Type::revolute: return {.turns = {{places.unit_axis(joint.axis), q[0]}}};
-        case Type::prismatic: return {.shift = scale(q[0], places.unit_axis(joint.axis), z)};
-        case Type::cylindrical: {
-            const Vector3 a = places.unit_axis(joint.axis);
-            return {.turns = {{a, q[0]}}, .shift = scale(q[1], a, z)};
-        }
-        case Type::screw: {
-            const Vector3 a = places.unit_axis(joint.axis);
-            return {.turns = {{a, q[0]}}, .shift = scale(places.value(joint.pitch) * q[0], a, z)};
-        }
-        case Type::universal: return {.turns = {{unit(0), q[0]}, {unit(1), q[1]}}};
-        case Type::planar: return {.turns = {{unit(2), q[2]}}, .shift = {q[0], q[1], 0}};
-        case Type::spherical: return turns_in_space(0);
-        case Type::free: {
-            Motion motion = turns_in_space(3);
-            motion.shift = {q[0], q[1], q[2]};
-            return motion;
-        }
+        const Vector3 a = direction_of(move, joint, places);
+        if (move.kind == Move::Kind::turn)
+            motion.turns.push_back({a, q[next++]});
+        else if (move.kind == Move::Kind::screw)
+            motion.shift =
+                add(motion.shift, scale(places.value(joint.pitch) * motion.turns.back().angle, a, z), z);
+        else
+            motion.shift = add(motion.shift, scale(q[next++], a, z), z);
     }
-    return {};
+    return motion;
 }
 
 std::vector<Turn> turns_of(const std::vector<Rotation>& rotations, Places& places) {
@@ -84,16 +77,20 @@ std::vector<Turn> backwards(std::vector<Turn> turns) {
 }
 
 Orientation turned(Orientation o, const std::vector<Turn>& turns, Places& places) {
-    for (const Turn& turn : turns) o = turn.quaternion ? places.turned(o, *turn.quaternion) : places.turned(o, turn.axis, turn.angle);
+    for (const Turn& turn : turns)
+        o = turn.quaternion ? places.turned(o, *turn.quaternion) : places.turned(o, turn.axis, turn.angle);
     return o;
 }
 
-Vector3 minus(const Vector3& a, const Vector3& b, Intermediates& z) { return add(a, scale(-1, b, z), z); }
+Vector3 minus(const Vector3& a, const Vector3& b, Intermediates& z) {
+    return add(a, scale(-1, b, z), z);
+}
 
 /// The joint's point of the body.
 Vector3 point_of(const Joint::Side& side, Places& places) {
     const Vector3 offset = places.vector(side.point);
-    return add(places.position_of_body(side.body.text), places.orientation(side.body.text).to_inertial(offset, places.z()), places.z());
+    return add(places.position_of_body(side.body.text),
+               places.orientation(side.body.text).to_inertial(offset, places.z()), places.z());
 }
 
 /// The joint's axes in the body.
@@ -101,7 +98,8 @@ Orientation axes_of(const Joint::Side& side, Places& places) {
     return turned(places.orientation(side.body.text), turns_of(side.rotate, places), places);
 }
 
-/// Two directions across the axis, near to those of the letters that it is farthest from, and which letter is left.
+/// Two directions across the axis, near to those of the letters that it is farthest from, and which letter is
+/// left.
 struct Across {
     std::array<Vector3, 3> e;  ///< at `along` the axis itself
     int along;
@@ -144,14 +142,15 @@ Vector3 position_by(const Joint& joint, Places& places) {
 JointArc arc_of(const Joint& joint, Places& places) {
     Intermediates& z = places.z();
     JointArc arc{.name = joint.name.text,
-                 .type = joint_types()[static_cast<std::size_t>(joint.type)],
-                 .role = !joint.places_child    ? JointArc::Role::closes_loop
+                 .type = moves_of(joint.type).name,
+                 .role = !joint.places_child   ? JointArc::Role::closes_loop
                          : *joint.places_child ? JointArc::Role::places_child
                                                : JointArc::Role::places_parent};
     if (arc.role == JointArc::Role::closes_loop) return arc;
     const bool forwards = *joint.places_child;
     const Motion motion = motion_of(joint, places);
-    const Orientation inner = axes_of(forwards ? joint.parent : joint.child, places), parent = axes_of(joint.parent, places),
+    const Orientation inner = axes_of(forwards ? joint.parent : joint.child, places),
+                      parent = axes_of(joint.parent, places),
                       relative = turned(Orientation(), forwards ? motion.turns : backwards(motion.turns), places);
     arc.shift = motion.shift;
     arc.turning = relative.to_inertial(relative.angular_velocity(), z);
@@ -174,10 +173,12 @@ int point_by(const Joint& joint, Places& places) {
     const bool forwards = *joint.places_child;
     const Joint::Side &from = forwards ? joint.parent : joint.child, &to = forwards ? joint.child : joint.parent;
     const auto body_point = [&](const std::string& body) { return body == "N" ? 0 : places.point(body); };
-    int point = places.step(body_point(from.body.text), places.orientation(from.body.text).frame, places.vector(from.point));
+    int point = places.step(body_point(from.body.text), places.orientation(from.body.text).frame,
+                            places.vector(from.point));
     const Vector3 shift = scale(forwards ? 1 : -1, motion_of(joint, places).shift, places.z());
     point = places.step(point, axes_of(joint.parent, places).frame, shift);
-    return places.step(point, places.orientation(to.body.text).frame, scale(-1, places.vector(to.point), places.z()));
+    return places.step(point, places.orientation(to.body.text).frame,
+                       scale(-1, places.vector(to.point), places.z()));
 }
 
 std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
@@ -194,43 +195,45 @@ std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
         for (int k = 0; k < 3; ++k)
             if (k != directions.along) turn(directions.e[k], directions.e[directions.along]);
     };
-    const auto no_turns = [&] {
-        for (int k = 0; k < 3; ++k) turn(unit(k), unit((k + 2) % 3));
-    };
-    switch (joint.type) {
-        case Type::fixed:
+    const JointMoves& type = moves_of(joint.type);
+    if (type.has(Move::Kind::turn_in_space)) {
+        if (type.before_turn_in_space() == 0)
             for (int k = 0; k < 3; ++k) shift(unit(k));
-            no_turns();
-            break;
-        case Type::spherical:
-            for (int k = 0; k < 3; ++k) shift(unit(k));
-            break;
-        case Type::universal:
-            for (int k = 0; k < 3; ++k) shift(unit(k));
-            rows.push_back({true, z.name(-dot(J.axis(0), K.axis(1), z))});
-            break;
-        case Type::planar:
-            shift(unit(2));
-            turns_across({.e = {unit(0), unit(1), unit(2)}, .along = 2});
-            break;
-        case Type::free: break;
-        default: {
-            const Across directions = across(places.unit_axis(joint.axis), places);
-            for (int k = 0; k < 3; ++k) {
-                if (joint.type == Type::revolute || k != directions.along) {
-                    shift(joint.type == Type::revolute ? unit(k) : directions.e[k]);
-                } else if (joint.type == Type::screw) {
-                    const Vector3 a = in_J(directions.e[k]);
-                    const Vector3 turning = minus(K.to_inertial(K.angular_velocity(), z), J.to_inertial(J.angular_velocity(), z), z);
-                    rows.push_back({false, z.name(places.rate(dot(d, a, z)) - places.value(joint.pitch) * dot(turning, a, z))});
-                }
-            }
-            if (joint.type == Type::prismatic)
-                no_turns();
-            else
-                turns_across(directions);
+        return rows;
+    }
+    // Translations along the joint's letters; where it slides along its own axis, along that and two directions
+    // across it.
+    Across directions{.e = {unit(0), unit(1), unit(2)}, .along = 2};
+    std::array<const Move*, 3> slides{};
+    std::vector<const Move*> turns;
+    for (const Move& move : type.moves) {
+        if (move.kind == Move::Kind::turn) {
+            turns.push_back(&move);
+            continue;
+        }
+        if (move.along == 'a') directions = across(places.unit_axis(joint.axis), places);
+        slides[static_cast<std::size_t>(move.along == 'a' ? directions.along : move.along - 'x')] = &move;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (slides[k] == nullptr) {
+            shift(directions.e[k]);
+        } else if (slides[k]->kind == Move::Kind::screw) {
+            const Vector3 a = in_J(directions.e[k]);
+            const Vector3 turning =
+                minus(K.to_inertial(K.angular_velocity(), z), J.to_inertial(J.angular_velocity(), z), z);
+            rows.push_back(
+                {false, z.name(places.rate(dot(d, a, z)) - places.value(joint.pitch) * dot(turning, a, z))});
         }
     }
+    // Rotations: about all three, across the axis of one turn, or what keeps the axes of two at right angles.
+    if (turns.empty())
+        for (int k = 0; k < 3; ++k) turn(unit(k), unit((k + 2) % 3));
+    if (turns.size() == 1)
+        turns_across(turns[0]->along == 'a'
+                         ? across(places.unit_axis(joint.axis), places)
+                         : Across{.e = {unit(0), unit(1), unit(2)}, .along = turns[0]->along - 'x'});
+    if (turns.size() == 2)
+        rows.push_back({true, z.name(-dot(J.axis(turns[0]->along - 'x'), K.axis(turns[1]->along - 'x'), z))});
     return rows;
 }
 

@@ -11,13 +11,16 @@ namespace alembert {
 
 using GiNaC::ex;
 
+using Kind = Origin::Kind;
+
 namespace {
 
 // ½ m v², and −m g·r
-void add_translation(Building& here, const std::string& label, const std::string& point, const ex& mass) {
+void add_translation(Building& here, const Origin& origin, const ex& mass) {
+    const std::string& point = origin.name;
     const Vector3 v = here.places.velocity(point);
-    here.m.kinetic.push_back({label, here.m.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
-    here.m.masses.push_back({.label = label,
+    here.m.kinetic.push_back({origin, here.m.z->name(mass / 2 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]))});
+    here.m.masses.push_back({.origin = origin,
                              .mass = mass,
                              .position = here.places.position(point),
                              .velocity = v,
@@ -26,11 +29,11 @@ void add_translation(Building& here, const std::string& label, const std::string
     const Vector3 g = here.places.vector(*here.scene.gravity), r = here.places.position(point);
     here.m.gravity = g;
     const ex weight = here.m.z->name(-mass * (g[0] * r[0] + g[1] * r[1] + g[2] * r[2]));
-    if (!weight.is_zero()) here.m.potential.push_back({"gravity on " + label, weight});
+    if (!weight.is_zero()) here.m.potential.push_back({gravity_on(origin), weight});
 }
 
 // ½ ω·I ω with I about the mass centre; if I is about P, less ½ m (v − v_P)², what the transport adds.
-void add_rotation(Building& here, const Body& b, const ex& mass) {
+void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
     if (!b.inertia) return;
     const Orientation& orientation = here.places.orientation(b.frame.text);
     const Vector3 w = orientation.angular_velocity();
@@ -70,31 +73,25 @@ void add_rotation(Building& here, const Body& b, const ex& mass) {
     here.m.masses.back().rotation = rotation;
     here.m.masses.back().frame = orientation.frame;
     if (b.about) here.m.masses.back().about = here.places.point(b.about->text);
-    here.m.kinetic.push_back({"rotation of body " + b.name.text, here.m.z->name(energy)});
+    here.m.kinetic.push_back({{Kind::rotation, index, b.name.text}, here.m.z->name(energy)});
 }
 
-// T, V and the loads
+void add_particle(Building& here, const Particle& p, const Origin& origin) {
+    add_translation(here, origin, here.translator.scalar(p.mass));
+}
 
-void add_masses(Building& here) {
-    for (const Particle& p : here.scene.particles)
-        here.attempt([&] {
-            SourceScope source(*here.m.z, "particle " + p.name.text);
-            add_translation(here, "particle " + p.name.text, p.name.text, here.translator.scalar(p.mass));
-        });
-    for (const Body& b : here.scene.bodies)
-        here.attempt([&] {
-            SourceScope source(*here.m.z, "body " + b.name.text);
-            const ex mass = here.translator.scalar(b.mass);
-            add_translation(here, "body " + b.name.text, b.name.text, mass);
-            add_rotation(here, b, mass);
-        });
+void add_body(Building& here, const Body& b, const Origin& origin) {
+    const ex mass = here.translator.scalar(b.mass);
+    add_translation(here, origin, mass);
+    add_rotation(here, b, mass, origin.index);
 }
 
 /// The system graph.
 void add_joints(Building& here) {
     const auto index = [&](const std::string& body) {
-        const auto found = std::find_if(here.m.masses.begin(), here.m.masses.end(),
-                                        [&](const MassElement& e) { return e.label == "body " + body; });
+        const auto found = std::find_if(here.m.masses.begin(), here.m.masses.end(), [&](const MassElement& e) {
+            return e.origin.kind == Kind::body && e.origin.name == body;
+        });
         return found == here.m.masses.end() ? -1 : static_cast<int>(found - here.m.masses.begin());
     };
     for (const Joint& joint : here.scene.joints)
@@ -106,162 +103,160 @@ void add_joints(Building& here) {
         });
 }
 
-/// The length of a spring or damper, or the expression along which it acts.
+/// From the first point of a spring or damper to the second.
+Vector3 across(Building& here, const Link& link) {
+    return add(here.places.position(link.between->second.text),
+               scale(-1, here.places.position(link.between->first.text), *here.m.z), *here.m.z);
+}
+
+/// Its length, or the expression along which it acts.
 ex length_of(Building& here, const Link& link) {
-    if (!link.between) return here.m.z->name(here.translator.scalar(link.along));
-    return norm(add(here.places.position(link.between->second.text),
-                    scale(-1, here.places.position(link.between->first.text), *here.m.z), *here.m.z),
-                *here.m.z);
+    return link.between ? norm(across(here, link), *here.m.z) : here.m.z->name(here.translator.scalar(link.along));
 }
 
-// Spring: V = ½ k (d − d₀)². Damper: −c d' along d.
-void add_links(Building& here) {
-    for (std::size_t i = 0; i < here.scene.springs.size(); ++i)
-        here.attempt([&] {
-            const Link& s = here.scene.springs[i];
-            const std::string label = fmt::format("spring {}", i + 1);
-            SourceScope source(*here.m.z, label);
-            const ex k = here.translator.scalar(s.constant), free_length = here.translator.scalar(s.length);
-            ex square;
-            if (s.between && free_length.is_zero()) {
-                const Vector3 d =
-                    add(here.places.position(s.between->second.text),
-                        scale(-1, here.places.position(s.between->first.text), *here.m.z), *here.m.z);
-                square = dot(d, d, *here.m.z);
-            } else {
-                square = pow(length_of(here, s) - free_length, 2);
-            }
-            here.m.potential.push_back({label, here.m.z->name(k / 2 * square)});
-            SpringElement spring{.label = label, .stiffness = k, .free_length = free_length};
-            if (s.between)
-                spring.between = {here.places.position(s.between->first.text),
-                                  here.places.position(s.between->second.text)};
-            else
-                spring.along = length_of(here, s);
-            here.m.springs.push_back(std::move(spring));
-        });
-    for (std::size_t i = 0; i < here.scene.dampers.size(); ++i)
-        here.attempt([&] {
-            const std::string label = fmt::format("damper {}", i + 1);
-            SourceScope source(*here.m.z, label);
-            const ex length = length_of(here, here.scene.dampers[i]);
-            const ex rate = here.m.time_derivative({length})[0];
-            const ex force = here.m.z->name(-here.translator.scalar(here.scene.dampers[i].constant) * rate);
-            here.m.loads.push_back({label, true, {{rate, force, length}}});
-        });
+// V = ½ k (d − d₀)²
+void add_spring(Building& here, const Link& s, const Origin& origin) {
+    const ex k = here.translator.scalar(s.constant), free_length = here.translator.scalar(s.length);
+    ex square;
+    if (s.between && free_length.is_zero()) {
+        const Vector3 d = across(here, s);
+        square = dot(d, d, *here.m.z);
+    } else {
+        square = pow(length_of(here, s) - free_length, 2);
+    }
+    here.m.potential.push_back({origin, here.m.z->name(k / 2 * square)});
+    SpringElement spring{.origin = origin, .stiffness = k, .free_length = free_length};
+    if (s.between)
+        spring.between = {here.places.position(s.between->first.text),
+                          here.places.position(s.between->second.text)};
+    else
+        spring.along = length_of(here, s);
+    here.m.springs.push_back(std::move(spring));
 }
 
-void add_forces(Building& here) {
-    const auto add_pairs = [](Load& load, const Vector3& velocity, const Vector3& force, int sign,
-                              const std::optional<Vector3>& position = {}) {
-        for (int k = 0; k < 3; ++k)
-            if (!force[k].is_zero() && !velocity[k].is_zero())
-                load.pairs.push_back(
-                    {velocity[k], sign * force[k], position ? std::optional((*position)[k]) : std::nullopt});
+// −c d' along d
+void add_damper(Building& here, const Link& damper, const Origin& origin) {
+    const ex length = length_of(here, damper);
+    const ex rate = here.m.time_derivative({length})[0];
+    const ex force = here.m.z->name(-here.translator.scalar(damper.constant) * rate);
+    here.m.loads.push_back({origin, true, {{rate, force, length}}});
+}
+
+void add_pairs(Load& load, const Vector3& velocity, const Vector3& force, int sign,
+               const std::optional<Vector3>& position = {}) {
+    for (int k = 0; k < 3; ++k)
+        if (!force[k].is_zero() && !velocity[k].is_zero())
+            load.pairs.push_back(
+                {velocity[k], sign * force[k], position ? std::optional((*position)[k]) : std::nullopt});
+}
+
+void add_force(Building& here, const Force& f, const Origin& origin) {
+    Load load{.origin = origin, .pairs = {}};
+    const Vector3 F = here.places.along(f.vector, f.axes);
+    add_pairs(load, here.places.velocity(f.at.text), F, 1, here.places.position(f.at.text));
+    if (f.reaction)
+        add_pairs(load, here.places.velocity(f.reaction->text), F, -1, here.places.position(f.reaction->text));
+    here.m.loads.push_back(std::move(load));
+}
+
+void add_torque(Building& here, const Torque& tau, const Origin& origin) {
+    Load load{.origin = origin, .pairs = {}};
+    const Vector3 M = here.places.along(tau.vector, tau.axes);
+    const auto spin = [&](const std::string& frame) {
+        const Orientation& o = here.places.orientation(frame);
+        return o.to_inertial(o.angular_velocity(), *here.m.z);
     };
-    for (std::size_t i = 0; i < here.scene.forces.size(); ++i)
+    add_pairs(load, spin(tau.on.text), M, 1);
+    if (tau.reaction) add_pairs(load, spin(tau.reaction->text), M, -1);
+    here.m.loads.push_back(std::move(load));
+}
+
+void add_impulse(Building& here, const Impulse& impulse, const Origin& origin) {
+    Load load{.origin = origin, .pairs = {}};
+    const Vector3 S = here.places.along(impulse.vector, impulse.axes);
+    add_pairs(load, here.places.velocity(impulse.at.text), S, 1);
+    here.m.impulses.push_back(std::move(load));
+}
+
+/// Along a coordinate, to `loads` or `impulses`.
+void add_generalized(Building& here, std::vector<Load>& to, const GeneralizedForce& f, const Origin& origin) {
+    for (int i = 0; i < here.m.size(); ++i)
+        if (here.m.q[i].get_name() == f.coordinate.text)
+            to.push_back(
+                {origin, false, {{here.m.qdot[i], here.m.z->name(here.translator.scalar(f.value)), here.m.q[i]}}});
+}
+
+void add_rayleigh(Building& here, const Expression& function, const Origin& origin) {
+    const ex R = here.m.z->name(here.translator.scalar(function));
+    const std::vector<ex> gradient = here.m.z->pull_back({{R, 1}}, here.m.qdot);
+    Load load{.origin = origin, .dissipative = true, .pairs = {}};
+    for (int i = 0; i < here.m.size(); ++i)
+        if (!gradient[i].is_zero()) load.pairs.push_back({here.m.qdot[i], -gradient[i], here.m.q[i]});
+    here.m.loads.push_back(std::move(load));
+}
+
+/// What `add` makes of each entry of a table of the scene; what is named on the way bears the origin's label.
+template <typename Entry, typename Name, typename Add>
+void each(Building& here, Kind kind, const std::vector<Entry>& table, const Name& name, const Add& add) {
+    for (std::size_t i = 0; i < table.size(); ++i)
         here.attempt([&] {
-            const Force& f = here.scene.forces[i];
-            Load load{.label = fmt::format("force {} at {}", i + 1, f.at.text), .pairs = {}};
-            SourceScope source(*here.m.z, load.label);
-            const Vector3 F = here.places.along(f.vector, f.axes);
-            add_pairs(load, here.places.velocity(f.at.text), F, 1, here.places.position(f.at.text));
-            if (f.reaction)
-                add_pairs(load, here.places.velocity(f.reaction->text), F, -1,
-                          here.places.position(f.reaction->text));
-            here.m.loads.push_back(std::move(load));
-        });
-    for (std::size_t i = 0; i < here.scene.torques.size(); ++i)
-        here.attempt([&] {
-            const Torque& tau = here.scene.torques[i];
-            Load load{.label = fmt::format("torque {} on {}", i + 1, tau.on.text), .pairs = {}};
-            SourceScope source(*here.m.z, load.label);
-            const Vector3 M = here.places.along(tau.vector, tau.axes);
-            const auto spin = [&](const std::string& frame) {
-                const Orientation& o = here.places.orientation(frame);
-                return o.to_inertial(o.angular_velocity(), *here.m.z);
-            };
-            add_pairs(load, spin(tau.on.text), M, 1);
-            if (tau.reaction) add_pairs(load, spin(tau.reaction->text), M, -1);
-            here.m.loads.push_back(std::move(load));
+            const Origin origin{kind, static_cast<int>(i), name(table[i])};
+            SourceScope source(*here.m.z, label(origin));
+            add(here, table[i], origin);
         });
 }
 
-void add_impulses(Building& here) {
-    for (std::size_t i = 0; i < here.scene.impulses.size(); ++i)
-        here.attempt([&] {
-            const Impulse& impulse = here.scene.impulses[i];
-            Load load{.label = fmt::format("impulse {} at {}", i + 1, impulse.at.text), .pairs = {}};
-            SourceScope source(*here.m.z, load.label);
-            const Vector3 S = here.places.along(impulse.vector, impulse.axes),
-                          velocity = here.places.velocity(impulse.at.text);
-            for (int k = 0; k < 3; ++k)
-                if (!S[k].is_zero() && !velocity[k].is_zero()) load.pairs.push_back({velocity[k], S[k]});
-            here.m.impulses.push_back(std::move(load));
-        });
-    for (const GeneralizedForce& f : here.scene.generalized_impulses)
-        here.attempt([&] {
-            const std::string label = "impulse on " + f.coordinate.text;
-            SourceScope source(*here.m.z, label);
-            for (int i = 0; i < here.m.size(); ++i)
-                if (here.m.q[i].get_name() == f.coordinate.text)
-                    here.m.impulses.push_back(
-                        {label,
-                         false,
-                         {{here.m.qdot[i], here.m.z->name(here.translator.scalar(f.value)), here.m.q[i]}}});
-        });
+/// The same of an expression that the scene may give.
+template <typename Add>
+void one(Building& here, Kind kind, const Expression& expression, const Add& add) {
+    here.attempt([&] {
+        const Origin origin{kind};
+        SourceScope source(*here.m.z, label(origin));
+        if (expression) add(expression, origin);
+    });
 }
 
-void add_energy(Building& here) {
-    here.attempt([&] {
-        SourceScope source(*here.m.z, "[energy] kinetic");
-        if (here.scene.kinetic)
-            here.m.kinetic.push_back(
-                {"[energy] kinetic", here.m.z->name(here.translator.scalar(here.scene.kinetic))});
+void add_energies(Building& here) {
+    const auto part_of = [&](std::vector<Part>& parts) {
+        return [&](const Expression& e, const Origin& origin) {
+            parts.push_back({origin, here.m.z->name(here.translator.scalar(e))});
+        };
+    };
+    one(here, Kind::given_kinetic, here.scene.kinetic, part_of(here.m.kinetic));
+    one(here, Kind::given_potential, here.scene.potential, part_of(here.m.potential));
+    one(here, Kind::given_lagrangian, here.scene.lagrangian, [&](const Expression& e, const Origin&) {
+        here.m.given_lagrangian = here.m.z->name(here.translator.scalar(e));
     });
-    here.attempt([&] {
-        SourceScope source(*here.m.z, "[energy] potential");
-        if (here.scene.potential)
-            here.m.potential.push_back(
-                {"[energy] potential", here.m.z->name(here.translator.scalar(here.scene.potential))});
-    });
-    here.attempt([&] {
-        SourceScope source(*here.m.z, "[energy] lagrangian");
-        if (here.scene.lagrangian)
-            here.m.given_lagrangian = here.m.z->name(here.translator.scalar(here.scene.lagrangian));
-    });
-    here.attempt([&] {
-        if (!here.scene.rayleigh) return;
-        SourceScope source(*here.m.z, "[dissipation]");
-        const ex R = here.m.z->name(here.translator.scalar(here.scene.rayleigh));
-        const std::vector<ex> gradient = here.m.z->pull_back({{R, 1}}, here.m.qdot);
-        Load load{.label = "[dissipation]", .dissipative = true, .pairs = {}};
-        for (int i = 0; i < here.m.size(); ++i)
-            if (!gradient[i].is_zero()) load.pairs.push_back({here.m.qdot[i], -gradient[i], here.m.q[i]});
-        here.m.loads.push_back(std::move(load));
-    });
-    for (const GeneralizedForce& f : here.scene.generalized_forces)
-        here.attempt([&] {
-            const std::string label = "force on " + f.coordinate.text;
-            SourceScope source(*here.m.z, label);
-            for (int i = 0; i < here.m.size(); ++i)
-                if (here.m.q[i].get_name() == f.coordinate.text)
-                    here.m.loads.push_back(
-                        {label,
-                         false,
-                         {{here.m.qdot[i], here.m.z->name(here.translator.scalar(f.value)), here.m.q[i]}}});
-        });
+    one(here, Kind::rayleigh, here.scene.rayleigh,
+        [&](const Expression& e, const Origin& origin) { add_rayleigh(here, e, origin); });
 }
 
 }  // namespace
 
+// One row for each table of the scene.
 void add_loads(Building& here) {
-    add_masses(here);
+    const Scene& s = here.scene;
+    const auto name = [](const auto& entry) { return entry.name.text; };
+    const auto at = [](const auto& entry) { return entry.at.text; };
+    const auto coordinate = [](const auto& entry) { return entry.coordinate.text; };
+    const auto none = [](const auto&) { return std::string(); };
+    const auto generalized = [](std::vector<Load>& to) {
+        return [&to](Building& b, const GeneralizedForce& f, const Origin& origin) {
+            add_generalized(b, to, f, origin);
+        };
+    };
+    each(here, Kind::particle, s.particles, name, add_particle);
+    each(here, Kind::body, s.bodies, name, add_body);
     add_joints(here);
-    add_links(here);
-    add_forces(here);
-    add_impulses(here);
-    add_energy(here);
+    each(here, Kind::spring, s.springs, none, add_spring);
+    each(here, Kind::damper, s.dampers, none, add_damper);
+    each(here, Kind::force, s.forces, at, add_force);
+    each(
+        here, Kind::torque, s.torques, [](const Torque& tau) { return tau.on.text; }, add_torque);
+    each(here, Kind::impulse, s.impulses, at, add_impulse);
+    each(here, Kind::generalized_impulse, s.generalized_impulses, coordinate, generalized(here.m.impulses));
+    add_energies(here);
+    each(here, Kind::generalized_force, s.generalized_forces, coordinate, generalized(here.m.loads));
 }
 
 }  // namespace alembert

@@ -16,20 +16,21 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "model/origin.hpp"
 #include "model/skeleton.hpp"
 
 namespace alembert {
 
 /// One body's share of T, one spring's of V …
 struct Part {
-    std::string label;  ///< "particle M1", "spring 2", "gravity on M1"
+    Origin origin;
     GiNaC::ex value;
 };
 
 /// A load that is not in V, as what it does: forces times velocities. Its generalized force is
 /// Q_i = Σ force · ∂velocity/∂q'_i, its power Σ force · velocity.
 struct Load {
-    std::string label;
+    Origin origin;
     bool dissipative = false;  ///< a damper or Rayleigh's function: a textbook keeps it on the left
     struct Pair {
         GiNaC::ex velocity, force;
@@ -40,7 +41,7 @@ struct Load {
 
 /// A particle or a body as Newton and Euler see it, for the formalisms that do not start from T.
 struct MassElement {
-    std::string label;
+    Origin origin;
     GiNaC::ex mass;
     Vector3 position, velocity;  ///< of the mass centre
     struct Rotation {
@@ -73,7 +74,7 @@ struct JointArc {
 
 /// A spring as forces: between two points, or along an expression.
 struct SpringElement {
-    std::string label;
+    Origin origin;
     GiNaC::ex stiffness, free_length;
     std::optional<std::pair<Vector3, Vector3>> between = {};  ///< positions of its ends
     GiNaC::ex along = 0;
@@ -117,7 +118,7 @@ struct Mechanism {
         GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
         Place place;
-        bool closes_loop = false;             ///< a row of a joint: that it follows from others is nothing to warn of
+        std::optional<int> joint = {};        ///< position in `joints` of the one whose loop the row closes
         bool norm = false;                    ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
@@ -153,7 +154,7 @@ struct Mechanism {
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
     std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
     std::vector<Unilateral> unilateral;
-    std::vector<Part> outputs, events;
+    std::vector<Definition> outputs, events;
 
     /// What a zero of an event does, beside being told.
     struct Occasion {

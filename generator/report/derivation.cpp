@@ -123,7 +123,7 @@ std::string as_page(const DerivedScene& d, const PageOptions& options) {
     blocks.push_back({fmt::format("Equations of motion ({}{}):",
                                   shown.title,
                                   !d.by.empty()        ? ""
-                                  : !d.equations.h.empty() ? "; the scene has generalized speeds"
+                                  : !d.equations.speeds_are_rates() ? "; the scene has generalized speeds"
                                   : free && d.has_unilateral_reactions ? "; the coordinates are independent while all gaps are open"
                                   : free              ? "; the coordinates are independent"
                                                       : "; the coordinates are not independent"),

@@ -21,7 +21,7 @@ const char* word(ContactEvent::Kind kind) {
 
 Json json_of(const EventRecord& event, const Mechanism& m) {
     const auto k = static_cast<std::size_t>(event.index);
-    Json result{{"name", m.events[k].label}, {"time", event.time}};
+    Json result{{"name", m.events[k].name}, {"time", event.time}};
     if (event.impulse.empty()) return result;
     result["impulses"] = Json::object();
     for (std::size_t i = 0; i < event.impulse.size(); ++i)
@@ -38,7 +38,7 @@ std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) 
             i = events.size() - 1;
         }
         const EventRecord& event = events[i];
-        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].label, event.time,
+        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name, event.time,
                             event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
     }
     return text;

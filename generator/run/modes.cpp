@@ -55,7 +55,7 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
         b.qddot = a.qddot;
         return kicks.passed(a, b);
     };
-    if (!d.equations.h.empty()) contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
+    if (!d.equations.speeds_are_rates()) contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
     return contacts;
 }
 

@@ -130,7 +130,7 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     }
 
     start.state = q;
-    if (equations.h.empty()) {
+    if (equations.speeds_are_rates()) {
         start.state.insert(start.state.end(), u.begin(), u.end());
     } else if (speeds_given) {
         start.state.insert(start.state.end(), speeds.begin(), speeds.end());

@@ -56,7 +56,7 @@ std::vector<std::string> columns_of(const Mechanism& m, const Program& program, 
         for (const Mechanism::Constraint& c : *list) columns.push_back(c.multiplier.get_name());
     for (const Mechanism::Unilateral& c : m.unilateral) columns.push_back(c.gap.multiplier.get_name());
     columns.emplace_back("energy");
-    for (const Part& output : m.outputs) columns.push_back(output.label);
+    for (const Mechanism::Definition& output : m.outputs) columns.push_back(output.name);
     for (const Root& root : program.roots)
         if (root.group == Group::speed) columns.push_back(root.name);
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)

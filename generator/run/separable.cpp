@@ -7,7 +7,7 @@ namespace alembert {
 
 std::optional<std::string> inseparable(const Derived& d) {
     const Equations& e = d.equations;
-    if (!e.h.empty()) return "the equations are in generalized speeds";
+    if (!e.speeds_are_rates()) return "the equations are in generalized speeds";
     if (!d.mechanism.constraints.empty() || !d.mechanism.unilateral.empty()) return "there are constraints";
     std::vector<GiNaC::symbol> moving = e.q;
     moving.insert(moving.end(), e.u.begin(), e.u.end());

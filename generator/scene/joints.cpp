@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <utility>
 
-#include "scene/placing.hpp"
+#include "scene/joint_moves.hpp"
 #include "scene/tables.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
 namespace {
 
-using Type = Joint::Type;
-
 void read_type(const Table& table, Joint& joint) {
     const Name type = table.needed_name("type");
     if (type.place.line == 0) return;
-    for (std::size_t i = 0; i < joint_types().size(); ++i)
-        if (joint_types()[i] == type.text) {
-            joint.type = static_cast<Type>(i);
-            return;
-        }
+    if (const std::optional<Joint::Type> known = joint_type_named(type.text)) {
+        joint.type = *known;
+        return;
+    }
     const std::string meant = nearest(type.text, joint_types());
     table.reading().complain(
         type.place, fmt::format("unknown type {} of joint; {}", in_quotes(type.text),
@@ -43,27 +40,25 @@ void read_axis(const Table& table, Joint& joint) {
     joint.axis.letter = 'z';
     const Entry* const entry = table.find("axis");
     if (!entry) return;
-    const bool has_axis = joint.type == Type::revolute || joint.type == Type::prismatic ||
-                          joint.type == Type::cylindrical || joint.type == Type::screw;
-    if (!has_axis)
+    if (!moves_of(joint.type).has_axis())
         return table.complain("axis", fmt::format("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
                                                   "'parent_rotate' and 'child_rotate'",
-                                                  joint_types()[static_cast<std::size_t>(joint.type)]));
+                                                  moves_of(joint.type).name));
     joint.axis = alembert::read_axis(table.reading(), *entry->node);
 }
 
 void read_pitch(const Table& table, Joint& joint) {
-    if (joint.type == Type::screw)
+    if (moves_of(joint.type).has(Move::Kind::screw))
         joint.pitch = table.needed_expression("pitch");
     else if (table.has("pitch"))
         table.complain("pitch", fmt::format("'pitch' belongs to a screw; {} is {}", table.title(),
-                                            joint_types()[static_cast<std::size_t>(joint.type)]));
+                                            moves_of(joint.type).name));
 }
 
 void read_angles(const Table& table, Joint& joint) {
     const Entry* const entry = table.find("angles");
     if (!entry) return;
-    if (joint.type != Type::spherical && joint.type != Type::free)
+    if (!moves_of(joint.type).has(Move::Kind::turn_in_space))
         return table.complain("angles", "'angles' belongs to a spherical or a free joint; the others have angles of their own");
     joint.angles = table.text("angles");
     if (joint.angles.empty()) return;

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "scene/functions.hpp"
-#include "scene/placing.hpp"
+#include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/text.hpp"
 

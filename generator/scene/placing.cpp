@@ -7,13 +7,12 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "scene/joint_moves.hpp"
 #include "scene/quaternions.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
 namespace {
-
-using Type = Joint::Type;
 
 class Placing {
 public:
@@ -91,7 +90,7 @@ private:
 
     void check_coordinates(const Joint& joint) {
         const std::string name = in_quotes(joint.name.text);
-        const std::string& type = joint_types()[static_cast<std::size_t>(joint.type)];
+        const JointMoves& moves = moves_of(joint.type);
         const std::size_t needed = coordinates_of(joint), given = joint.coordinates.size();
         if (!joint.places_child) {
             if (!joint.closes_loop) return;
@@ -107,17 +106,16 @@ private:
             return;
         }
         const Place place = given > 0 ? joint.coordinates.front().place : joint.name.place;
-        const bool turns_in_space = joint.type == Type::spherical || joint.type == Type::free;
-        const std::size_t shifts = joint.type == Type::free ? 3 : 0;
-        if (turns_in_space && joint.angles.empty() && given == shifts + 3)
+        const bool by_quaternion = moves.has(Move::Kind::turn_in_space) && joint.angles.empty();
+        if (by_quaternion && given == moves.before_turn_in_space() + 3)
             complain(place, fmt::format("joint {} has three angles; say about which axes, in this order, with angles = "
                                         "\"zxz\" (or another sequence)",
                                         name));
         else if (given != needed)
-            complain(place, fmt::format("joint {} is {} and places body {}: it has {} coordinate{}; expected {}{}", name, type,
+            complain(place, fmt::format("joint {} is {} and places body {}: it has {} coordinate{}; expected {}{}", name, moves.name,
                                         in_quotes((*joint.places_child ? joint.child : joint.parent).body.text), given,
-                                        given == 1 ? "" : "s", needed, meaning(joint)));
-        else if (turns_in_space && joint.angles.empty())
+                                        given == 1 ? "" : "s", needed, meaning_of_coordinates(joint)));
+        else if (by_quaternion)
             check_quaternion(joint);
     }
 
@@ -137,17 +135,6 @@ private:
     std::string placed_by(const Joint& joint) const {
         const Body& body = *bodies_.at(joint.child.body.text == "N" ? joint.parent.body.text : joint.child.body.text);
         return body.joint ? "joint " + in_quotes(scene_.joints[*body.joint].name.text) : std::string("its own position");
-    }
-
-    static std::string meaning(const Joint& joint) {
-        switch (joint.type) {
-            case Type::cylindrical: return ": the turn, then the shift";
-            case Type::universal: return ": the turns about x, then y";
-            case Type::planar: return ": x, y, then the turn";
-            case Type::spherical: return joint.angles.empty() ? ": a quaternion, scalar first (or three, with 'angles')" : ": the three angles";
-            case Type::free: return joint.angles.empty() ? ": x, y, z and a quaternion (or three angles, with 'angles')" : ": x, y, z and the three angles";
-            default: return "";
-        }
     }
 
     /// A body that a joint places has no frame of its own, nor half a position.
@@ -204,38 +191,6 @@ private:
 };
 
 }  // namespace
-
-const std::vector<std::string>& joint_types() {
-    static const std::vector<std::string> names{"fixed",     "revolute", "prismatic", "cylindrical", "universal",
-                                                "spherical", "planar",   "screw",     "free"};
-    return names;
-}
-
-std::size_t coordinates_of(const Joint& joint) {
-    switch (joint.type) {
-        case Type::fixed: return 0;
-        case Type::cylindrical:
-        case Type::universal: return 2;
-        case Type::planar: return 3;
-        case Type::spherical: return joint.angles.empty() ? 4 : 3;
-        case Type::free: return joint.angles.empty() ? 7 : 6;
-        default: return 1;
-    }
-}
-
-int locked_directions(Type type) {
-    switch (type) {
-        case Type::fixed: return 6;
-        case Type::revolute:
-        case Type::prismatic:
-        case Type::screw: return 5;
-        case Type::cylindrical:
-        case Type::universal: return 4;
-        case Type::spherical:
-        case Type::planar: return 3;
-        default: return 0;
-    }
-}
 
 void place_by_joints(Scene& scene, std::vector<Diagnostic>& diagnostics) {
     if (!scene.joints.empty()) Placing(scene, diagnostics).place();

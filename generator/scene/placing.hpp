@@ -14,15 +14,6 @@
 
 namespace alembert {
 
-/// Names of the types, in the order of Joint::Type.
-const std::vector<std::string>& joint_types();
-
-/// Coordinates that a joint of this type has, where it places a body.
-std::size_t coordinates_of(const Joint& joint);
-
-/// Rows of a joint that closes a loop.
-int locked_directions(Joint::Type type);
-
 /// Fills in Joint::places_child and Body::joint; tells unknown bodies, bodies that nothing places or that are placed
 /// twice, joints in a circle, and wrong numbers of coordinates.
 void place_by_joints(Scene& scene, std::vector<Diagnostic>& diagnostics);

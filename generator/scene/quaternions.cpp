@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "scene/joint_moves.hpp"
+
 namespace alembert {
 
 std::vector<Name> quaternion_of(const Joint& joint) {
-    const bool turns = joint.type == Joint::Type::spherical || joint.type == Joint::Type::free;
-    const std::size_t first = joint.type == Joint::Type::free ? 3 : 0;
-    if (!turns || !joint.angles.empty() || joint.coordinates.size() != first + 4) return {};
+    const JointMoves& moves = moves_of(joint.type);
+    const std::size_t first = moves.before_turn_in_space();
+    if (!moves.has(Move::Kind::turn_in_space) || !joint.angles.empty() || joint.coordinates.size() != first + 4) return {};
     return {joint.coordinates.begin() + static_cast<std::ptrdiff_t>(first), joint.coordinates.end()};
 }
 

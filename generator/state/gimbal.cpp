@@ -42,12 +42,11 @@ std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, c
     State<double> here = state;
     here.qdot.assign(m.q.size(), 0);
     Program program = lower_constraints(m);
-    for (const Body& body : scene.bodies) {
-        const auto element = std::find_if(m.masses.begin(), m.masses.end(),
-                                          [&](const MassElement& e) { return e.rotation && e.label == "body " + body.name.text; });
-        if (element == m.masses.end()) continue;
+    for (const MassElement& element : m.masses) {
+        if (element.origin.kind != Origin::Kind::body || !element.rotation) continue;
+        const Body& body = scene.bodies[static_cast<std::size_t>(element.origin.index)];
         std::vector<GiNaC::ex> entries;
-        for (const GiNaC::ex& w : element->rotation->w_NB_B) {
+        for (const GiNaC::ex& w : element.rotation->w_NB_B) {
             const std::vector<GiNaC::ex> row = m.z->pull_back({{w, 1}}, m.qdot);
             entries.insert(entries.end(), row.begin(), row.end());
         }

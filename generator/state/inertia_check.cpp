@@ -29,13 +29,13 @@ std::vector<Diagnostic> inertia_findings(const Scene& scene, const Mechanism& m,
     std::vector<Diagnostic> found;
     std::size_t next = 0;
     for (const MassElement& element : m.masses) {
-        const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                       [&](const Body& b) { return element.label == "body " + b.name.text; });
+        const auto body = element.origin.kind == Origin::Kind::body ? scene.bodies.begin() + element.origin.index
+                                                                    : scene.bodies.end();
         const Place place = body != scene.bodies.end() && body->inertia ? body->inertia->place
                             : body != scene.bodies.end()                ? body->name.place
                                                                         : Place{};
         if (const double mass = value[nodes[next++]]; mass < 0)
-            found.push_back({place, fmt::format("the mass of {} is {}; expected zero or more", element.label, mass)});
+            found.push_back({place, fmt::format("the mass of {} is {}; expected zero or more", label(element.origin), mass)});
         if (!element.rotation) continue;
         std::array<double, 6> I;
         for (double& entry : I) entry = value[nodes[next++]];

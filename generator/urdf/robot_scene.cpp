@@ -100,7 +100,7 @@ public:
         }
         if (std::none_of(robot_.links.begin(), robot_.links.end(), [](const Robot::Link& l) { return l.mass != 0 || !l.inertia.isZero(0); }))
             throw ModelError("no link of this robot has a mass, so that no joint moves a mass; expected <inertial> with <mass> and <inertia> in the links (meshes alone have none)");
-        if (result_.coordinates.empty()) throw ModelError("this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or floating one, or --floating");
+        if (result_.coordinates.empty()) throw ModelError("this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or floating one, or a root that floats");
         result_.text += joints_ + dampers_;
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
         return std::move(result_);

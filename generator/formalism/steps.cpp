@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "formalism/steps.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double largest_tree = 30000;  // nodes, written out
+constexpr std::size_t most_terms = 150;
+
+}  // namespace
+
+Phrase StepWriter::symbol_of(const GiNaC::symbol& symbol) const {
+    return phrases::symbol(symbol, m_.symbols->info(symbol));
+}
+
+Phrase StepWriter::letter(const std::string& name) {
+    const GiNaC::symbol s(name);
+    return phrases::symbol(s, {.name = name});
+}
+
+Phrase StepWriter::rate(const GiNaC::symbol& momentum) const {
+    SymbolInfo info = m_.symbols->info(momentum);
+    info.order = 1;
+    return phrases::symbol(momentum, info);
+}
+
+std::optional<Fourier> StepWriter::normal(const ex& e) const {
+    if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
+    std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
+    if (f && f->size() > most_terms) return std::nullopt;
+    return f;
+}
+
+void StepWriter::equality(Section& section, const Phrase& left, const ex& value) const {
+    if (const auto f = normal(value)) section.equalities.emplace_back(left, readable(*f));
+}
+
+void StepWriter::statement(Section& section, const std::string& letter, const std::string& of,
+                           const ex& value) const {
+    if (const auto f = normal(value))
+        section.statements.push_back({Statement::Kind::energy, letter, of, {}, readable(*f)});
+}
+
+void StepWriter::partial(Section& section, const std::string& of, const GiNaC::symbol& by, const ex& value) const {
+    if (value.is_zero()) return;
+    if (const auto f = normal(value))
+        section.statements.push_back({Statement::Kind::partial, of, "", symbol_of(by), readable(*f)});
+}
+
+}  // namespace alembert

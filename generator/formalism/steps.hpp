@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What a formalism shows on its own way: words, then statements and equalities, in the notation of the page.
+///
+///     StepWriter write(mechanism);
+///     Section section{.words = "Hamilton's function, with p = dL/dq':"};
+///     write.equality(section, write.letter("H"), H);
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formalism/equations.hpp"
+#include "notation/readable.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+/// `letter` (of `of`) = value: "T of particle M1", "dL/dtheta1'", "Q of theta1".
+struct Statement {
+    enum class Kind { energy, partial, force, work, definition };
+    Kind kind = Kind::energy;
+    std::string letter;        ///< T, V, L, Q, δW
+    std::string of;            ///< a body, a load; may be empty
+    std::optional<Phrase> by;  ///< the variable of a partial derivative, the coordinate of a force
+    Phrase value;
+};
+
+struct Section {
+    std::string words;
+    std::vector<Statement> statements = {};
+    std::vector<std::pair<Phrase, Phrase>> equalities = {};
+};
+
+struct OwnSteps {
+    std::vector<Section> sections = {};
+    std::string title = {};                        ///< of `equations`
+    std::vector<ReadableEquation> equations = {};  ///< in place of the second-order ones; empty: those are shown
+};
+
+/// Writes values in normal form; what is beyond the readable size is left out.
+class StepWriter {
+public:
+    explicit StepWriter(const Mechanism& mechanism) : m_(mechanism) {}
+
+    Phrase symbol_of(const GiNaC::symbol& symbol) const;
+    /// A letter of the book that is no symbol of the scene: H, R.
+    static Phrase letter(const std::string& name);
+    /// p' of a momentum p.
+    Phrase rate(const GiNaC::symbol& momentum) const;
+    /// Nothing beyond the readable size.
+    std::optional<Fourier> normal(const GiNaC::ex& e) const;
+
+    /// left = value
+    void equality(Section& section, const Phrase& left, const GiNaC::ex& value) const;
+    /// letter of `of` = value, zero included
+    void statement(Section& section, const std::string& letter, const std::string& of,
+                   const GiNaC::ex& value) const;
+    /// d`of`/d`by` = value, where it is not zero
+    void partial(Section& section, const std::string& of, const GiNaC::symbol& by, const GiNaC::ex& value) const;
+
+private:
+    const Mechanism& m_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The Gibbs-Appell equations against closed forms of nonholonomic systems and against other routes.
+#include <doctest/doctest.h>
+
+#include "agree/agree.hpp"
+#include "formalism/appell.hpp"
+#include "formalism/kane.hpp"
+#include "formalism/routh.hpp"
+#include "report/derivation.hpp"
+#include "notation/text.hpp"
+#include "scenes.hpp"
+
+using namespace alembert;
+
+namespace {
+
+Mechanism textbook(const std::string& name) {
+    return build(read_scene(test::source_path("scenes/textbook/" + name + ".toml")));
+}
+
+std::string equations_of(const Mechanism& m, const Equations& equations) {
+    const Derivation shown = derivation_of(m, equations);
+    std::string result;
+    for (const ReadableEquation& e : shown.equations) result += text(e.lhs) + " = " + text(e.rhs) + "\n";
+    for (const auto& [rate, value] : shown.kinematics) result += text(rate) + " = " + text(value) + "\n";
+    return result;
+}
+
+}  // namespace
+
+// Chaplygin's sleigh, a the distance from the blade to the mass centre: v' = a w², (J + m a²) w' = −m a v w
+// (Neimark & Fufaev, Dynamics of Nonholonomic Systems (1972)).
+TEST_CASE("appell: the sleigh's equations are the closed ones, without a multiplier") {
+    const Mechanism m = textbook("chaplygin_sleigh_in_speeds");
+    const Equations e = appell(m);
+    CHECK(e.A.empty());
+    CHECK(e.poles.empty());
+    CHECK(equations_of(m, e) ==
+          "v' - a*w^2 = 0\n(J+m*a^2)*w' + m*a*v*w = 0\nx' = v*cos(phi)\ny' = v*sin(phi)\nphi' = w\n");
+}
+
+// S = m ((v' − a w²)² + (a w' + v w)²)/2 + J w'²/2.
+TEST_CASE("appell: the sleigh's S is differentiated by its accelerations") {
+    const Mechanism m = textbook("chaplygin_sleigh_in_speeds");
+    const OwnSteps steps = steps_of_appell(m, appell(m));
+    REQUIRE(steps.sections.size() == 2);
+    REQUIRE(steps.sections[0].equalities.size() == 1);
+    std::vector<std::string> slopes;
+    for (const Statement& s : steps.sections[1].statements)
+        if (s.kind == Statement::Kind::partial) slopes.push_back(text(*s.by) + ": " + text(s.value));
+    CHECK(slopes == std::vector<std::string>{"v': m*v' - m*a*w^2", "w': (J+m*a^2)*w' + m*a*v*w"});
+}
+
+// A disc that rolls in space turns about three axes: α·(ω × I ω) is in it.
+TEST_CASE("appell: the rolling disc in space is that of Routh's and Kane's equations") {
+    const Mechanism m = textbook("rolling_disc_in_space");
+    const Equations e = appell(m);
+    CHECK(e.A.empty());
+    CHECK(agree({routh(m), e, kane(m)}, m).verdict == Agreement::Verdict::proved);
+}
+
+TEST_CASE("appell: energies without bodies have no accelerations") {
+    CHECK(obstacle_to_appell(textbook("rolling_disc")).value().find("[energy] kinetic") != std::string::npos);
+}
