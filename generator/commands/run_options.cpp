@@ -14,9 +14,11 @@ double longest_step(const Request& request, const Start& start) {
 Options options_of(const Request& request, const MethodChoice& choice, const Start& start) {
     const bool fixed = has_fixed_step(choice.method) && choice.foreign.empty();
     if (fixed && request.max_step >= 0)
-        throw ModelError(fmt::format("--max-step {:g}: {} has a fixed step, which --step gives; methods that choose their steps (dop853, radau …) take "
-                                     "--max-step",
-                                     request.max_step, name(choice.method)));
+        throw ModelError(
+            fmt::format("--max-step {:g}: {} has a fixed step, which --step gives; methods that choose their "
+                        "steps (dop853, radau …) take "
+                        "--max-step",
+                        request.max_step, name(choice.method)));
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     return {.method = choice.method,
             .start = start.t,

@@ -11,7 +11,8 @@ namespace alembert {
 /// The longest step allowed (s; 0: no bound): the command line's wish, else the scene's.
 double longest_step(const Request& request, const Start& start);
 
-/// The scene's wishes, those of the command line first. Throws ModelError for --max-step with a method that has a fixed step.
+/// The scene's wishes, those of the command line first. Throws ModelError for --max-step with a method that has a
+/// fixed step.
 Options options_of(const Request& request, const MethodChoice& choice, const Start& start);
 
 }  // namespace alembert
