@@ -203,7 +203,7 @@ int simulate(const Request& request) {
                 [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                     if (account.closed) return;
                     account.drift(mode.module.table(), mode.par, t, state, rate);
-                    account.poses(t, state, start.q.size(), first.qdot.size());
+                    if (request.estimate) account.poses(t, state, start.q.size(), first.qdot.size());
                     if (mode.contact.project)
                         account.constraint_drift =
                             std::max(account.constraint_drift, mode.projection.residual(t, state.data()));
