@@ -16,7 +16,7 @@
 ///
 /// What is not found: pulses narrower than a 2000th of the run whose place no zero or turning point tells, and
 /// those whose time depends on the state too, as in exp(-((t - x/c)/w)^2). For these there is max_step. Where more
-/// than some 10⁵ pieces would be needed the result is empty: such an input changes everywhere, and steps see it.
+/// than some 10⁴ pieces would be needed the result is empty: such an input changes everywhere, and steps see it.
 
 #include <vector>
 
