@@ -14,17 +14,24 @@ using Json = nlohmann::json;
 
 namespace {
 
-std::string written(const std::string& text) { return temporary("trust.toml", text); }
+std::string written(const std::string& text) {
+    return temporary("trust.toml", text);
+}
 
 /// m x'' = F(t) − k x with m = k = 1, from the state given, 20 s.
 std::string oscillator(const std::string& input, const std::string& initial = "0") {
-    return written("[parameters]\nm = 1\nk = 1\nw = 1e-3\n[coordinates]\nx = { initial = " + initial + ", unit = \"m\" }\n[inputs]\nF = \"" + input +
-                   "\"\n[forces]\nx = \"F - k*x\"\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", 0]\n[simulation]\nduration = 20\n");
+    return written("[parameters]\nm = 1\nk = 1\nw = 1e-3\n[coordinates]\nx = { initial = " + initial +
+                   ", unit = \"m\" }\n[inputs]\nF = \"" + input +
+                   "\"\n[forces]\nx = \"F - k*x\"\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", "
+                   "0]\n[simulation]\nduration = 20\n");
 }
 
 std::string pendulum(const std::string& initial) {
-    return written("gravity = [0, \"-g\"]\n[parameters]\nm = 1\ng = 9.81\nl = 1\n[coordinates]\ntheta = { initial = " + initial +
-                   ", unit = \"rad\" }\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"l*sin(theta)\", \"-l*cos(theta)\"]\n[simulation]\nduration = 20\n");
+    return written(
+        "gravity = [0, \"-g\"]\n[parameters]\nm = 1\ng = 9.81\nl = 1\n[coordinates]\ntheta = { initial = " +
+        initial +
+        ", unit = \"rad\" }\n[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"l*sin(theta)\", "
+        "\"-l*cos(theta)\"]\n[simulation]\nduration = 20\n");
 }
 
 Json simulated(const std::string& scene, std::vector<std::string> options = {}) {
@@ -35,17 +42,24 @@ Json simulated(const std::string& scene, std::vector<std::string> options = {}) 
     return Json::parse(result.out);
 }
 
-bool trusted(const Json& result) { return result["error_estimate"]["trustworthy"].get<bool>(); }
-double at_end(const Json& result, const std::string& name) { return result["final"]["coordinates"][name].get<double>(); }
+bool trusted(const Json& result) {
+    return result["error_estimate"]["trustworthy"].get<bool>();
+}
+double at_end(const Json& result, const std::string& name) {
+    return result["final"]["coordinates"][name].get<double>();
+}
 
 }  // namespace
 
 // ∫ exp(−(s/w)²) sin(T − 5 − s) ds = w √π exp(−w²/4) sin(T − 5), T = 20: the pulse is over long before.
-TEST_CASE("simulate: no method that chooses its steps passes over a narrow pulse, wherever it is and however narrow") {
+TEST_CASE(
+    "simulate: no method that chooses its steps passes over a narrow pulse, wherever it is and however narrow") {
     for (const double w : {1e-2, 1e-3, 1e-6}) {
         const double exact = w * std::sqrt(M_PI) * std::exp(-w * w / 4) * std::sin(15.0);
-        for (const char* const method : {"auto", "dopri5", "dop853", "verner98", "abm", "bdf", "radau", "taylor"}) {
-            const Json result = simulated(oscillator(fmt::format("exp(-((t-5)/{})^2)", w)), {"--method", method, "--tolerance", "1e-10"});
+        for (const char* const method :
+             {"auto", "dopri5", "dop853", "verner98", "abm", "bdf", "radau", "taylor"}) {
+            const Json result = simulated(oscillator(fmt::format("exp(-((t-5)/{})^2)", w)),
+                                          {"--method", method, "--tolerance", "1e-10"});
             CAPTURE(w);
             CAPTURE(method);
             CHECK(std::abs(at_end(result, "x") - exact) < 1e-6);
@@ -54,7 +68,8 @@ TEST_CASE("simulate: no method that chooses its steps passes over a narrow pulse
     }
 }
 
-// A box from 7.3 to 7.301 s: x(20) = ∫ sin(20 − s) ds. A triangle of half the width w about 7.3: w sin(12.7) (1 + O(w²)).
+// A box from 7.3 to 7.301 s: x(20) = ∫ sin(20 − s) ds. A triangle of half the width w about 7.3: w sin(12.7) (1 +
+// O(w²)).
 TEST_CASE("simulate: switches and triangles by sign, abs and max are met, and cost no long way in short steps") {
     const Json box = simulated(oscillator("(sign(t-7.3) - sign(t-7.301))/2"));
     CHECK(std::abs(at_end(box, "x") - (std::cos(20 - 7.301) - std::cos(20 - 7.3))) < 1e-8);
@@ -64,7 +79,8 @@ TEST_CASE("simulate: switches and triangles by sign, abs and max are met, and co
     // The same pulse with the square multiplied out, and one that is zero where its argument is.
     const Json square = simulated(oscillator("exp(-(t^2 - 10*t + 25)/w^2)"));
     CHECK(std::abs(at_end(square, "x") - 1e-3 * std::sqrt(M_PI) * std::sin(15.0)) < 1e-7);
-    const Json odd = simulated(oscillator("(t-5)/w*exp(-((t-5)/w)^2)"));  // ∫ s/w exp(−(s/w)²) sin(15 − s) ds = −w² √π/2 cos 15
+    const Json odd =
+        simulated(oscillator("(t-5)/w*exp(-((t-5)/w)^2)"));  // ∫ s/w exp(−(s/w)²) sin(15 − s) ds = −w² √π/2 cos 15
     CHECK(std::abs(at_end(odd, "x") + 1e-6 * std::sqrt(M_PI) / 2 * std::cos(15.0)) < 1e-8);
 }
 
@@ -73,7 +89,8 @@ TEST_CASE("sweep: no member passes over the narrow pulse that its own parameters
     const auto result = run({"sweep", scene, "--json", "--vary", "w=1e-3:4e-3:4"});
     REQUIRE(result.exit == 0);
     for (const Json& row : Json::parse(result.out)["rows"]) {
-        const double w = row["varied"]["w"].get<double>(), exact = w * std::sqrt(M_PI) * std::exp(-w * w / 4) * std::sin(15.0);
+        const double w = row["varied"]["w"].get<double>(),
+                     exact = w * std::sqrt(M_PI) * std::exp(-w * w / 4) * std::sin(15.0);
         CHECK(std::abs(row["final"]["coordinates"]["x"].get<double>() - exact) < 1e-7);
     }
 }
@@ -87,7 +104,9 @@ TEST_CASE("simulate: no step is longer than max_step, of the scene or of the com
     const auto refused = run({"simulate", scene, "--method", "rk4", "--step", "0.1", "--max-step", "0.01"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("--max-step 0.01: rk4 has a fixed step") != std::string::npos);
-    const std::string slow = written("[coordinates]\nx = 1\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n[simulation]\nduration = 1\nmax_step = \"1/100\"\n");
+    const std::string slow = written(
+        "[coordinates]\nx = 1\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", "
+        "0]\n[simulation]\nduration = 1\nmax_step = \"1/100\"\n");
     CHECK(simulated(slow)["steps"].get<int>() >= 100);
     CHECK(simulated(slow, {"--max-step", "0.001"})["steps"].get<int>() >= 1000);
     CHECK(simulated(slow, {"--method", "rk4", "--step", "0.5"})["steps"].get<int>() == 2);
@@ -99,9 +118,15 @@ TEST_CASE("simulate: a motion of any size is trusted where it has two digits, an
         CAPTURE(initial);
         const double size = std::stod(initial);
         const auto good = [&](double exact, double end) { return std::abs(end - exact) <= 1e-2 * size; };
-        for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-                 {}, {"--tolerance", "1e-6"}, {"--tolerance", "1e-3"}, {"--tolerance", "1e-20"}, {"--method", "euler", "--step", "0.05"},
-                 {"--method", "rk4", "--step", "0.01"}, {"--method", "rk4", "--step", "50"}, {"--method", "radau", "--tolerance", "1e-9"}}) {
+        for (const std::vector<std::string>& options :
+             std::vector<std::vector<std::string>>{{},
+                                                   {"--tolerance", "1e-6"},
+                                                   {"--tolerance", "1e-3"},
+                                                   {"--tolerance", "1e-20"},
+                                                   {"--method", "euler", "--step", "0.05"},
+                                                   {"--method", "rk4", "--step", "0.01"},
+                                                   {"--method", "rk4", "--step", "50"},
+                                                   {"--method", "radau", "--tolerance", "1e-9"}}) {
             CAPTURE(options);
             const Json result = simulated(oscillator("0*t", initial), options);
             if (trusted(result)) CHECK(good(size * std::cos(20.0), at_end(result, "x")));

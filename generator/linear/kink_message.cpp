@@ -48,7 +48,7 @@ private:
         std::vector<GiNaC::symbol> unknown;
         for (const Mechanism::Input& input : m_.inputs)
             unknown.insert(unknown.end(), input.derivative.begin(), input.derivative.end());
-        const bool in_rates = e_.h.empty() || &program != &r_.program;
+        const bool in_rates = e_.speeds_are_rates() || &program != &r_.program;
         const auto value = in_rates || r_.s <= r_.n ? expression_of(program, id, m_, unknown) : std::nullopt;
         if (!value) return fmt::format("{}(…)", name_of(program[id].op));
         GiNaC::exmap speeds;
@@ -61,15 +61,15 @@ private:
     /// `functions`, or all where these appear by differentiation alone, as sign(x) of abs(x), and no change where
     /// there are none.
     void in_the_scene(std::vector<std::string>& functions, std::vector<std::string>& labels) const {
-        std::vector<Part> parts;
+        std::vector<std::pair<std::string, GiNaC::ex>> parts;  // label, value
         for (const auto* list : {&m_.kinetic, &m_.potential})
-            parts.insert(parts.end(), list->begin(), list->end());
-        if (m_.given_lagrangian) parts.push_back({"the Lagrangian", *m_.given_lagrangian});
+            for (const Part& part : *list) parts.emplace_back(label(part.origin), part.value);
+        if (m_.given_lagrangian) parts.emplace_back("the Lagrangian", *m_.given_lagrangian);
         for (const Load& load : m_.loads)
             for (const Load::Pair& pair : load.pairs)
-                for (const GiNaC::ex& value : {pair.force, pair.velocity}) parts.push_back({load.label, value});
+                for (const GiNaC::ex& value : {pair.force, pair.velocity}) parts.emplace_back(label(load.origin), value);
         std::vector<GiNaC::ex> values;
-        for (const Part& part : parts) values.push_back(part.value);
+        for (const auto& part : parts) values.push_back(part.second);
         Program program = begun(m_);
         const std::vector<int> nodes = lower_expressions(program, m_, values);
         State<Germ> state;
@@ -82,14 +82,14 @@ private:
         std::vector<std::pair<std::string, std::string>> found;  // function, label
         for (std::size_t k = 0; k < nodes.size(); ++k)
             for (const int id : critical_nodes(program, std::vector<int>{nodes[k]}, value))
-                found.emplace_back(text_of(program, id), parts[k].label);
+                found.emplace_back(text_of(program, id), parts[k].first);
         const auto is_known = [&](const auto& item) {
             return std::find(functions.begin(), functions.end(), item.first) != functions.end();
         };
         if (std::any_of(found.begin(), found.end(), is_known))
             std::erase_if(found, [&](const auto& item) { return !is_known(item); });
         if (!found.empty()) functions.clear();
-        for (const auto& [function, label] : found) add(functions, function), add(labels, label);
+        for (const auto& [function, of] : found) add(functions, function), add(labels, of);
     }
 
     /// "x = 0, y' = 1": of the variables in these functions.

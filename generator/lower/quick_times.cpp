@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A piece is described by the cubic polynomial through its values at 0, 1/3, 2/3 and 1, held against those at 1/6, 1/2 and 5/6 and against
-// all others that are known in it.
+// A piece is described by the cubic polynomial through its values at 0, 1/3, 2/3 and 1, held against those at 1/6,
+// 1/2 and 5/6 and against all others that are known in it.
 #include "lower/quick_times.hpp"
 
 #include <algorithm>
@@ -14,18 +14,21 @@ namespace alembert {
 
 namespace {
 
-constexpr int first_pieces = 2039;           // a prime, so that no period of an input is likely to be a multiple of a piece
-constexpr double misfit = 0.02;              // of a value's range
+constexpr int first_pieces = 2039;  // a prime, so that no period of an input is likely to be a multiple of a piece
+constexpr double misfit = 0.02;     // of a value's range
 constexpr double pieces_a_step = 2;
-constexpr double sudden = 3;                 // times shorter than the piece before
-constexpr double shortest = 1e-11;           // of the run
-constexpr long most_evaluations = 1'000'000;
-constexpr std::size_t most_marks = 4096;     // zeros and turning points
-constexpr int halvings = 44;                 // from one of the first pieces to the last digit of t
+constexpr double sudden = 3;        // times shorter than the piece before
+constexpr double shortest = 1e-11;  // of the run
+constexpr long most_evaluations = 300'000;  // some 20 ms
+constexpr std::size_t most_marks = 4096;  // zeros and turning points
+constexpr int halvings = 44;              // from one of the first pieces to the last digit of t
 
-constexpr unsigned bit(Variable::Kind kind) { return 1U << static_cast<unsigned>(kind); }
+constexpr unsigned bit(Variable::Kind kind) {
+    return 1U << static_cast<unsigned>(kind);
+}
 
-/// Nodes of the right-hand side and of events that contain t, and nothing else but parameters; t itself is not one of them.
+/// Nodes of the right-hand side and of events that contain t, and nothing else but parameters; t itself is not one
+/// of them.
 std::vector<int> inputs_of(const Program& program) {
     std::vector<int> roots = program.right_hand_side();
     const std::vector<int> events = program.nodes_of(Group::event);
@@ -33,14 +36,17 @@ std::vector<int> inputs_of(const Program& program) {
     std::vector<int> inputs;
     for (const int id : program.needed(roots)) {
         const unsigned depends = program[id].depends, time = bit(Variable::Kind::time);
-        if ((depends & time) != 0 && (depends & ~(time | bit(Variable::Kind::parameter))) == 0 && program[id].op != Op::variable) inputs.push_back(id);
+        if ((depends & time) != 0 && (depends & ~(time | bit(Variable::Kind::parameter))) == 0 &&
+            program[id].op != Op::variable)
+            inputs.push_back(id);
     }
     return inputs;
 }
 
 class Search {
 public:
-    Search(const Program& program, std::vector<int> inputs, const std::vector<double>& parameters, double start, double end)
+    Search(const Program& program, std::vector<int> inputs, const std::vector<double>& parameters, double start,
+           double end)
         : tape_(program, std::move(inputs), parameters), start_(start), end_(end) {}
 
     std::vector<QuickTime> go() {
@@ -55,11 +61,16 @@ public:
         double before = 0;
         for (const Piece& piece : pieces_) {
             const double length = piece.to - piece.from, reach = pieces_a_step * length;
-            // A long step has all but its last stages outside of what it ends in: it may not end where a pulse happens to be zero.
+            // A long step has all but its last stages outside of what it ends in: it may not end where a pulse
+            // happens to be zero.
             const bool is_sudden = piece.is_switch || before > sudden * length;
             before = length;
             if (reach >= end_ - start_) continue;
-            result.push_back({.from = piece.from, .to = piece.to, .enter = is_sudden ? 0 : reach, .step = piece.is_switch ? length : reach, .is_switch = piece.is_switch});
+            result.push_back({.from = piece.from,
+                              .to = piece.to,
+                              .enter = is_sudden ? 0 : reach,
+                              .step = piece.is_switch ? length : reach,
+                              .is_switch = piece.is_switch});
         }
         return is_over_budget() ? std::vector<QuickTime>() : result;
     }
@@ -91,15 +102,19 @@ private:
         for (std::size_t k = 0; k < tape_.size(); ++k)
             for (std::size_t i = 0; i + 1 < count && marks.size() < most_marks; ++i) {
                 const double a = known_[i].values[k], b = known_[i + 1].values[k];
-                if ((a < 0 && b > 0) || (a > 0 && b < 0)) marks.push_back(zero(k, known_[i].t, known_[i + 1].t, a));
+                if ((a < 0 && b > 0) || (a > 0 && b < 0))
+                    marks.push_back(zero(k, known_[i].t, known_[i + 1].t, a));
                 if (i == 0) continue;
                 const double before = known_[i - 1].values[k];
-                if ((a - before) * (b - a) < 0) marks.push_back(turn(k, known_[i - 1].t, known_[i + 1].t, a > before ? 1 : -1));
+                if ((a - before) * (b - a) < 0)
+                    marks.push_back(turn(k, known_[i - 1].t, known_[i + 1].t, a > before ? 1 : -1));
                 if (a == 0 && before != 0) marks.push_back(known_[i].t);
             }
         std::sort(marks.begin(), marks.end());
         const double piece = (end_ - start_) / first_pieces;
-        marks.erase(std::unique(marks.begin(), marks.end(), [&](double a, double b) { return b - a < 1e-9 * piece; }), marks.end());
+        marks.erase(
+            std::unique(marks.begin(), marks.end(), [&](double a, double b) { return b - a < 1e-9 * piece; }),
+            marks.end());
         for (const double t : marks) {
             known_.push_back(at(t));
             for (double away = piece / 4; away > shortest * (end_ - start_); away /= 4)
@@ -150,10 +165,12 @@ private:
 
     bool is_cubic(double from, double to) {
         std::array<Sample, 4> fixed;
-        for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = at(from + (to - from) * static_cast<double>(i) / 3);
+        for (std::size_t i = 0; i < fixed.size(); ++i)
+            fixed[i] = at(from + (to - from) * static_cast<double>(i) / 3);
         const auto fits = [&](const Sample& sample) {
             const double s = 3 * (sample.t - from) / (to - from);
-            const std::array<double, 4> weight = {-(s - 1) * (s - 2) * (s - 3) / 6, s * (s - 2) * (s - 3) / 2, -s * (s - 1) * (s - 3) / 2, s * (s - 1) * (s - 2) / 6};
+            const std::array<double, 4> weight = {-(s - 1) * (s - 2) * (s - 3) / 6, s * (s - 2) * (s - 3) / 2,
+                                                  -s * (s - 1) * (s - 3) / 2, s * (s - 1) * (s - 2) / 6};
             for (std::size_t k = 0; k < ranges_.size(); ++k) {
                 if (ranges_[k] == 0) continue;
                 double cubic = 0;
@@ -164,7 +181,8 @@ private:
         };
         for (const double place : {1. / 6, 0.5, 5. / 6})
             if (!fits(at(from + (to - from) * place))) return false;
-        const auto first = std::lower_bound(known_.begin(), known_.end(), from, [](const Sample& sample, double t) { return sample.t < t; });
+        const auto first = std::lower_bound(known_.begin(), known_.end(), from,
+                                            [](const Sample& sample, double t) { return sample.t < t; });
         for (auto sample = first; sample != known_.end() && sample->t <= to; ++sample)
             if (!fits(*sample)) return false;
         return true;
@@ -172,7 +190,8 @@ private:
 
     void divide(double from, double to) {
         if (is_over_budget()) return;
-        const double least = std::max(shortest * (end_ - start_), 256 * std::numeric_limits<double>::epsilon() * std::max(std::abs(from), std::abs(to)));
+        const double least = std::max(shortest * (end_ - start_), 256 * std::numeric_limits<double>::epsilon() *
+                                                                      std::max(std::abs(from), std::abs(to)));
         const bool is_short = to - from <= least, fits = is_cubic(from, to);
         if (fits || is_short) {
             pieces_.push_back({from, to, !fits});
@@ -182,14 +201,17 @@ private:
         divide((from + to) / 2, to);
     }
 
-    /// Halves leave pieces that are shorter than they need be, most of all beside a switch.
+    /// Halves leave pieces that are shorter than they need be, most of all beside a switch. Two of one length are left alone:
+    /// little would be won.
     void join() {
         std::vector<Piece> joined;
         for (const Piece& piece : pieces_) {
-            if (!joined.empty() && piece.is_switch && joined.back().is_switch)
-                joined.back().to = piece.to;
-            else if (!joined.empty() && !piece.is_switch && !joined.back().is_switch && is_cubic(joined.back().from, piece.to))
-                joined.back().to = piece.to;
+            Piece* const last = joined.empty() ? nullptr : &joined.back();
+            const bool is_uneven = last && std::abs((last->to - last->from) / (piece.to - piece.from) - 1) > 0.1;
+            const bool is_one = last && (piece.is_switch ? last->is_switch
+                                                         : !last->is_switch && is_uneven && is_cubic(last->from, piece.to));
+            if (is_one)
+                last->to = piece.to;
             else
                 joined.push_back(piece);
         }
@@ -206,7 +228,8 @@ private:
 
 }  // namespace
 
-std::vector<QuickTime> quick_times(const Program& program, const std::vector<double>& parameters, double start, double end) {
+std::vector<QuickTime> quick_times(const Program& program, const std::vector<double>& parameters, double start,
+                                   double end) {
     std::vector<int> inputs = inputs_of(program);
     if (inputs.empty() || !(end > start) || !std::isfinite(end - start)) return {};
     return Search(program, std::move(inputs), parameters, start, end).go();

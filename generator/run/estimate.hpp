@@ -7,20 +7,23 @@
 ///     estimate.value;          // max |y − y₂| / max(1, |y₂|) of coordinates and speeds at the end
 ///     estimate.scaled;         // max |y − y₂| / (how far components of its kind move), which sees a small motion too
 ///
-/// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and the largest |u| of their
-/// speeds, in the run that moves less. No motion counts as smaller than what rounding may be: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its
-/// kind (for speeds: of these coordinates, a duration), 1e-16.
+/// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and
+/// the largest |u| of their speeds, in the run that moves less. No motion counts as smaller than what rounding may
+/// be: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its kind (for speeds: of these
+/// coordinates, a duration), 1e-16.
 ///
-/// The second run has a tenth of the tolerance (half the step); where that takes more than four times the evaluations, because
-/// rounding limits the steps, it has ten times the tolerance, and the estimate is then that run's error. What both runs have in common
-/// (rounding of initial values and of the right-hand side, a wrong scene) it cannot see. Where an event stops both runs, each has its own end,
-/// and the difference of these times counts as one of the state does. A run of fewer than 16 fixed steps is held against one of a quarter
-/// of the step too, as two so coarse runs may agree by chance.
+/// The second run has a tenth of the tolerance (half the step); where that takes more than four times the
+/// evaluations, because rounding limits the steps, it has ten times the tolerance, and the estimate is then that
+/// run's error. What both runs have in common (rounding of initial values and of the right-hand side, a wrong
+/// scene) it cannot see. Where an event stops both runs, each has its own end, and the difference of these times
+/// counts as one of the state does. A run of fewer than 16 fixed steps is held against one of a quarter of the
+/// step too, as two so coarse runs may agree by chance.
 ///
-/// Where the estimate is 1000 times the tolerance or more, a third run from a state 1e-8 beside the first tells chaos from plain
-/// accumulation: the separation of the two grows exponentially if it gains e³ or more in the second half of the time in which
-/// it is below 0.01 (a power of time, k ≤ 3, gains 2^k). The Lyapunov exponent is the slope of its logarithm over that half;
-/// `horizon` is the time at which the difference of the first two runs reaches 0.1, found on the rows or extrapolated with the exponent.
+/// Where the estimate is 1000 times the tolerance or more, a third run from a state 1e-8 beside the first tells
+/// chaos from plain accumulation: the separation of the two grows exponentially if it gains e³ or more in the
+/// second half of the time in which it is below 0.01 (a power of time, k ≤ 3, gains 2^k). The Lyapunov exponent is
+/// the slope of its logarithm over that half; `horizon` is the time at which the difference of the first two runs
+/// reaches 0.1, found on the rows or extrapolated with the exponent.
 
 #include <functional>
 #include <optional>

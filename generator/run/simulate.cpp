@@ -93,7 +93,7 @@ private:
 
     void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) const {
         watch.drift(mode.module.table(), mode.par, t, state, rate);
-        watch.poses(t, state, start_.q.size(), first_.qdot.size());
+        if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
         if (mode.contact.project) watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
         // Telling it costs more than a step of a small system.
         if (wishes_.progress && ++watch.steps % 1000 == 0) wishes_.progress("integrating", (t - options_.start) / options_.duration);

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double two_digits = 1e-2, two_digits_of_energy = 2e-2, near = 0.1;
 
-/// The shortest time in which an input changes, switches left out: a step lands on neither side of these by chance.
+/// The shortest time in which an input changes, switches left out: a step lands on neither side of these by
+/// chance.
 const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
     const QuickTime* found = nullptr;
     for (const QuickTime& q : inputs)
@@ -23,7 +24,8 @@ const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
     return found;
 }
 
-/// The smallest eigenvalue of M (n×n, row-major) scaled to ones on its diagonal; nothing where it has no such form.
+/// The smallest eigenvalue of M (n×n, row-major) scaled to ones on its diagonal; nothing where it has no such
+/// form.
 std::optional<double> conditioning(const std::vector<double>& M, std::size_t n) {
     Eigen::MatrixXd scaled(n, n);
     for (std::size_t i = 0; i < n; ++i)
@@ -42,31 +44,44 @@ std::vector<std::string> doubts(const Evidence& e) {
     std::vector<std::string> reasons;
     if (!e.error.value) reasons.push_back(fmt::format("{}, so the error is unknown", e.error.by));
     const double value = e.error.value.value_or(0), scaled = e.error.scaled.value_or(0);
-    const double enough = e.fixed_step > 0 ? two_digits / 2 : two_digits;  // half a step of Euler's halves the error: the difference is half of it
+    const double enough =
+        e.fixed_step > 0 ? two_digits / 2
+                         : two_digits;  // half a step of Euler's halves the error: the difference is half of it
     if (!(value <= enough))
         reasons.push_back(fmt::format("the estimated error is {:.1e}", value));
     else if (!(scaled <= enough))
         reasons.push_back(fmt::format("the estimated error is {:.1e} of the motion's size", scaled));
     if (e.fixed_step == 0 && e.error.moved > 0 && e.error.moved < e.precision)
-        reasons.push_back(fmt::format("the coordinates move by {:.1e} at the most, less than the tolerance {:g}: no step was held to them", e.error.moved, e.precision));
-    if (e.error.lyapunov)
-        if (!reasons.empty())
-            reasons.push_back(fmt::format("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left", *e.error.lyapunov, *e.error.horizon));
+        reasons.push_back(fmt::format(
+            "the coordinates move by {:.1e} at the most, less than the tolerance {:g}: no step was held to them",
+            e.error.moved, e.precision));
+    if (e.error.lyapunov && !reasons.empty())
+        reasons.push_back(
+            fmt::format("the motion is chaotic (Lyapunov exponent {:.2g}), from t = {:.4g} on no digit is left",
+                        *e.error.lyapunov, *e.error.horizon));
     const auto hold = [&](const char* what, const std::optional<double>& drift) {
-        if (drift && !(*drift <= two_digits_of_energy)) reasons.push_back(fmt::format("{} is off by {:.1e} of the largest kinetic energy", what, *drift));
+        if (drift && !(*drift <= two_digits_of_energy))
+            reasons.push_back(fmt::format("{} is off by {:.1e} of the largest kinetic energy", what, *drift));
     };
     hold("the energy, which should stay,", e.energy);
     hold("the energy less the work done, which should stay,", e.balance);
     hold("T2 - T0 + V, which should stay,", e.jacobi);
-    if (!(e.constraints <= two_digits)) reasons.push_back(fmt::format("the constraints are off by {:.1e} of the motion's size", e.constraints));
-    if (const double distance = std::sqrt(std::max(0.0, e.singular)); distance < near && e.precision > two_digits * distance)
-        reasons.push_back(fmt::format("the motion passes a singular pose of its coordinates (as in gimbal lock) at a relative distance of {:.1e}, where "
-                                      "rates magnify an error of {:.1e} to {:.1e}; other coordinates, or a quaternion, have no such pose there",
-                                      distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
+    if (!(e.constraints <= two_digits))
+        reasons.push_back(fmt::format("the constraints are off by {:.1e} of the motion's size", e.constraints));
+    if (const double distance = std::sqrt(std::max(0.0, e.singular));
+        distance < near && e.precision > two_digits * distance)
+        reasons.push_back(
+            fmt::format("the motion passes a singular pose of its coordinates (as in gimbal lock) at a relative "
+                        "distance of {:.1e}, where "
+                        "rates magnify an error of {:.1e} to {:.1e}; other coordinates, or a quaternion, have no "
+                        "such pose there",
+                        distance, e.precision, distance > 0 ? e.precision / distance : HUGE_VAL));
     if (const QuickTime* const q = quickest(e.inputs); q != nullptr && e.fixed_step > q->step)
-        reasons.push_back(fmt::format("an input changes within {:.2g} s near t = {:.6g}, which steps of {:g} s may pass over; take shorter ones, or a method "
-                                      "that chooses them",
-                                      q->step, (q->from + q->to) / 2, e.fixed_step));
+        reasons.push_back(
+            fmt::format("an input changes within {:.2g} s near t = {:.6g}, which steps of {:g} s may pass over; "
+                        "take shorter ones, or a method "
+                        "that chooses them",
+                        q->step, (q->from + q->to) / 2, e.fixed_step));
     return reasons;
 }
 
@@ -89,10 +104,12 @@ Components components_of(const Program& program, std::size_t coordinates, std::s
     Components result{.coordinates = coordinates};
     std::map<std::string, int> kinds;
     const auto kind_of = [&](const Quantity& one) {
-        return kinds.emplace(one.unit.empty() ? "one: " + one.name : one.unit, static_cast<int>(kinds.size())).first->second;
+        return kinds.emplace(one.unit.empty() ? "one: " + one.name : one.unit, static_cast<int>(kinds.size()))
+            .first->second;
     };
     for (std::size_t i = 0; i < coordinates; ++i) result.kinds.push_back(kind_of(program.coordinates[i]));
-    for (std::size_t i = 0; i < speeds; ++i) result.kinds.push_back(kind_of(program.speeds.empty() ? program.coordinates[i] : program.speeds[i]));
+    for (std::size_t i = 0; i < speeds; ++i)
+        result.kinds.push_back(kind_of(program.speeds.empty() ? program.coordinates[i] : program.speeds[i]));
     return result;
 }
 
@@ -111,7 +128,8 @@ double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const P
         }
     };
     for (const Phase& phase : motion.phases)
-        for (std::size_t row = 0; row < phase.motion.rows(); row += 1 + phase.motion.rows() / 400) look(phase.motion.times[row], phase.motion.state(row).data());
+        for (std::size_t row = 0; row < phase.motion.rows(); row += 1 + phase.motion.rows() / 400)
+            look(phase.motion.times[row], phase.motion.state(row).data());
     for (std::size_t k = 0; k < poses.states().size(); ++k) look(poses.time(k), poses.states()[k].data());
     return largest > 0 ? smallest / largest : 1;
 }
@@ -120,7 +138,8 @@ double size_of(const PhasedMotion& motion, std::size_t count) {
     double largest = 0;
     for (const Phase& phase : motion.phases)
         for (std::size_t row = 0; row < phase.motion.rows(); ++row)
-            for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(phase.motion.state(row)[i]));
+            for (std::size_t i = 0; i < count; ++i)
+                largest = std::max(largest, std::abs(phase.motion.state(row)[i]));
     return largest;
 }
 

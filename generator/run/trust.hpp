@@ -8,16 +8,20 @@
 ///
 /// | what | doubted above | because |
 /// | --- | --- | --- |
-/// | estimated error, relative to max(1, \|y\|) and to the motion's size | 0.01 (fixed steps: 0.005) | that is two digits; a fixed step is held against its half, which has half the error of a method of order one |
+/// | estimated error, relative to max(1, \|y\|) and to the motion's size | 0.01 (fixed steps: 0.005) | two digits |
 /// | the tolerance, against how far any coordinate moves | 1 | nothing was resolved that is all below it |
 /// | energy, work balance, Jacobi's integral, in units of the largest kinetic energy | 0.02 | energies are quadratic: 1 % of the rates |
 /// | constraints, against the largest coordinate or rate | 0.01 | the state itself is off by that much |
 /// | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below |
 /// | a fixed step, against the time in which an input changes | 2 pieces (quick_times.hpp) | no stage need have met it |
 ///
-/// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones on its diagonal, has
-/// an eigenvalue that vanishes as the square of the distance. δ², its smallest value on the way in units of the largest, tells how
-/// near the motion came; an error e of the state becomes e/δ in the rates, e being the tolerance, or the estimated error of fixed steps.
+/// A fixed step is held against its half, which has half the error with a method of order one: the difference is
+/// half of the error.
+///
+/// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones
+/// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value on the
+/// way in units of the largest, tells how near the motion came; an error e of the state becomes e/δ in the rates,
+/// e being the tolerance, or the estimated error of fixed steps.
 
 #include <optional>
 #include <span>
@@ -33,19 +37,20 @@ namespace alembert {
 /// Missing: does not apply.
 struct Evidence {
     const ErrorEstimate& error;
-    std::optional<double> energy = {}, balance = {}, jacobi = {};  ///< in units of the energy of the motion (drift.hpp)
-    double constraints = 0;   ///< the largest |f|, |A q' + b|, in units of the largest coordinate or rate
-    double singular = 1;      ///< δ² above
-    double precision = 0;     ///< e above
-    double fixed_step = 0;    ///< s; 0: steps were chosen
+    std::optional<double> energy = {}, balance = {},
+                          jacobi = {};  ///< in units of the energy of the motion (drift.hpp)
+    double constraints = 0;  ///< the largest |f|, |A q' + b|, in units of the largest coordinate or rate
+    double singular = 1;     ///< δ² above
+    double precision = 0;    ///< e above
+    double fixed_step = 0;   ///< s; 0: steps were chosen
     std::vector<QuickTime> inputs = {};
 };
 
 /// In sentences without capital and full stop, the weightiest first; none: trusted.
 std::vector<std::string> doubts(const Evidence& evidence);
 
-/// Poses passed by a run, of which the most singular is wanted. M is looked at where a rate is at its largest, which it is near such a
-/// pose.
+/// Poses passed by a run, of which the most singular is wanted. M is looked at where a rate is at its largest,
+/// which it is near such a pose.
 class PoseWatch {
 public:
     /// Remembers the state if one of its speeds is the largest so far.
@@ -58,10 +63,12 @@ private:
     std::vector<std::vector<double>> states_;
 };
 
-/// Of coordinates and speeds, for the estimate: those that have a unit are of one kind with others of it, one without is a kind of its own.
+/// Of coordinates and speeds, for the estimate: those that have a unit are of one kind with others of it, one
+/// without is a kind of its own.
 Components components_of(const Program& program, std::size_t coordinates, std::size_t speeds);
 
-/// δ² above: M at the rows, and where a rate was at its largest; 1 where M is not to be had, or of more than 40 speeds.
+/// δ² above: M at the rows, and where a rate was at its largest; 1 where M is not to be had, or of more than 40
+/// speeds.
 double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const PoseWatch& poses);
 
 /// The largest of the first `count` components on the rows.

@@ -160,7 +160,11 @@ std::vector<Crossing> EventWatch::scan(const Stretch& step) {
     }
     events_(step.end, step.end_state, step.end_rate, last_.data());
     std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
-    slopes_at(step.end, step.end_state, step.end_rate, last_, step.end - step.start);
+    const double* const before = grid_.data() + (points - 2) * count;  // who moves away from zero has nothing to hide here
+    if (std::equal(last_.begin(), last_.end(), before, [](double now, double then) { return std::abs(now) > std::abs(then); }))
+        std::fill(slope_.begin(), slope_.end(), 0.0);
+    else
+        slopes_at(step.end, step.end_state, step.end_rate, last_, step.end - step.start);
 
     for (std::size_t k = 0; k < count; ++k) look_at_one(step, static_cast<int>(k), found);
     order(found, step);

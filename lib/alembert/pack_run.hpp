@@ -144,7 +144,10 @@ private:
             if constexpr (!Step::has_fixed_step) {
                 const double ratio = step_.misfit[i] / options_.tolerance;
                 const double wish = quick_times(lane.member).empty() ? 0 : lane.h;  // what was held short is no forecast
-                lane.h = is_good ? std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0) : lane.control.after_rejected(length[i], ratio);
+                if (is_good)
+                    lane.h = std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0);
+                else
+                    lane.h = lane.control.after_rejected(length[i], ratio);
             }
             ++(is_good ? lane.outcome.steps : lane.outcome.rejected);
             if (!is_good) continue;

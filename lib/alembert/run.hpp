@@ -156,10 +156,11 @@ private:
     }
 
     /// h, or what is left of it where an input changes fast.
-    double within_quick_times(double h) const {
-        if (options_.quick_times.empty()) return h;
+    double within_quick_times(double h) {
         const double t = step_.time();
-        return std::min(h, std::max(latest_end(options_.quick_times, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
+        if (t + h <= latest_end_) return h;  // it only grows with t
+        latest_end_ = latest_end(options_.quick_times, t);
+        return std::min(h, std::max(latest_end_ - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
 
     double next_length(StepSize& control, bool accepted, double ratio) {
@@ -330,6 +331,7 @@ private:
     std::vector<double> event_rate_;
     long rows_on_grid_ = 1;  ///< the next one; the start is there
     long further_evaluations_ = 0;
+    double latest_end_ = -HUGE_VAL;  ///< of a step, as it was last looked for
 };
 
 }  // namespace alembert
