@@ -45,7 +45,7 @@ public:
     Impact go() {
         Impact result;
         result.start = start_of(m_);
-        result.adjusted = assemble(result.start, m_, program_, {}, false);
+        result.adjusted = assemble(result.start, m_, lower_constraints(m_), {}, false);
         value_ = interpret(program_, result.start.state());
         find_contacts(result);
         find_broken(result);

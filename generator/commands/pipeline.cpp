@@ -93,9 +93,9 @@ void add_reactions(Mechanism& m) {
 }  // namespace
 
 void check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& overrides) {
-    if (scene.bodies.empty()) return;
+    if (mechanism.masses.empty()) return;
     std::vector<Diagnostic> errors, warnings;
-    for (Diagnostic& found : inertia_findings(scene, mechanism, start_of(mechanism, overrides).state()))
+    for (Diagnostic& found : InertiaCheck(scene, mechanism).findings(start_of(mechanism, overrides).state()))
         (found.severity == Severity::warning ? warnings : errors).push_back(std::move(found));
     if (!warnings.empty()) std::cerr << describe(scene, warnings);
     if (!errors.empty()) fail(scene, std::move(errors));

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
 
 #include "alembert/compile.hpp"
 #include "alembert/ensemble.hpp"
 #include "analysis/assemble.hpp"
+#include "analysis/inertia_check.hpp"
 #include "commands/grid.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_options.hpp"
@@ -55,6 +57,30 @@ Beginnings beginnings(const Request& request, const Derived& d, const Grid& grid
         }
     }
     return result;
+}
+
+/// Throws SceneError for the first member with a mass or a moment that no body has; warns of broken triangle inequalities, once for each body.
+void check_bodies_along(const Derived& d, const Grid& grid) {
+    const std::vector<std::string> names = grid.names();
+    const auto is_varied = [&](const Mechanism::Parameter& p) { return std::find(names.begin(), names.end(), p.symbol.get_name()) != names.end(); };
+    if (d.mechanism.masses.empty() || std::none_of(d.mechanism.parameters.begin(), d.mechanism.parameters.end(), is_varied)) return;
+    const InertiaCheck check(d.scene, d.mechanism);
+    const Starts starts(d.mechanism, names, "--vary");
+    std::set<Place> told;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        const std::vector<double> values = grid.point(k);
+        std::vector<Diagnostic> found;
+        try {
+            found = check.findings(starts.at(values).state());
+        } catch (const ModelError&) {
+            continue;  // no start there, which its row tells
+        }
+        for (Diagnostic& one : found) {
+            for (std::size_t i = 0; i < values.size(); ++i) one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
+            if (one.severity == Severity::error) fail(d.scene, {one});
+            if (told.insert(one.place).second) std::cerr << describe(d.scene, {one});
+        }
+    }
 }
 
 /// A row of the table.
@@ -203,6 +229,7 @@ int sweep(const Request& request) {
     if (!d.mechanism.impulses.empty())
         std::cerr << fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                  request.scene);
+    check_bodies_along(d, grid);
     const Energy energy = energy_of(d.mechanism);
     const Program program = lowered(d, request).program;
     if (program.singular) {
