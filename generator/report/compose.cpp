@@ -66,7 +66,7 @@ Piece symbol_piece(const Factor& factor) {
 }
 
 /// Shorter forms are searched for until so many polynomials have been composed; the scenes' equations take 1100 at the most.
-constexpr std::size_t most_composed = 1500;
+constexpr std::size_t most_composed = 1200;
 
 /// Steady terms first, then by degree, then in canonical order.
 bool stands_before(const Term& a, const Term& b) {

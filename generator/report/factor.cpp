@@ -13,10 +13,11 @@ namespace alembert {
 
 namespace {
 
-/// Bounds of what goes to GiNaC, where time grows without one. Terms times variables: (a+b·sin θ)² has 9; hundreds can take a second.
+/// Bounds of what goes to GiNaC, where time grows without one: terms times variables times the sum of the variables' degrees, which is
+/// 36 for (a+b·sin θ)²; at several hundreds a call can take milliseconds, and a second beyond.
 /// Degrees count in the smallest power that occurs: a^3.1416 beside a is of degree 3927 in a^(1/1250), and would never end.
-constexpr std::size_t most_for_ginac = 100;
-constexpr int highest_degree = 12, highest_total = 20;
+constexpr int most_for_ginac = 400;
+constexpr int highest_degree = 12;
 constexpr int most_searches = 400;  // of one Factorizer, a millisecond each
 constexpr int longest_quotient = 1000;  // terms; (x^1000.1 − 1)/(x^0.1 − 1) has 10001
 
@@ -45,14 +46,14 @@ Occurrences occurrences(const Polynomial& polynomial) {
     return result;
 }
 
-bool is_low(const Occurrences& atoms) {
+bool is_small(const Polynomial& polynomial, const Occurrences& atoms) {
     Rational total = 0;
     for (const auto& [atom, occurrence] : atoms) {
         const Rational degree = occurrence.highest / occurrence.unit;
         if (degree > highest_degree) return false;
         total = total + degree;
     }
-    return total <= highest_total;
+    return total * Rational(polynomial.size() * atoms.size()) <= most_for_ginac;
 }
 
 /// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
@@ -185,7 +186,7 @@ Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
     }
     if (linear)
         split_linear(polynomial, *linear, result);
-    else if (polynomial.size() * atoms.size() <= most_for_ginac && is_low(atoms) && ++searches_ <= most_searches)
+    else if (is_small(polynomial, atoms) && ++searches_ <= most_searches)
         result = factors_by_ginac(polynomial, atoms);
     else
         result.sums.emplace_back(polynomial, 1);
