@@ -22,9 +22,10 @@ inline double sqrt(double x) { return __builtin_sqrt(x); }
 inline double abs(double x) { return __builtin_fabs(x); }
 inline double pow(double x, double y) { return __builtin_pow(x, y); }
 inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-template <typename Real> Real sign(const Real& x) { return Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y ? y : x; }
+// These pass a NaN on, whichever argument it is.
+template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
+template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
+template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //

@@ -42,6 +42,7 @@ public:
     Digits& operator*=(const Digits& b) { return *this = *this * b; }
     friend bool operator<(const Digits& a, const Digits& b) { return a.x_ < b.x_; }
     friend bool operator>(const Digits& a, const Digits& b) { return b < a; }
+    friend bool operator!=(const Digits& a, const Digits& b) { return a < b || b < a; }
 
     friend Digits abs(const Digits& a) { return Digits(cln::cl_R(cln::abs(a.x_))); }
     friend Digits sin(const Digits& a) { return of(cln::sin(real(a))); }

@@ -22,6 +22,7 @@ struct Dual {
     friend Dual operator/(const Dual& a, const Dual& b) { return {a.v / b.v, (a.d - a.v / b.v * b.d) / b.v}; }
     friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
     friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
+    friend bool operator!=(const Dual& a, const Dual& b) { return a.v != b.v; }
 };
 
 inline Dual sin(const Dual& x) { return {std::sin(x.v), std::cos(x.v) * x.d}; }

@@ -139,7 +139,8 @@ private:
             const Node& node = p_[id];
             if (!node.is_constant() || node.args.empty()) return;
             const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
-            found.insert(negation ? node.args[0] : id);
+            const int kept = negation ? node.args[0] : id;
+            if (!p_[kept].args.empty()) found.insert(kept);  // −p is read from p, which stands in `par` already
         };
         for (const int id : p_.needed(wanted))
             if (!p_[id].is_constant())
@@ -149,8 +150,7 @@ private:
             if (found.contains(root.node) && (root.group == Group::mass || root.group == Group::forcing))
                 constant_names_.emplace(root.node, root.name);
         }
-        for (const int id : found)
-            if (!p_[id].args.empty()) constants_.push_back(id);
+        constants_.assign(found.begin(), found.end());
         for (const int id : constants_) {
             std::string& name = constant_names_[id];
             name = name.empty() ? names_.numbered("k") : names_.fresh(name);

@@ -10,6 +10,7 @@
 #include "formalism/dalembert.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "symbolic/bounded_factor.hpp"
 
 namespace alembert {
 
@@ -41,17 +42,12 @@ TrigonometricProduct product_of(const ex& e, const Mechanism& m) {
     GiNaC::exmap letters;
     const ex plain = name_functions(e, *m.symbols, letters, result.functions);
     result.vanishes = plain.is_zero();
-    ex factored = plain;
-    try {
-        factored = GiNaC::factor(plain);
-    } catch (const std::exception&) {
-        // left as it is
-    }
+    const ex product = factored(plain);
     std::vector<ex> factors;
-    if (GiNaC::is_a<GiNaC::mul>(factored))
-        factors.assign(factored.begin(), factored.end());
+    if (GiNaC::is_a<GiNaC::mul>(product))
+        factors.assign(product.begin(), product.end());
     else
-        factors.push_back(factored);
+        factors.push_back(product);
     for (const ex& factor : factors) {
         const ex base = GiNaC::is_a<GiNaC::power>(factor) ? factor.op(0) : factor;
         if (GiNaC::is_a<GiNaC::numeric>(base)) continue;

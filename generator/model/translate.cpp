@@ -177,6 +177,8 @@ Value Translator::evaluate(const Tree& tree) {
         throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
     } catch (const std::overflow_error&) {
         throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
+    } catch (const std::domain_error&) {
+        throw SceneMistake{{current_->place(tree.offset), "this is 0^0, which has no value; expected another base or exponent"}};
     }
     return ex(0);
 }

@@ -65,6 +65,9 @@ Piece symbol_piece(const Factor& factor) {
     return piece;
 }
 
+/// Shorter forms are searched for until so many polynomials have been composed; the scenes' equations take 1100 at the most.
+constexpr std::size_t most_composed = 1200;
+
 /// Steady terms first, then by degree, then in canonical order.
 bool stands_before(const Term& a, const Term& b) {
     const auto degree = [](const Monomial& monomial) {
@@ -135,8 +138,17 @@ int Composer::cost(const Polynomial& polynomial) {
     return entry(polynomial).cost;
 }
 
+bool Composer::is_exhausted() const { return memo_.size() > most_composed; }
+
+const Polynomial& Composer::unfolded(const Polynomial& normal_form) {
+    const auto found = unfolded_.find(normal_form);
+    if (found != unfolded_.end()) return found->second;
+    if (is_exhausted()) return normal_form;
+    return unfolded_.emplace(normal_form, unfold(normal_form, [this](const Polynomial& form) { return cost(form); })).first->second;
+}
+
 Phrase Composer::formula(const Polynomial& normal_form) {
-    return (*this)(unfold(normal_form, [this](const Polynomial& form) { return cost(form); }));
+    return (*this)(unfolded(normal_form));
 }
 
 Phrase Composer::compose(const Polynomial& polynomial) {
@@ -173,7 +185,7 @@ Phrase Composer::compose(const Polynomial& polynomial) {
             // cos(Ω·t)·cos θ
             pieces.back().order = {has_coordinate(atom.args[0]) ? 1 : 0, 0, 0};
         } else if (atom.kind == Kind::base) {
-            const Polynomial inside = unfold(atom.args[0], [this](const Polynomial& form) { return cost(form); });
+            const Polynomial& inside = unfolded(atom.args[0]);
             const Rational scale =
                 is_integer(factor.exponent) && !stays_apart(inside) ? content(inside) : Rational(1);
             if (scale != 1) unit = unit * cln::expt(scale, cln::numerator(factor.exponent));
@@ -247,7 +259,7 @@ Phrase Composer::flat(const std::vector<Polynomial>& parts) {
 
 Phrase Composer::compose_sum(const Polynomial& polynomial) {
     Phrase best = flat(partition(polynomial, [](const AtomNode&) { return true; }));
-    if (polynomial.size() < 3 || polynomial.size() > 60) return best;
+    if (polynomial.size() < 3 || polynomial.size() > 60 || is_exhausted()) return best;
     int least = alembert::cost(best);
     const auto offer = [&](const std::vector<Polynomial>& parts) {
         if (parts.size() == 1 || parts.size() == polynomial.size()) return;

@@ -27,9 +27,14 @@ public:
     /// The same for a normal form, with multiple angles undone where that is shorter.
     Phrase formula(const Polynomial& normal_form);
 
+    /// So much has been composed that no more shorter forms are searched for: what comes now stays as it is.
+    bool is_exhausted() const;
+
     Factorizer& factorizer() { return factorizer_; }
 
 private:
+    /// The best form of a normal form, with multiple angles undone where that is shorter.
+    const Polynomial& unfolded(const Polynomial& normal_form);
     Phrase compose(const Polynomial& polynomial);
     Phrase compose_sum(const Polynomial& polynomial);
     Phrase flat(const std::vector<Polynomial>& parts);
@@ -45,6 +50,7 @@ private:
     };
     const Entry& entry(const Polynomial& polynomial);
     std::map<Polynomial, Entry, PolynomialLess> memo_;
+    std::map<Polynomial, Polynomial, PolynomialLess> unfolded_;
 };
 
 /// Some terms, but not all alike, are divided by something: m + J/r².

@@ -13,8 +13,13 @@ namespace alembert {
 
 namespace {
 
-/// Terms times variables: below a millisecond or so. (a+b·sin θ)² has 9; hundreds can take a second.
-constexpr std::size_t most_for_ginac = 100;
+/// Bounds of what goes to GiNaC, where time grows without one: terms times variables times the sum of the variables' degrees, which is
+/// 36 for (a+b·sin θ)²; at several hundreds a call can take milliseconds, and a second beyond.
+/// Degrees count in the smallest power that occurs: a^3.1416 beside a is of degree 3927 in a^(1/1250), and would never end.
+constexpr int most_for_ginac = 400;
+constexpr int highest_degree = 12;
+constexpr int most_searches = 400;  // of one Factorizer, a millisecond each
+constexpr int longest_quotient = 1000;  // terms; (x^1000.1 − 1)/(x^0.1 − 1) has 10001
 
 struct AtomLess {
     bool operator()(const Atom& a, const Atom& b) const { return compare(a, b) < 0; }
@@ -41,6 +46,16 @@ Occurrences occurrences(const Polynomial& polynomial) {
     return result;
 }
 
+bool is_small(const Polynomial& polynomial, const Occurrences& atoms) {
+    Rational total = 0;
+    for (const auto& [atom, occurrence] : atoms) {
+        const Rational degree = occurrence.highest / occurrence.unit;
+        if (degree > highest_degree) return false;
+        total = total + degree;
+    }
+    return total * Rational(polynomial.size() * atoms.size()) <= most_for_ginac;
+}
+
 /// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
 /// term.
 std::optional<Polynomial> exact_quotient(const Polynomial& dividend, const Polynomial& divisor) {
@@ -52,6 +67,7 @@ std::optional<Polynomial> exact_quotient(const Polynomial& dividend, const Polyn
         Monomial ratio = first.monomial * power(lead.monomial, -1);
         if (std::any_of(ratio.begin(), ratio.end(), [](const Factor& factor) { return factor.exponent < 0; }))
             return std::nullopt;
+        if (quotient.size() == longest_quotient) return std::nullopt;
         quotient.push_back({std::move(ratio), first.coefficient / lead.coefficient});
         rest = rest - Polynomial::collect({quotient.back()}) * divisor;
     }
@@ -170,7 +186,7 @@ Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
     }
     if (linear)
         split_linear(polynomial, *linear, result);
-    else if (polynomial.size() * atoms.size() <= most_for_ginac)
+    else if (is_small(polynomial, atoms) && ++searches_ <= most_searches)
         result = factors_by_ginac(polynomial, atoms);
     else
         result.sums.emplace_back(polynomial, 1);
@@ -197,10 +213,10 @@ void Factorizer::split_linear(const Polynomial& polynomial, const AtomNode& line
         for (const auto& [sum, exponent] : (*this)(Polynomial::collect(std::move(with))).sums) {
             int times = 0;
             while (times < exponent) {
-                const std::optional<Polynomial> quotient = exact_quotient(left, sum);
-                if (!quotient) break;
+                const std::optional<Polynomial> quotient = exact_quotient(left, sum), remaining = exact_quotient(rest, sum);
+                if (!quotient || !remaining) break;
                 left = *quotient;
-                rest = *exact_quotient(rest, sum);
+                rest = *remaining;
                 ++times;
             }
             if (times > 0) result.sums.emplace_back(sum, times);

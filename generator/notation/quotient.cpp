@@ -3,6 +3,7 @@
 
 #include "notation/compose.hpp"
 #include "notation/readable.hpp"
+#include "symbolic/bounded_factor.hpp"
 #include "symbolic/exact_solve.hpp"
 
 namespace alembert {
@@ -19,10 +20,10 @@ Phrase fraction(const Phrase& n, const Phrase& d) {
 }
 
 ex reciprocal_in_factors(const ex& e) {
-    const ex factored = GiNaC::factor(e);
-    if (!GiNaC::is_a<GiNaC::mul>(factored)) return pow(factored, -1);
+    const ex product = factored(e);
+    if (!GiNaC::is_a<GiNaC::mul>(product)) return pow(product, -1);
     GiNaC::exvector factors;
-    for (std::size_t i = 0; i < factored.nops(); ++i) factors.push_back(pow(factored.op(i), -1));
+    for (std::size_t i = 0; i < product.nops(); ++i) factors.push_back(pow(product.op(i), -1));
     return GiNaC::mul(std::move(factors));
 }
 

@@ -132,7 +132,7 @@ private:
         for (const Polynomial& group : partition(terms, is_key)) {
             const Monomial key = part(group.terms()[0].monomial, is_key);
             const auto measure = [&](const Polynomial& form) { return cost(split(times(key, form))); };
-            const Polynomial best = unfold(divide(group, key), measure);
+            const Polynomial plain = divide(group, key), best = compose_.is_exhausted() ? plain : unfold(plain, measure);
             for (Polynomial& line : split(times(key, best))) lines.push_back(std::move(line));
         }
     }

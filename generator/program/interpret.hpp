@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "program/order.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -93,11 +94,11 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
             case Op::log: value[id] = log(arg(0)); break;
             case Op::sqrt: value[id] = sqrt(arg(0)); break;
             case Op::abs: value[id] = abs(arg(0)); break;
-            case Op::sign: value[id] = Real(arg(0) > 0) - Real(arg(0) < 0); break;
+            case Op::sign: value[id] = sign_of(arg(0)); break;
             case Op::pow: value[id] = pow(arg(0), arg(1)); break;
             case Op::atan2: value[id] = atan2(arg(0), arg(1)); break;
-            case Op::min: value[id] = arg(1) < arg(0) ? arg(1) : arg(0); break;
-            case Op::max: value[id] = arg(0) < arg(1) ? arg(1) : arg(0); break;
+            case Op::min: value[id] = lesser(arg(0), arg(1)); break;
+            case Op::max: value[id] = greater(arg(0), arg(1)); break;
         }
     }
     return value;

@@ -57,6 +57,7 @@ struct Jet {
     }
     friend bool operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
     friend bool operator>(const Jet& a, const Jet& b) { return b < a; }
+    friend bool operator!=(const Jet& a, const Jet& b) { return a.value != b.value; }
 
     friend Jet sin(const Jet& a) { return through(a, std::sin(a.value), std::cos(a.value)); }
     friend Jet cos(const Jet& a) { return through(a, std::cos(a.value), -std::sin(a.value)); }

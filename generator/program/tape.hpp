@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "program/interpret.hpp"
+#include "program/order.hpp"
 #include "program/quad.hpp"
 
 namespace alembert {
@@ -122,11 +123,11 @@ private:
             case Op::log: to = log(arg(0)); break;
             case Op::sqrt: to = sqrt(arg(0)); break;
             case Op::abs: to = abs(arg(0)); break;
-            case Op::sign: to = Real(arg(0) > 0) - Real(arg(0) < 0); break;
+            case Op::sign: to = sign_of(arg(0)); break;
             case Op::pow: to = pow(arg(0), arg(1)); break;
             case Op::atan2: to = atan2(arg(0), arg(1)); break;
-            case Op::min: to = arg(1) < arg(0) ? arg(1) : arg(0); break;
-            case Op::max: to = arg(0) < arg(1) ? arg(1) : arg(0); break;
+            case Op::min: to = lesser(arg(0), arg(1)); break;
+            case Op::max: to = greater(arg(0), arg(1)); break;
         }
     }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "alembert/compile.hpp"
 #include "alembert/ensemble.hpp"
@@ -16,6 +17,7 @@
 #include "lower/quick_times.hpp"
 #include "run/method.hpp"
 #include "state/assemble.hpp"
+#include "state/inertia_check.hpp"
 
 namespace alembert {
 
@@ -57,6 +59,32 @@ Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& gr
         }
     }
     return result;
+}
+
+/// Throws SceneError for the first member with a mass or a moment that no body has; warns of broken triangle inequalities, once for each
+/// body.
+void check_bodies_along(Sweep& s) {
+    const Mechanism& m = s.mechanism;
+    const std::vector<std::string> names = s.grid.names();
+    const auto is_varied = [&](const Mechanism::Parameter& p) { return std::find(names.begin(), names.end(), p.symbol.get_name()) != names.end(); };
+    if (m.masses.empty() || std::none_of(m.parameters.begin(), m.parameters.end(), is_varied)) return;
+    const InertiaCheck check(s.scene, m);
+    const Starts starts(m, names, "--vary");
+    std::set<Place> told;
+    for (std::size_t k = 0; k < s.grid.size(); ++k) {
+        const std::vector<double> values = s.grid.point(k);
+        std::vector<Diagnostic> found;
+        try {
+            found = check.findings(starts.at(values).state());
+        } catch (const ModelError&) {
+            continue;  // no start there, which its row tells
+        }
+        for (Diagnostic& one : found) {
+            for (std::size_t i = 0; i < values.size(); ++i) one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
+            if (one.severity == Severity::error) fail(s.scene, {one});
+            if (told.insert(one.place).second) s.warnings.push_back(describe(s.scene, {one}));
+        }
+    }
 }
 
 /// When the inputs of each member change fast; members that have their parameters in common, and their times, share one search.
@@ -150,6 +178,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     if (!m.impulses.empty())
         s.warnings.push_back(fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' gives those after\n",
                                          s.scene.file));
+    check_bodies_along(s);
     const Energy energy = energy_of(m);
     s.conserved = energy.conserved;
     const Program program = lowered(s).program;

@@ -13,8 +13,24 @@
 
 namespace alembert {
 
-/// Errors: a negative mass, a negative principal moment. Warnings: a broken triangle inequality. A planar scene's one moment has no
-/// triangle to break. `state`: with parameters, and q where moments are about another point.
-std::vector<Diagnostic> inertia_findings(const Scene& scene, const Mechanism& mechanism, const State<double>& state);
+/// The masses and moments are lowered once, for many numbers. What it is given must outlive it.
+class InertiaCheck {
+public:
+    InertiaCheck(const Scene& scene, const Mechanism& mechanism);
+
+    /// Errors: a mass that is negative or no number, a negative principal moment. Warnings: a broken triangle inequality. A planar
+    /// scene's one moment has no triangle to break. `state`: with parameters, and q where moments are about another point.
+    std::vector<Diagnostic> findings(const State<double>& state) const;
+
+private:
+    /// Where the scene says it: the body's inertia, else the name of the body or the particle.
+    Place place_of(const Origin& origin) const;
+    void add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I) const;
+
+    const Scene& scene_;
+    const Mechanism& m_;
+    Program program_;
+    std::vector<int> nodes_;  ///< of each element: its mass, and where it turns its six moments
+};
 
 }  // namespace alembert

@@ -6,9 +6,9 @@
 namespace alembert {
 
 std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at) {
-    if (scene.bodies.empty()) return {};
+    if (mechanism.masses.empty()) return {};
     std::vector<Diagnostic> errors, warnings;
-    for (Diagnostic& found : inertia_findings(scene, mechanism, start_of(mechanism, at).state()))
+    for (Diagnostic& found : InertiaCheck(scene, mechanism).findings(start_of(mechanism, at).state()))
         (found.severity == Severity::warning ? warnings : errors).push_back(std::move(found));
     if (!errors.empty()) fail(scene, std::move(errors));
     if (warnings.empty()) return {};

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+
+#include "notation/factor.hpp"
+#include "symbolic/bounded_factor.hpp"
+#include "symbolic/fourier.hpp"
+#include "symbolic_cases.hpp"
+
+using namespace alembert;
+using GiNaC::ex;
+
+namespace {
+
+/// unit · monomial · Π sumᵉ
+Polynomial product_of(const Factorization& factors) {
+    Polynomial result = Polynomial::collect({{factors.monomial, factors.unit}});
+    for (const auto& [sum, exponent] : factors.sums) result = result * power(sum, exponent);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("factor: products of small sums come back as products, large ones stay whole, and none takes for ever") {
+    const GiNaC::symbol x("x"), y("y"), z("z");
+    const ex product = 3 * x * pow(x + y, 2) * (x - 2 * z);
+    const ex small = factored(product.expand());
+    CHECK(GiNaC::is_a<GiNaC::mul>(small));
+    CHECK((small - product).expand().is_zero());
+    CHECK(factored(sin(x) + 1).is_equal(sin(x) + 1));
+    const ex large = pow(x, 60) + pow(y, 59) * z + pow(z, 61) * x + 1;
+    CHECK(factored(large).is_equal(large));
+    CHECK((factored(large * (x + y)) - large * (x + y)).expand().is_zero());
+}
+
+TEST_CASE("factor: sums with powers like a^3.1416 are their own factorization's product") {
+    test::Mechanics m;
+    const ex a = m.parameter("a"), b = m.parameter("b");
+    const ex root = pow(a, GiNaC::numeric(3927, 1250));
+    for (const ex& e : {root + a * a / 4, 1 + root + a * a, (a * a - b * b) * (root + 1), 2 * b * b + b * b * root * root + 1, a * a + 2 * a * b + b * b}) {
+        CAPTURE(e);
+        const Polynomial polynomial = fourier(e.expand(), m.symbols).value().polynomial();
+        Factorizer factorizer;
+        CHECK(product_of(factorizer(polynomial)) == polynomial);
+    }
+    const Polynomial square = fourier(a * a + 2 * a * b + b * b, m.symbols).value().polynomial();
+    Factorizer factorizer;
+    REQUIRE(factorizer(square).sums.size() == 1);
+    CHECK(factorizer(square).sums[0].second == 2);
+}
