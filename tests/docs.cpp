@@ -12,6 +12,7 @@
 
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
+#include "scene/joint_moves.hpp"
 #include "scene/keys.hpp"
 #include "scene/placing.hpp"
 #include "scene/scene.hpp"

@@ -36,7 +36,7 @@ TEST_CASE("nan: min, max and sign of what is no number are none, interpreted, in
     const Mechanism m = build(parse_scene(text, "nan.toml"));
     const Program program = choose(m, lagrange(m)).program;
     const Module module = load(compile(emit(program, {.batch = true}).text, "nan", {}).object);
-    const std::vector<int> outputs = program.nodes_of("output");
+    const std::vector<int> outputs = program.nodes_of(Group::output);
     Tape<Quad> tape(program, outputs, {});
     Lanes time{};
     std::vector<Lanes> states(2), rates(2), side_by_side(std::size(cases));
