@@ -143,7 +143,7 @@ TEST_CASE("inverse: what is asked wrongly is told") {
         CHECK(result.exit == 3);
         CHECK(result.err.find(told) != std::string::npos);
     };
-    refused({"alpah''=1"}, "no coordinate has this acceleration; did you mean 'alpha'''?");
+    refused({"alpah''=1"}, "no coordinate has the acceleration alpah''; did you mean 'alpha'''?");
     refused({"alpha''=x"}, "expected NAME=VALUE");
     refused({"alpha''=1", "beta''=1"}, "of 2 coordinates are given; expected those of 1 or fewer, the degrees of freedom, or of all 3");
     refused({"alpha''=1", "beta''=1", "gamma''=1"}, "break constraint 'J4_1'");

@@ -531,9 +531,9 @@ Checked check(const Scene& scene, const Mechanism& mechanism) {
 }
 
 CheckedScene check(Scene scene, const std::string& by) {
-    if (scene.claims.empty())
-        throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
     CheckedScene result{derived(std::move(scene), {.by = by})};
+    if (result.scene.claims.empty())
+        throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
     result.checked = check(result.scene, result.mechanism);
     return result;
 }

@@ -43,7 +43,7 @@ Json as_json(const Sweep& s) {
 
 Json rows_as_json(const Sweep& s) {
     Json rows = Json::array();
-    for (const Member& m : s.members) {
+    for (const SweptMotion& m : s.members) {
         Json row;
         row["varied"] = by_name(s.grid.names(), m.varied);
         row["final"] = {{"time", m.time}, {"coordinates", by_name(s.coordinates, m.final_coordinates)}, {"rates", by_name(s.coordinates, m.final_rates)}};
@@ -66,7 +66,7 @@ std::string as_csv(const Sweep& s) {
     for (const std::string& q : s.coordinates) text += ",final_" + q + "'";
     for (const std::string& u : s.speeds) text += ",final_" + u;
     put(text, ",{},steps,rejected,evaluations,status\n", drift_name(s));
-    for (const Member& m : s.members) {
+    for (const SweptMotion& m : s.members) {
         std::vector<double> numbers = m.varied;
         numbers.push_back(m.time);
         for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds}) numbers.insert(numbers.end(), part->begin(), part->end());

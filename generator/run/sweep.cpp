@@ -126,10 +126,10 @@ std::vector<double> rates_at(const Program& program, const Beginnings& begin, st
     return rate;
 }
 
-Member member_of(std::size_t k, const Sweep& s, const Program& program, const Beginnings& begin, const Outcomes& ends) {
+SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, const Beginnings& begin, const Outcomes& ends) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::size_t n = s.coordinates.size();
-    Member m{.varied = s.grid.point(k), .final_coordinates = {}, .final_rates = {}, .final_speeds = {}, .time = nothing, .drift = nothing};
+    SweptMotion m{.varied = s.grid.point(k), .final_coordinates = {}, .final_rates = {}, .final_speeds = {}, .time = nothing, .drift = nothing};
     if (!begin.refused[k].empty()) {
         m.final_coordinates = m.final_rates = std::vector<double>(n, nothing);
         m.final_speeds.assign(s.speeds.size(), nothing);
@@ -220,7 +220,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
 
 SweepTotals totals_of(const Sweep& sweep) {
     SweepTotals sum;
-    for (const Member& m : sweep.members) {
+    for (const SweptMotion& m : sweep.members) {
         sum.steps += m.steps;
         sum.rejected += m.rejected;
         sum.evaluations += m.evaluations;

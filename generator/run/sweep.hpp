@@ -12,7 +12,7 @@
 
 namespace alembert {
 
-struct Member {
+struct SweptMotion {
     std::vector<double> varied;  ///< as Grid::names
     std::vector<double> final_coordinates, final_rates, final_speeds;  ///< NaN where the motion did not begin; speeds of scenes that have their own
     double time = 0, drift = 0;  ///< NaN likewise; the drift of the energy, or the balance of work
@@ -24,7 +24,7 @@ struct Member {
 struct Sweep : Derived {
     Grid grid = {};
     std::vector<std::string> coordinates = {}, speeds = {};
-    std::vector<Member> members = {};  ///< as Grid::point
+    std::vector<SweptMotion> members = {};  ///< as Grid::point
     bool conserved = true;        ///< the energy is; else `drift` is that of E − E₀ − W
     std::string method = {}, formulation = {};
     int operations = 0;           ///< of one right-hand side
