@@ -200,8 +200,8 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
                 for (const int id : program.nodes_of(group)) expected.push_back(value[id]);
             };
             const auto take = [&](const std::vector<double>& numbers) { found.insert(found.end(), numbers.begin(), numbers.end()); };
-            expect("rate");
-            expect("acceleration");
+            expect(Group::rate);
+            expect(Group::acceleration);
             module.table().constraints_at(state.t, y.data(), par.data(), position.data(), velocity.data(), rows.data());
             module.table().multipliers_at(state.t, y.data(), par.data(), lambda.data());
             module.table().mass_forcing(state.t, y.data(), par.data(), mass.data(), forcing.data());

@@ -102,8 +102,8 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
             State<double> full = state;
             full.qddot.assign(expected.rate.begin() + static_cast<std::ptrdiff_t>(n), expected.rate.end());
             const std::vector<double> size = sizes_of(program, interpret(program, full));
-            CHECK(distance(lane_of(mass, lane), expected.mass) <= four_ulp * largest(program, size, "mass"));
-            CHECK(distance(lane_of(forcing, lane), expected.forcing) <= four_ulp * largest(program, size, "forcing"));
+            CHECK(distance(lane_of(mass, lane), expected.mass) <= four_ulp * largest(program, size, Group::mass));
+            CHECK(distance(lane_of(forcing, lane), expected.forcing) <= four_ulp * largest(program, size, Group::forcing));
             const std::vector<double> e = lane_of(energy, lane);
             for (std::size_t i = 0; const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power, Group::jacobi}) {
                 CHECK(std::abs(e[i] - expected.energy[i]) <= four_ulp * std::max(largest(program, size, group), std::abs(expected.energy[i])));
@@ -111,7 +111,7 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
             }
             const Eigen::Map<const Eigen::MatrixXd> M(expected.mass.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
             const Eigen::VectorXd sigma = M.jacobiSvd().singularValues();
-            const double condition = sigma[0] / sigma[sigma.size() - 1], scale = largest(program, size, "forcing") / sigma[sigma.size() - 1];
+            const double condition = sigma[0] / sigma[sigma.size() - 1], scale = largest(program, size, Group::forcing) / sigma[sigma.size() - 1];
             if (condition < 1e6) CHECK(distance(lane_of(rate, lane), expected.rate) <= four_ulp * std::max(scale, condition * 3));
         }
     }
@@ -150,8 +150,8 @@ TEST_CASE("packs: sines of sums by addition theorems give M and f as sines of th
             State<double> full = state;
             full.qddot.assign(n, 0.0);
             const std::vector<double> size = sizes_of(program, interpret(program, full));
-            CHECK(distance(a.mass, b.mass) <= four_ulp * largest(program, size, "mass"));
-            CHECK(distance(a.forcing, b.forcing) <= four_ulp * largest(program, size, "forcing"));
+            CHECK(distance(a.mass, b.mass) <= four_ulp * largest(program, size, Group::mass));
+            CHECK(distance(a.forcing, b.forcing) <= four_ulp * largest(program, size, Group::forcing));
         }
     }
 }

@@ -11,6 +11,7 @@
 /// parameters alone; the tables at its end are those of lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program
 /// that has been differentiated (program/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
 
+#include "program/processor.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
@@ -23,7 +24,7 @@ struct Source {
 
 struct EmitOptions {
     bool batch = false;  ///< alembert_pack too
-    std::size_t longest_function = 6000;  ///< statements; a longer one is written in parts (parts.hpp), and takes 17 % longer to run
+    std::size_t longest_function = processor::longest_function;  ///< statements; a longer one is written in parts (parts.hpp)
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system).

@@ -5,11 +5,13 @@
 #include <queue>
 #include <tuple>
 
+#include "program/processor.hpp"
+
 namespace alembert {
 
 namespace {
 
-constexpr int units = 2, step = 4, division = 14, function = 40;
+using processor::division, processor::function, processor::step, processor::units;
 
 int latency(const Node& node) {
     if (node.is_reciprocal()) return division;

@@ -3,11 +3,11 @@
 
 /// Sums in which what is ready last is added last.
 ///
-///     const Timely sum({.outer = "per_z", .inner = "per_k",
+///     const ScheduledSum sum({.outer = "per_z", .inner = "per_k",
 ///                       .terms = {{.late = "gathered[0]", .ready = {.node = 7, .before = 2, .delay = 15}, .is_inner = true},
 ///                                 {.weight = "Real(2)", .factor = "x_one", .late = "z_before", .ready = {3, 1}, .is_inner = true},
 ///                                 {.factor = "x_0", .late = "y", .ready = {5, 0}}}});
-///     sum.text(times)        // "per_z * (per_k * (gathered[0] + Real(2) * x_one * z_before) + x_0 * y)"
+///     sum.value(times).text        // "per_z * (per_k * (gathered[0] + Real(2) * x_one * z_before) + x_0 * y)"
 ///
 /// The coefficients of a series wait for each other, order after order, in a chain of additions and multiplications: written in any
 /// other order, a sum waits for its last term and then adds the others.
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "emit/pieces.hpp"
+#include "emit/expression.hpp"
 
 namespace alembert {
 
@@ -29,41 +29,41 @@ struct Moment {
     double delay = 0;
 };
 
-struct TimelyTerm {
-    std::string weight = {};  ///< a factor that terms have in common; empty: 1
-    std::string factor = {};  ///< a product, ready early; empty: 1
-    std::string late = {};
-    Moment ready = {};        ///< of `late`
+struct SumTerm {
+    CodeExpression weight = {};  ///< a factor that terms have in common; empty: 1
+    CodeExpression factor = {};  ///< a product, ready early; empty: 1
+    CodeExpression late = {};
+    Moment ready = {};       ///< of `late`
     bool is_inner = false;
     bool negative = false;
 };
 
 /// outer · (inner · Σ inner terms + Σ other terms); both factors are products that are ready early, empty: 1.
-struct TimelySum {
-    std::string outer = {}, inner = {};
-    std::vector<TimelyTerm> terms = {};
+struct SumParts {
+    CodeExpression outer = {}, inner = {};
+    std::vector<SumTerm> terms = {};
 };
 
-class Timely {
+class ScheduledSum {
 public:
-    explicit Timely(const TimelySum& sum);
+    explicit ScheduledSum(const SumParts& sum);
 
     double ready(const Times& times) const;
-    std::string text(const Times& times) const;
+    CodeExpression value(const Times& times) const;
 
 private:
     /// All terms with the same factor of the same late value.
     struct Group {
-        std::string factor, late;
+        CodeExpression factor, late;
         Moment ready;
         bool is_inner;
         std::vector<Piece> weights;
     };
-    std::vector<int> in_order(const Times& times) const;
-    static std::string together(const std::vector<const Group*>& groups);
+    std::vector<int> in_order_of(const Times& times) const;
+    static std::vector<Piece> together(const std::vector<const Group*>& groups);
     static Piece weight_of(const Group& group);
 
-    std::string outer_, inner_;
+    CodeExpression outer_, inner_;
     std::vector<Group> groups_;
 };
 

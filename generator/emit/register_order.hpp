@@ -3,7 +3,7 @@
 
 /// Statements in an order that fits in a processor's registers.
 ///
-///     const std::vector<int> order = uncrowded(statements);       // positions; each after those that it needs
+///     const std::vector<int> order = register_order(statements);       // positions; each after those that it needs
 ///
 /// Where a program has far more operations than its longest chain waits for, what is urgent is soon computed by the hundred, and a
 /// compiler stores it and loads it again: an arm of seven joints about oblique axes read a value from memory in every instruction.
@@ -21,6 +21,6 @@ struct Computation {
     int latency = 4;           ///< cycles
 };
 
-std::vector<int> uncrowded(const std::vector<Computation>& statements);
+std::vector<int> register_order(const std::vector<Computation>& statements);
 
 }  // namespace alembert
