@@ -12,6 +12,7 @@
 
 #include "analysis/null_fields.hpp"
 #include "analysis/variety.hpp"
+#include "program/reduce_rows.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

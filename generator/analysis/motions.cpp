@@ -8,6 +8,7 @@
 
 #include "analysis/common_zeros.hpp"
 #include "analysis/angle_sum.hpp"
+#include "program/reduce_rows.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

@@ -2,6 +2,7 @@
 #include "analysis/system.hpp"
 
 #include <algorithm>
+#include "program/reduce_rows.hpp"
 
 namespace alembert {
 

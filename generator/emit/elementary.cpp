@@ -20,7 +20,8 @@ void set_elementary(kainjow::mustache::data& file, const std::set<Op>& functions
     for (int k = static_cast<int>(Op::sin); k <= static_cast<int>(Op::max); ++k)
         file.set(name_of(static_cast<Op>(k)), functions.contains(static_cast<Op>(k)));
     file.set("trigonometric", functions.contains(Op::sin) || functions.contains(Op::cos));
-    file.set("library", std::any_of(functions.begin(), functions.end(), [](Op op) { return op != Op::sin && op != Op::cos; }));
+    file.set("library", std::any_of(functions.begin(), functions.end(),
+                                    [](Op op) { return op != Op::sin && op != Op::cos; }));
 }
 
 void add_elementary(kainjow::mustache::data& file) {

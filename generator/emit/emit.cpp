@@ -69,7 +69,8 @@ std::vector<std::string> labels(const Program& p, std::initializer_list<Group> g
 
 class SolverFile {
 public:
-    SolverFile(const Program& program, const EmitOptions& options) : p_(program), options_(options), words_(program) {}
+    SolverFile(const Program& program, const EmitOptions& options)
+        : p_(program), options_(options), words_(program) {}
 
     Source source() {
         const Operations cost = p_.count(p_.right_hand_side());
@@ -98,12 +99,16 @@ private:
     void add_functions() {
         add(prepare(p_, words_), "prepare");
         add(right_hand_side(p_, words_));
-        for (const FunctionTask& task : {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_), multipliers_at(p_)}) add(task);
+        for (const FunctionTask& task :
+             {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_), multipliers_at(p_)})
+            add(task);
         const std::vector<int> position = p_.nodes_of(Group::position);
         const bool has_gamma = !p_.nodes_of(Group::gamma).empty(), moves = !p_.nodes_of(Group::projected).empty();
-        const bool is_needed = has_gamma || std::any_of(position.begin(), position.end(), [&](int node) { return !p_.is_zero(node); });
+        const bool is_needed = has_gamma || std::any_of(position.begin(), position.end(),
+                                                        [&](int node) { return !p_.is_zero(node); });
         add(project(p_));
-        add(moves ? gamma_at(p_) : FunctionTask{.name = "gamma_at", .about = {}, .arguments = {}, .goals = {}, .results = {}});
+        add(moves ? gamma_at(p_)
+                  : FunctionTask{.name = "gamma_at", .about = {}, .arguments = {}, .goals = {}, .results = {}});
         file_.set("has_projection", !position.empty() && is_needed == moves);
     }
 
@@ -131,11 +136,14 @@ private:
         file_.set("state", described(words_.q(), p_.coordinates) +
                                (own_speeds ? ", then " + described(words_.u(), p_.speeds) : ", then their rates"));
         file_.set("equation", own_speeds ? "M(q) u' = f(q, u, t), q' = h(q, u, t)" : "M(q) q'' = f(q, q', t)");
-        file_.set("reaction", is_free ? "" : own_speeds ? " + A^T lambda with A u' = gamma" : " + A^T lambda with A q'' = gamma");
+        file_.set("reaction", is_free      ? ""
+                              : own_speeds ? " + A^T lambda with A u' = gamma"
+                                           : " + A^T lambda with A q'' = gamma");
         file_.set("parameters", words_.par().empty() ? "none" : described(words_.par(), p_.parameters));
-        file_.set("operations", fmt::format("{} a right-hand side: {}, {}, {}, {}", counted(cost.total(), "operation"),
-                                            counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
-                                            counted(cost.divisions, "division"), counted(cost.functions, "function")));
+        file_.set("operations",
+                  fmt::format("{} a right-hand side: {}, {}, {}, {}", counted(cost.total(), "operation"),
+                              counted(cost.additions, "addition"), counted(cost.multiplications, "multiplication"),
+                              counted(cost.divisions, "division"), counted(cost.functions, "function")));
         file_.set("has_speeds", own_speeds);
         file_.set("speed_names", quoted(words_.u()));
         file_.set("coordinate_names", quoted(words_.q()));

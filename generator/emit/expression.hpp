@@ -33,7 +33,9 @@ inline CodeExpression bracketed(const CodeExpression& e) {
 
 inline CodeExpression operator*(const CodeExpression& a, const CodeExpression& b) {
     if (a.is_one() || b.is_one()) return a.is_one() ? b : a;
-    const auto factor = [](const CodeExpression& e) { return e.kind == CodeExpression::Kind::sum ? bracketed(e).text : e.text; };
+    const auto factor = [](const CodeExpression& e) {
+        return e.kind == CodeExpression::Kind::sum ? bracketed(e).text : e.text;
+    };
     return {factor(a) + " * " + factor(b), CodeExpression::Kind::product, a.operations + b.operations + 1};
 }
 
@@ -48,9 +50,11 @@ inline CodeExpression in_order(const std::vector<Piece>& pieces) {
     if (pieces.empty()) return "Real(0)";
     if (pieces.size() == 1 && !pieces[0].negative) return pieces[0].value;
     const auto text = [](const Piece& piece) {
-        return piece.negative && piece.value.kind == CodeExpression::Kind::sum ? bracketed(piece.value).text : piece.value.text;
+        return piece.negative && piece.value.kind == CodeExpression::Kind::sum ? bracketed(piece.value).text
+                                                                               : piece.value.text;
     };
-    CodeExpression sum{(pieces[0].negative ? "-" : "") + text(pieces[0]), CodeExpression::Kind::sum, pieces[0].value.operations};
+    CodeExpression sum{(pieces[0].negative ? "-" : "") + text(pieces[0]), CodeExpression::Kind::sum,
+                       pieces[0].value.operations};
     for (std::size_t k = 1; k < pieces.size(); ++k) {
         sum.text += (pieces[k].negative ? " - " : " + ") + text(pieces[k]);
         sum.operations += pieces[k].value.operations + 1;
@@ -65,7 +69,11 @@ inline CodeExpression joined(std::vector<Piece> pieces) {
     return in_order(pieces);
 }
 
-inline CodeExpression operator+(const CodeExpression& a, const CodeExpression& b) { return in_order({{false, a}, {false, b}}); }
-inline CodeExpression operator-(const CodeExpression& a, const CodeExpression& b) { return in_order({{false, a}, {true, b}}); }
+inline CodeExpression operator+(const CodeExpression& a, const CodeExpression& b) {
+    return in_order({{false, a}, {false, b}});
+}
+inline CodeExpression operator-(const CodeExpression& a, const CodeExpression& b) {
+    return in_order({{false, a}, {true, b}});
+}
 
 }  // namespace alembert

@@ -41,7 +41,8 @@ struct EmittedFunction {
 };
 
 /// None where nothing is to be computed.
-std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task, const EmitOptions& options);
+std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task,
+                                     const EmitOptions& options);
 
 /// The function that makes the constants from the parameters; none where there are no constants.
 std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& words);

@@ -19,8 +19,8 @@ std::string wrapped_line(const std::string& line) {
         std::size_t cut = std::string::npos;
         for (std::size_t at = line.find(' ', start); at != std::string::npos && at - start < line_width;
              at = line.find(' ', at + 1))
-            if (at + 1 < line.size() && (std::string_view("+-*/").find(line[at + 1]) != std::string_view::npos ||
-                                         line[at - 1] == ','))
+            if (at + 1 < line.size() &&
+                (std::string_view("+-*/").find(line[at + 1]) != std::string_view::npos || line[at - 1] == ','))
                 cut = at;
         if (cut == std::string::npos) break;
         result += line.substr(start, cut - start) + "\n        ";
@@ -34,7 +34,8 @@ std::string wrapped_line(const std::string& line) {
 std::string wrapped(const std::string& text) {
     std::istringstream lines(text);
     std::string result;
-    for (std::string line; std::getline(lines, line);) result += (result.empty() ? "" : "\n    ") + wrapped_line(line);
+    for (std::string line; std::getline(lines, line);)
+        result += (result.empty() ? "" : "\n    ") + wrapped_line(line);
     return result;
 }
 
@@ -72,6 +73,8 @@ std::string described(const std::vector<std::string>& names, const std::vector<Q
     return result + line;
 }
 
-std::string counted(int count, const std::string& noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); }
+std::string counted(int count, const std::string& noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
 
 }  // namespace alembert

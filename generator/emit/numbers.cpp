@@ -21,7 +21,9 @@ std::string digits(const cln::cl_I& value) {
 
 }  // namespace
 
-std::string shortest(double value) { return fmt::format("{}", value); }
+std::string shortest(double value) {
+    return fmt::format("{}", value);
+}
 
 std::string number_text(const Rational& value) {
     const cln::cl_I numerator = cln::numerator(value), denominator = cln::denominator(value);

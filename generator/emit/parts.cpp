@@ -25,7 +25,8 @@ FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t
             const auto made = made_in.find(name);
             if (made == made_in.end() || made->second == k) continue;
             const auto [place, is_new] = places.try_emplace(name, parts.carried);
-            if (is_new) parts.list[made->second].lines.push_back(fmt::format("carried[{}] = {};", parts.carried++, name));
+            if (is_new)
+                parts.list[made->second].lines.push_back(fmt::format("carried[{}] = {};", parts.carried++, name));
             loads.push_back(fmt::format("const Real& {} = carried[{}];", name, place->second));
         }
         parts.list[k].lines.insert(parts.list[k].lines.begin(), loads.begin(), loads.end());

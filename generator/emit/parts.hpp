@@ -7,8 +7,9 @@
 ///     parts.list[1].lines;       // const Real& z7 = carried[3]; …; carried[9] = z12;
 ///     parts.carried;             // length of `carried`
 ///
-/// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute for 18 000,
-/// most of it for registers). What a part makes and a later one needs goes through the array `carried`, once.
+/// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute
+/// for 18 000, most of it for registers). What a part makes and a later one needs goes through the array
+/// `carried`, once.
 
 #include <set>
 #include <string>

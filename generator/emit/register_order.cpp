@@ -19,7 +19,8 @@ double occupied(const Computation& statement) {
 }
 
 /// As depth first from the ends would take them, what takes longest first.
-std::vector<int> depth_first(const std::vector<Computation>& statements, const std::vector<std::vector<int>>& users) {
+std::vector<int> depth_first(const std::vector<Computation>& statements,
+                             const std::vector<std::vector<int>>& users) {
     std::vector<int> depth, place(statements.size(), -1);
     for (const Computation& s : statements) {
         int before = 0;
@@ -76,14 +77,20 @@ std::vector<int> register_order(const std::vector<Computation>& statements) {
     order.clear();
     double cycle = 0;
     for (int live = 0; !free.empty();) {
-        const auto roomy = [&](int a, int b) { return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b); };
+        const auto roomy = [&](int a, int b) {
+            return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b);
+        };
         const auto frees = [&](int id) {
             const auto& needs = statements[id].needs;
-            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) || uses[id] == 0;
+            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) ||
+                   uses[id] == 0;
         };
-        const auto key = [&](int id) { return std::make_tuple(!frees(id), at[id] > cycle + processor::look_ahead, place[id]); };
+        const auto key = [&](int id) {
+            return std::make_tuple(!frees(id), at[id] > cycle + processor::look_ahead, place[id]);
+        };
         const auto tight = [&](int a, int b) { return key(a) < key(b); };
-        auto best = live < registers ? std::min_element(free.begin(), free.end(), roomy) : std::min_element(free.begin(), free.end(), tight);
+        auto best = live < registers ? std::min_element(free.begin(), free.end(), roomy)
+                                     : std::min_element(free.begin(), free.end(), tight);
         if (live < registers && at[*best] > cycle) {
             cycle = at[*std::min_element(free.begin(), free.end(), [&](int a, int b) { return at[a] < at[b]; })];
             best = std::min_element(free.begin(), free.end(), roomy);

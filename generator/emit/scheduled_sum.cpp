@@ -19,9 +19,12 @@ double time_of(const Times& times, const Moment& moment) {
 ScheduledSum::ScheduledSum(const SumParts& sum) : outer_(sum.outer), inner_(sum.inner) {
     for (const SumTerm& term : sum.terms) {
         const auto same = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) {
-            return g.late.text == term.late.text && g.factor.text == term.factor.text && g.is_inner == term.is_inner;
+            return g.late.text == term.late.text && g.factor.text == term.factor.text &&
+                   g.is_inner == term.is_inner;
         });
-        Group& group = same != groups_.end() ? *same : groups_.emplace_back(Group{term.factor, term.late, term.ready, term.is_inner, {}});
+        Group& group = same != groups_.end()
+                           ? *same
+                           : groups_.emplace_back(Group{term.factor, term.late, term.ready, term.is_inner, {}});
         group.weights.push_back({term.negative, term.weight});
     }
 }
@@ -29,7 +32,9 @@ ScheduledSum::ScheduledSum(const SumParts& sum) : outer_(sum.outer), inner_(sum.
 std::vector<int> ScheduledSum::in_order_of(const Times& times) const {
     std::vector<int> order(groups_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return time_of(times, groups_[a].ready) < time_of(times, groups_[b].ready); });
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+        return time_of(times, groups_[a].ready) < time_of(times, groups_[b].ready);
+    });
     return order;
 }
 

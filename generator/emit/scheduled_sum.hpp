@@ -4,13 +4,15 @@
 /// Sums in which what is ready last is added last.
 ///
 ///     const ScheduledSum sum({.outer = "per_z", .inner = "per_k",
-///                       .terms = {{.late = "gathered[0]", .ready = {.node = 7, .before = 2, .delay = 15}, .is_inner = true},
-///                                 {.weight = "Real(2)", .factor = "x_one", .late = "z_before", .ready = {3, 1}, .is_inner = true},
+///                       .terms = {{.late = "gathered[0]", .ready = {.node = 7, .before = 2, .delay = 15},
+///                       .is_inner = true},
+///                                 {.weight = "Real(2)", .factor = "x_one", .late = "z_before", .ready = {3, 1},
+///                                 .is_inner = true},
 ///                                 {.factor = "x_0", .late = "y", .ready = {5, 0}}}});
 ///     sum.value(times).text        // "per_z * (per_k * (gathered[0] + Real(2) * x_one * z_before) + x_0 * y)"
 ///
-/// The coefficients of a series wait for each other, order after order, in a chain of additions and multiplications: written in any
-/// other order, a sum waits for its last term and then adds the others.
+/// The coefficients of a series wait for each other, order after order, in a chain of additions and
+/// multiplications: written in any other order, a sum waits for its last term and then adds the others.
 
 #include <array>
 #include <string>
@@ -33,7 +35,7 @@ struct SumTerm {
     CodeExpression weight = {};  ///< a factor that terms have in common; empty: 1
     CodeExpression factor = {};  ///< a product, ready early; empty: 1
     CodeExpression late = {};
-    Moment ready = {};       ///< of `late`
+    Moment ready = {};  ///< of `late`
     bool is_inner = false;
     bool negative = false;
 };

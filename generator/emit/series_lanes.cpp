@@ -15,13 +15,16 @@ bool operator<(const SeriesShape& a, const SeriesShape& b) {
     return cln::compare(a.exponent.number, b.exponent.number) < 0;
 }
 
-bool operator==(const SeriesShape& a, const SeriesShape& b) { return !(a < b) && !(b < a); }
+bool operator==(const SeriesShape& a, const SeriesShape& b) {
+    return !(a < b) && !(b < a);
+}
 
 std::vector<int> arguments_of(const SeriesNode& x) {
     std::vector<int> list;
     for (const auto& [weight, a] : x.linear) list.push_back(a);
     for (const auto& [weight, a, b] : x.bilinear) list.insert(list.end(), {a, b});
-    for (const int arg : {x.a, x.b}) if (arg >= 0) list.push_back(arg);
+    for (const int arg : {x.a, x.b})
+        if (arg >= 0) list.push_back(arg);
     if (x.kind == Kind::quotient || x.kind == Kind::ratio || x.kind == Kind::turn) list.push_back(x.w);
     return list;
 }
@@ -56,24 +59,38 @@ std::vector<SeriesProduct> SeriesLanes::products_of(int id) const {
         for (const auto& [weight, a, b] : *terms) list.push_back({weight, a, b});
     const Weight plus{1, -1}, minus{-1, -1};
     switch (x.kind) {
-        case Kind::quotient: list.push_back({minus, x.w, id}); break;
-        case Kind::root: list.push_back({minus, id, id}); break;
+        case Kind::quotient:
+            list.push_back({minus, x.w, id});
+            break;
+        case Kind::root:
+            list.push_back({minus, id, id});
+            break;
         case Kind::power:
             list.push_back({x.exponent, x.a, id, true, false});
             list.push_back({minus, id, x.a, true, false});
             break;
-        case Kind::sine: case Kind::hyperbolic_sine: case Kind::hyperbolic_cosine: case Kind::area:
+        case Kind::sine:
+        case Kind::hyperbolic_sine:
+        case Kind::hyperbolic_cosine:
+        case Kind::area:
             list.push_back({plus, x.a, x.w, true, false});
             break;
-        case Kind::cosine: list.push_back({minus, x.a, x.w, true, false}); break;
-        case Kind::exponential: list.push_back({plus, x.a, id, true, false}); break;
-        case Kind::ratio: list.push_back({minus, id, x.w, true, false}); break;
+        case Kind::cosine:
+            list.push_back({minus, x.a, x.w, true, false});
+            break;
+        case Kind::exponential:
+            list.push_back({plus, x.a, id, true, false});
+            break;
+        case Kind::ratio:
+            list.push_back({minus, id, x.w, true, false});
+            break;
         case Kind::turn:
             list.push_back({plus, x.b, x.a, false, true});
             list.push_back({minus, x.a, x.b, false, true});
             list.push_back({minus, id, x.w, true, false});
             break;
-        default: break;
+        default:
+            break;
     }
     return list;
 }
@@ -92,12 +109,15 @@ void SeriesLanes::find_lanes() {
 }
 
 SeriesLane SeriesLanes::lane_of(const SeriesProduct& x) {
-    return std::pair(x.a, x.a_rate) <= std::pair(x.b, x.b_rate) ? SeriesLane{x.a, x.b, x.a_rate, x.b_rate} : SeriesLane{x.b, x.a, x.b_rate, x.a_rate};
+    return std::pair(x.a, x.a_rate) <= std::pair(x.b, x.b_rate) ? SeriesLane{x.a, x.b, x.a_rate, x.b_rate}
+                                                                : SeriesLane{x.b, x.a, x.b_rate, x.a_rate};
 }
 
 SeriesShape SeriesLanes::shape(int id) const {
     const SeriesNode& x = node(id);
-    SeriesShape shape{.numbers = {static_cast<int>(x.kind), static_cast<int>(x.op), static_cast<int>(x.linear.size())}, .exponent = {}};
+    SeriesShape shape{
+        .numbers = {static_cast<int>(x.kind), static_cast<int>(x.op), static_cast<int>(x.linear.size())},
+        .exponent = {}};
     for (const auto& [weight, a, b] : x.bilinear) shape.numbers.push_back(a == b ? 1 : 0);
     if (x.kind == Kind::power) shape.exponent = x.exponent;
     // Which positions hold the same argument: it is then from one pack in all lanes.
@@ -114,14 +134,22 @@ std::vector<int> SeriesLanes::positions(int id) const {
     std::vector<int> list;
     for (const auto& [weight, a] : x.linear) list.push_back(a);
     for (const auto& [weight, a, b] : x.bilinear) list.insert(list.end(), {a, b});
-    for (const int arg : {x.a, x.b, x.w}) if (arg >= 0) list.push_back(arg);
+    for (const int arg : {x.a, x.b, x.w})
+        if (arg >= 0) list.push_back(arg);
     return list;
 }
 
 bool SeriesLanes::can_be_packed(int id) const {
     switch (node(id).kind) {
-        case Kind::time: case Kind::coordinate: case Kind::speed: case Kind::work: case Kind::unknown: case Kind::residual: return false;
-        default: return true;
+        case Kind::time:
+        case Kind::coordinate:
+        case Kind::speed:
+        case Kind::work:
+        case Kind::unknown:
+        case Kind::residual:
+            return false;
+        default:
+            return true;
     }
 }
 
@@ -142,8 +170,8 @@ void SeriesLanes::find_levels() {
     }
 }
 
-/// The nodes of a group in parts: from the last level to the first, so that users decide the order of lanes; nobody shares an
-/// argument in a part.
+/// The nodes of a group in parts: from the last level to the first, so that users decide the order of lanes;
+/// nobody shares an argument in a part.
 std::vector<std::vector<int>> SeriesLanes::parts_of(const std::vector<int>& group) const {
     std::vector<std::vector<int>> parts;
     std::vector<std::set<std::pair<std::size_t, int>>> taken;
@@ -180,19 +208,21 @@ void SeriesLanes::find_packs() {
         }
         const int here = -key.first;
         for (std::size_t p = 0; p < packs_.size(); ++p)
-            if (!packs_[p].is_copy && levels_[packs_[p].nodes[0]] == here && packs_[p].number < 0) arrange(static_cast<int>(p));
+            if (!packs_[p].is_copy && levels_[packs_[p].nodes[0]] == here && packs_[p].number < 0)
+                arrange(static_cast<int>(p));
     }
     for (std::size_t p = 0; p < packs_.size(); ++p)
         if (packs_[p].number < 0) arrange(static_cast<int>(p));
     for (const SeriesPack& pack : packs_)
-        if (const SeriesNode& x = node(pack.nodes[0]); x.kind == Kind::power && !pack.is_copy && !pack.by_lanes && x.exponent.constant < 0)
+        if (const SeriesNode& x = node(pack.nodes[0]);
+            x.kind == Kind::power && !pack.is_copy && !pack.by_lanes && x.exponent.constant < 0)
             for (const int id : pack.nodes) products_[id] = {{{1, -1}, node(id).a, id, false, false, true}};
     for (SeriesPack& pack : packs_)
         if (!pack.is_copy) find_weights(pack);
 }
 
-/// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false: there is no
-/// such order. What both take from the lanes of a third pack then stands in one order for both.
+/// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false:
+/// there is no such order. What both take from the lanes of a third pack then stands in one order for both.
 bool SeriesLanes::follow(const std::vector<int>& leader, std::vector<int>& part) const {
     if (leader.size() != part.size()) return false;
     const std::size_t count = positions(leader[0]).size();
@@ -202,7 +232,8 @@ bool SeriesLanes::follow(const std::vector<int>& leader, std::vector<int>& part)
         for (const int id : part) with[positions(id)[k]] = id;
         std::vector<int> ordered;
         for (const int id : leader)
-            if (const auto found = with.find(positions(id)[k]); found != with.end() && can_be_packed(found->first)) ordered.push_back(found->second);
+            if (const auto found = with.find(positions(id)[k]); found != with.end() && can_be_packed(found->first))
+                ordered.push_back(found->second);
         if (with.size() != part.size() || ordered.size() != part.size()) continue;
         part = ordered;
         return true;
@@ -241,20 +272,27 @@ void SeriesLanes::arrange(int number) {
     packs_[number].sources = sources;
 }
 
-/// A pack with just these lanes: one that exists, a new one, or copies. −1: linear sums are better computed lane by lane.
+/// A pack with just these lanes: one that exists, a new one, or copies. −1: linear sums are better computed lane
+/// by lane.
 int SeriesLanes::pack_of(const std::vector<int>& list, bool is_linear) {
     for (std::size_t p = 0; p < packs_.size(); ++p)
         if (packs_[p].nodes == list) return static_cast<int>(p);
     const std::set<int> distinct(list.begin(), list.end());
-    const auto same = [&](int id) { return can_be_packed(id) && !is_packed(id) && levels_[id] == levels_[list[0]] && shape(id) == shape(list[0]); };
-    if (!is_linear && distinct.size() == list.size() && std::all_of(list.begin(), list.end(), same)) return add_pack(list);
+    const auto same = [&](int id) {
+        return can_be_packed(id) && !is_packed(id) && levels_[id] == levels_[list[0]] &&
+               shape(id) == shape(list[0]);
+    };
+    if (!is_linear && distinct.size() == list.size() && std::all_of(list.begin(), list.end(), same))
+        return add_pack(list);
     if (is_linear) return -1;
     packs_.push_back({.nodes = list, .number = numbered_++, .by_lanes = true, .is_copy = true});
     return static_cast<int>(packs_.size()) - 1;
 }
 
 void SeriesLanes::find_weights(SeriesPack& pack) {
-    const auto same = [](const Weight& a, const Weight& b) { return a.constant == b.constant && cln::equal(a.number, b.number); };
+    const auto same = [](const Weight& a, const Weight& b) {
+        return a.constant == b.constant && cln::equal(a.number, b.number);
+    };
     const auto list = [&](int id) {
         std::vector<Weight> all;
         for (const auto& [weight, a] : node(id).linear) all.push_back(weight);
@@ -266,7 +304,8 @@ void SeriesLanes::find_weights(SeriesPack& pack) {
     for (std::size_t k = 0; k < first.size(); ++k) {
         std::vector<Weight> lanes;
         for (const int id : pack.nodes) lanes.push_back(list(id)[k]);
-        const bool differ = std::any_of(lanes.begin(), lanes.end(), [&](const Weight& w) { return !same(w, lanes[0]); });
+        const bool differ =
+            std::any_of(lanes.begin(), lanes.end(), [&](const Weight& w) { return !same(w, lanes[0]); });
         pack.weights.push_back(differ ? lanes : std::vector<Weight>());
     }
     for (const SeriesProduct& product : products_[pack.nodes[0]]) {

@@ -5,7 +5,8 @@
 ///
 ///     const SeriesLanes lanes(recurrences);
 ///     lanes.packs();       // nodes of the same shape: one vector operation for all of them at each order
-///     lanes.lanes();       // products of all other nodes: the sums over lower orders side by side, what follows one by one
+///     lanes.lanes();       // products of all other nodes: the sums over lower orders side by side, what follows
+///     one by one
 ///
 /// Nothing here is text: names and C++ come from series_writer.hpp.
 
@@ -36,13 +37,16 @@ struct SeriesLane {
 /// Nodes of the same shape whose arguments stand in lanes of the same order.
 struct SeriesPack {
     std::vector<int> nodes;
-    int number = -1;                                ///< in the order in which packs were arranged
-    bool by_lanes = false;                          ///< each lane computed, or copied from elsewhere, by itself
+    int number = -1;        ///< in the order in which packs were arranged
+    bool by_lanes = false;  ///< each lane computed, or copied from elsewhere, by itself
     bool is_copy = false;
     bool needs_rates = false;
-    std::map<int, int> sources = {};                ///< argument of the first lane → pack that has all lanes' arguments
-    std::vector<std::vector<Weight>> weights = {};  ///< of linear, bilinear terms, then products; empty: all the same
-    std::size_t padded() const { return (nodes.size() + processor::lanes - 1) / processor::lanes * processor::lanes; }
+    std::map<int, int> sources = {};  ///< argument of the first lane → pack that has all lanes' arguments
+    std::vector<std::vector<Weight>> weights =
+        {};  ///< of linear, bilinear terms, then products; empty: all the same
+    std::size_t padded() const {
+        return (nodes.size() + processor::lanes - 1) / processor::lanes * processor::lanes;
+    }
 };
 
 /// What must be equal for two nodes to be lanes of one pack.
@@ -73,8 +77,11 @@ public:
     const std::vector<SeriesLane>& lanes() const { return lanes_; }
     int number_of(const SeriesProduct& product) const { return numbers_.at(lane_of(product)); }
     static SeriesLane lane_of(const SeriesProduct& product);
-    std::size_t padded() const { return (lanes_.size() + processor::lanes - 1) / processor::lanes * processor::lanes; }
-    /// The first and the last term of each sum are added one by one: the coefficients of the order before need not come back from memory.
+    std::size_t padded() const {
+        return (lanes_.size() + processor::lanes - 1) / processor::lanes * processor::lanes;
+    }
+    /// The first and the last term of each sum are added one by one: the coefficients of the order before need not
+    /// come back from memory.
     bool has_edges() const { return lanes_.size() <= processor::most_edges; }
     /// Order times coefficient is multiplied somewhere.
     bool needs_rate(int id) const { return rate_needed_[id] != 0; }

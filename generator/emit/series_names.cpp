@@ -14,10 +14,11 @@ using Kind = SeriesNode::Kind;
 namespace {
 
 // What templates/taylor.cpp.mustache declares besides what every emitted file does.
-constexpr const char* own[] = {"k",       "number", "per_k", "order",         "top",      "out",      "work",    "last",     "loaded",
-                               "wide",    "lanes",  "l",     "columns",       "put",      "columns_count", "convolved", "squared", "gather",
-                               "gathered", "left",  "right", "room",          "one",      "constant", "store",   "series",   "quad",
-                               "clear",   "solve",  "terms", "most_order",    "most_room", "workspace", "weighed"};
+constexpr const char* own[] = {
+    "k",        "number", "per_k", "order",      "top",       "out",           "work",      "last",    "loaded",
+    "wide",     "lanes",  "l",     "columns",    "put",       "columns_count", "convolved", "squared", "gather",
+    "gathered", "left",   "right", "room",       "one",       "constant",      "store",     "series",  "quad",
+    "clear",    "solve",  "terms", "most_order", "most_room", "workspace",     "weighed"};
 
 }  // namespace
 
@@ -47,15 +48,32 @@ void SeriesWriter::name_nodes() {
         const SeriesNode& x = node(id);
         NodeNames& name = names_of_[id];
         switch (x.kind) {
-            case Kind::coordinate: name.now = names_.fresh(p_.coordinates[static_cast<std::size_t>(x.index)].name + "_k"); break;
-            case Kind::speed: name.now = names_.fresh(speed_name(x.index) + "_k"); break;
-            case Kind::time: name.now = names_.fresh("t_k"); break;
-            case Kind::work: name.now = names_.fresh("work_k"); break;
-            case Kind::residual: name.now = names_.numbered("row"); break;
-            case Kind::unknown: name.now = x.index < r_.preferred ? names_.numbered("a") : names_.numbered("lambda"); break;
-            case Kind::sine: name.now = names_.numbered("sin"); break;
-            case Kind::cosine: name.now = names_.numbered("cos"); break;
-            default: name.now = names_.numbered("z");
+            case Kind::coordinate:
+                name.now = names_.fresh(p_.coordinates[static_cast<std::size_t>(x.index)].name + "_k");
+                break;
+            case Kind::speed:
+                name.now = names_.fresh(speed_name(x.index) + "_k");
+                break;
+            case Kind::time:
+                name.now = names_.fresh("t_k");
+                break;
+            case Kind::work:
+                name.now = names_.fresh("work_k");
+                break;
+            case Kind::residual:
+                name.now = names_.numbered("row");
+                break;
+            case Kind::unknown:
+                name.now = x.index < r_.preferred ? names_.numbered("a") : names_.numbered("lambda");
+                break;
+            case Kind::sine:
+                name.now = names_.numbered("sin");
+                break;
+            case Kind::cosine:
+                name.now = names_.numbered("cos");
+                break;
+            default:
+                name.now = names_.numbered("z");
         }
         name.first = names_.fresh(name.now + "_0");
     }
@@ -66,7 +84,8 @@ void SeriesWriter::name_packs() {
     packs_.resize(packs.size());
     std::vector<std::size_t> order(packs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return packs[a].number < packs[b].number; });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return packs[a].number < packs[b].number; });
     for (const std::size_t p : order) packs_[p].column = names_.numbered("p");
     for (std::size_t p = 0; p < packs.size(); ++p) {
         if (packs[p].is_copy) continue;
@@ -88,7 +107,9 @@ void SeriesWriter::name_lanes() {
     if (!lanes_.has_edges()) return;
     for (const SeriesLane& lane : lanes_.lanes())
         for (const int id : {lane.a, lane.b})
-            if (!edges_.contains(id)) edges_[id] = {names_.fresh(names_of_[id].now + "_one"), names_.fresh(names_of_[id].now + "_before")};
+            if (!edges_.contains(id))
+                edges_[id] = {names_.fresh(names_of_[id].now + "_one"),
+                              names_.fresh(names_of_[id].now + "_before")};
 }
 
 SeriesWriter::Arrays SeriesWriter::arrays() const {
@@ -96,12 +117,14 @@ SeriesWriter::Arrays SeriesWriter::arrays() const {
     const auto place = [&](const std::string& name, std::size_t rows, bool has_orders) {
         if (name.empty()) return;
         std::size_t& count = has_orders ? result.columns : result.single;
-        result.lines.push_back(fmt::format("Real* const {} = columns + {}{};", name, count, has_orders ? " * room" : " + columns_count * room"));
+        result.lines.push_back(fmt::format("Real* const {} = columns + {}{};", name, count,
+                                           has_orders ? " * room" : " + columns_count * room"));
         count += rows;
     };
     const std::vector<SeriesPack>& packs = lanes_.packs();
     for (std::size_t p = 0; p < packs.size(); ++p)
-        for (const std::string* name : {&packs_[p].column, &packs_[p].rates}) place(*name, packs[p].padded(), true);
+        for (const std::string* name : {&packs_[p].column, &packs_[p].rates})
+            place(*name, packs[p].padded(), true);
     if (!lanes_.lanes().empty()) {
         place("left", lanes_.padded(), true);
         place("right", lanes_.padded(), true);

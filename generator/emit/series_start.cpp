@@ -16,7 +16,9 @@ using Kind = SeriesNode::Kind;
 
 namespace {
 
-bool is_pair(Kind kind) { return kind == Kind::sine || kind == Kind::cosine; }
+bool is_pair(Kind kind) {
+    return kind == Kind::sine || kind == Kind::cosine;
+}
 
 }  // namespace
 
@@ -27,13 +29,17 @@ CodeExpression SeriesWriter::power_at_zero(const Weight& exponent, const CodeExp
         return fmt::format("pow({}, {})", base.text, number(exponent).text);
     CodeExpression power = fmt::format("sqrt({})", base.text);
     for (Rational rest = size; rest > 1; rest = rest - 1) power = base * power;
-    return cln::minusp(exponent.number) ? CodeExpression{fmt::format("Real(1) / ({})", power.text), CodeExpression::Kind::product, 1} : power;
+    return cln::minusp(exponent.number)
+               ? CodeExpression{fmt::format("Real(1) / ({})", power.text), CodeExpression::Kind::product, 1}
+               : power;
 }
 
 CodeExpression SeriesWriter::value_at_zero(int id, const View& v) {
     const SeriesNode& x = node(id);
     const auto first = [&](int arg) { return v.first(arg); };
-    const auto call = [&](const char* function) -> CodeExpression { return fmt::format("{}({})", function, first(x.a).text); };
+    const auto call = [&](const char* function) -> CodeExpression {
+        return fmt::format("{}({})", function, first(x.a).text);
+    };
     std::vector<Piece> pieces;
     std::size_t term = 0;
     for (const auto& [weight, a] : x.linear) pieces.push_back(v.piece(term++, weight, first(a)));
@@ -41,24 +47,37 @@ CodeExpression SeriesWriter::value_at_zero(int id, const View& v) {
     for (const Weight& weight : x.constants) pieces.push_back(piece(weight, {}));
     switch (x.kind) {
         case Kind::quotient:
-            return {fmt::format("{} / {}", bracketed(joined(pieces)).text, first(x.w).text), CodeExpression::Kind::product, 1};
-        case Kind::root: return call("sqrt");
-        case Kind::power: return power_at_zero(x.exponent, first(x.a));
-        case Kind::sine: return call("sin");
-        case Kind::cosine: return call("cos");
-        case Kind::hyperbolic_sine: return call("sinh");
-        case Kind::hyperbolic_cosine: return call("cosh");
-        case Kind::exponential: return call("exp");
-        case Kind::area: case Kind::ratio: return call(name_of(x.op));
-        case Kind::turn: return fmt::format("atan2({}, {})", first(x.a).text, first(x.b).text);
-        default: return joined(pieces);
+            return {fmt::format("{} / {}", bracketed(joined(pieces)).text, first(x.w).text),
+                    CodeExpression::Kind::product, 1};
+        case Kind::root:
+            return call("sqrt");
+        case Kind::power:
+            return power_at_zero(x.exponent, first(x.a));
+        case Kind::sine:
+            return call("sin");
+        case Kind::cosine:
+            return call("cos");
+        case Kind::hyperbolic_sine:
+            return call("sinh");
+        case Kind::hyperbolic_cosine:
+            return call("cosh");
+        case Kind::exponential:
+            return call("exp");
+        case Kind::area:
+        case Kind::ratio:
+            return call(name_of(x.op));
+        case Kind::turn:
+            return fmt::format("atan2({}, {})", first(x.a).text, first(x.b).text);
+        default:
+            return joined(pieces);
     }
 }
 
 bool SeriesWriter::is_vector_at_zero(const SeriesPack& pack) const {
     const SeriesNode& x = node(pack.nodes[0]);
     const auto plain = [&](int id) { return node(id).constants.empty(); };
-    return !pack.by_lanes && (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root || x.kind == Kind::power) &&
+    return !pack.by_lanes &&
+           (x.kind == Kind::sum || x.kind == Kind::quotient || x.kind == Kind::root || x.kind == Kind::power) &&
            std::all_of(pack.nodes.begin(), pack.nodes.end(), plain);
 }
 
@@ -72,8 +91,10 @@ void SeriesWriter::add_pack_at_zero(std::vector<CodeStatement>& lines, int numbe
         return;
     }
     const CodeExpression base = packs_[lanes_.source_of(pack, leader.a)].column + "[l]";
-    const CodeExpression value = leader.kind == Kind::root ? fmt::format("sqrt({})", base.text) : power_at_zero(leader.exponent, base);
-    lines.push_back({.text = fmt::format("for (int l = 0; l < {}; ++l) {}[l] = {};", pack.padded(), column, value.text)});
+    const CodeExpression value =
+        leader.kind == Kind::root ? fmt::format("sqrt({})", base.text) : power_at_zero(leader.exponent, base);
+    lines.push_back(
+        {.text = fmt::format("for (int l = 0; l < {}; ++l) {}[l] = {};", pack.padded(), column, value.text)});
 }
 
 /// Everything that is ready but sines; false: there was nothing.
@@ -132,7 +153,8 @@ void SeriesWriter::add_sines(std::vector<CodeStatement>& lines, const std::vecto
     for (const int id : pairs) angles += (angles.empty() ? "" : ", ") + first(node(id).a).text;
     lines.push_back({.text = fmt::format("const auto {} = sincos({});", both, angles)});
     const auto take = [&](int id, const std::string& part) {
-        lines.push_back({.text = fmt::format("{}{} = {}.{};", lanes_.is_packed(id) ? "" : "const Real ", first(id).text, both, part)});
+        lines.push_back({.text = fmt::format("{}{} = {}.{};", lanes_.is_packed(id) ? "" : "const Real ",
+                                             first(id).text, both, part)});
     };
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         take(pairs[i], pairs.size() == 1 ? "s" : fmt::format("sine[{}]", i));
@@ -144,11 +166,17 @@ std::string SeriesWriter::statement_at_zero(int id) {
     const SeriesNode& x = node(id);
     const std::string to = first(id).text;
     switch (x.kind) {
-        case Kind::time: return fmt::format("const Real {} = t;", to);
-        case Kind::coordinate: return fmt::format("const Real {} = state[{}];", to, x.index);
-        case Kind::speed: return fmt::format("const Real {} = state[{}];", to, n_ + x.index);
-        case Kind::work: return fmt::format("const Real {} = state[{}];", to, n_ + s_);
-        default: return fmt::format("{}{} = {};", lanes_.is_packed(id) ? "" : "const Real ", to, value_at_zero(id, view(id)).text);
+        case Kind::time:
+            return fmt::format("const Real {} = t;", to);
+        case Kind::coordinate:
+            return fmt::format("const Real {} = state[{}];", to, x.index);
+        case Kind::speed:
+            return fmt::format("const Real {} = state[{}];", to, n_ + x.index);
+        case Kind::work:
+            return fmt::format("const Real {} = state[{}];", to, n_ + s_);
+        default:
+            return fmt::format("{}{} = {};", lanes_.is_packed(id) ? "" : "const Real ", to,
+                               value_at_zero(id, view(id)).text);
     }
 }
 
@@ -163,21 +191,24 @@ void SeriesWriter::add_inverses(std::vector<CodeStatement>& lines) {
         PackNames& names = packs_[source];
         if (!names.inverse.empty()) continue;
         names.inverse = names_.fresh("per_" + names.column);
-        lines.push_back({.text = fmt::format("for (int l = 0; l < {}; l += lanes<Real>) put({} + l, Real(1) / loaded({} + l));",
-                                             packs[source].padded(), names.inverse, names.column)});
+        lines.push_back({.text = fmt::format(
+                             "for (int l = 0; l < {}; l += lanes<Real>) put({} + l, Real(1) / loaded({} + l));",
+                             packs[source].padded(), names.inverse, names.column)});
     }
     for (int id = 0; id < size(); ++id) {
         if (lanes_.is_packed(id) && !pack_of(id).by_lanes) continue;
         const int of = divisor_of(r_, id);
         if (of < 0 || !names_of_[of].inverse.empty()) continue;
         names_of_[of].inverse = names_.fresh("per_" + names_of_[of].now);
-        lines.push_back({.text = fmt::format("const Real {} = Real(1) / {};", names_of_[of].inverse, first(of).text)});
+        lines.push_back(
+            {.text = fmt::format("const Real {} = Real(1) / {};", names_of_[of].inverse, first(of).text)});
     }
     std::vector<CodeStatement> weights;
     for (std::size_t p = 0; p < packs.size(); ++p)
         for (std::size_t k = 0; k < packs_[p].weights.size(); ++k)
             for (std::size_t lane = 0; lane < packs[p].nodes.size() && !packs_[p].weights[k].empty(); ++lane)
-                weights.push_back({.text = fmt::format("{}[{}] = {};", packs_[p].weights[k], lane, number(packs[p].weights[k][lane]).text)});
+                weights.push_back({.text = fmt::format("{}[{}] = {};", packs_[p].weights[k], lane,
+                                                       number(packs[p].weights[k][lane]).text)});
     lines.insert(lines.begin(), weights.begin(), weights.end());
 }
 
@@ -195,7 +226,9 @@ std::vector<CodeStatement> SeriesWriter::solution_at_zero() {
         const int variable = solver.variable({Variable::Kind::parameter, static_cast<int>(lower.size())});
         lower.push_back(variable);
         leaves[variable] = e.node >= 0 ? first(e.node).text : names_.numbered("m");
-        if (e.node < 0) lines.push_back({.text = fmt::format("const Real {} = {};", leaves[variable], number(e.constant).text)});
+        if (e.node < 0)
+            lines.push_back(
+                {.text = fmt::format("const Real {} = {};", leaves[variable], number(e.constant).text)});
     }
     std::string residuals, results, firsts;
     for (std::size_t i = 0; i < r_.residuals.size(); ++i) {
@@ -207,7 +240,8 @@ std::vector<CodeStatement> SeriesWriter::solution_at_zero() {
         firsts += fmt::format("{}{}", i > 0 ? ", " : "", first(r_.unknowns[i]).text);
     }
     const auto solution = solve_symmetric(solver, lower, right, r_.preferred);
-    if (!solution) throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+    if (!solution)
+        throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     // What does not depend on the residuals is done once.
     std::set<int> fixed;
     for (const int id : solver.needed(*solution))
@@ -217,20 +251,24 @@ std::vector<CodeStatement> SeriesWriter::solution_at_zero() {
     std::vector<Goal> goals;
     for (const int id : fixed) goals.push_back({"Factors", names_.numbered("factor"), id, true});
     Writer factors(solver, names_, leaves);
-    for (const Passage& section : factors.write(goals)) lines.insert(lines.end(), section.statements.begin(), section.statements.end());
+    for (const Passage& section : factors.write(goals))
+        lines.insert(lines.end(), section.statements.begin(), section.statements.end());
     for (const Goal& goal : goals) {
         if (const std::string value = factors.value(goal.node); value != goal.name)
             lines.push_back({.text = fmt::format("const Real {} = {};", goal.name, value)});
         leaves[goal.node] = goal.name;
     }
-    lines.push_back({.text = fmt::format("const auto solve = [&]({}{}) __attribute__((always_inline)) {{", residuals, results)});
+    lines.push_back({.text = fmt::format("const auto solve = [&]({}{}) __attribute__((always_inline)) {{",
+                                         residuals, results)});
     Writer writer(solver, names_, leaves);
     goals.clear();
     for (const int id : *solution) goals.push_back({"Solution", "", id});
     for (const Passage& section : writer.write(goals))
-        for (const CodeStatement& statement : section.statements) lines.push_back({.text = "    " + statement.text});
+        for (const CodeStatement& statement : section.statements)
+            lines.push_back({.text = "    " + statement.text});
     for (std::size_t i = 0; i < solution->size(); ++i)
-        lines.push_back({.text = fmt::format("    {} = {};", now(r_.unknowns[i]).text, writer.value((*solution)[i]))});
+        lines.push_back(
+            {.text = fmt::format("    {} = {};", now(r_.unknowns[i]).text, writer.value((*solution)[i]))});
     lines.push_back({.text = "};"});
     lines.push_back({.text = fmt::format("Real {};", firsts)});
     lines.push_back({.text = solve_call([&](int id) { return first(id).text; })});

@@ -35,11 +35,14 @@ Piece SeriesWriter::piece(const Weight& weight, const CodeExpression& factor) {
     return result;
 }
 
-CodeExpression SeriesWriter::number(const Weight& weight) { return joined({piece(weight, {})}); }
+CodeExpression SeriesWriter::number(const Weight& weight) {
+    return joined({piece(weight, {})});
+}
 
 CodeExpression SeriesWriter::now(int id) const {
     if (!lanes_.is_packed(id)) return names_of_[id].now;
-    return {fmt::format("{}[{} * k + {}]", packs_[lanes_.pack(id)].column, pack_of(id).padded(), lanes_.lane(id)), 2};
+    return {fmt::format("{}[{} * k + {}]", packs_[lanes_.pack(id)].column, pack_of(id).padded(), lanes_.lane(id)),
+            2};
 }
 
 CodeExpression SeriesWriter::first(int id) const {
@@ -48,12 +51,15 @@ CodeExpression SeriesWriter::first(int id) const {
 }
 
 /// The sum of a product over orders below k; where ends are added one by one, without these.
-CodeExpression SeriesWriter::inner_sum(const SeriesProduct& product) const { return fmt::format("gathered[{}]", lanes_.number_of(product)); }
+CodeExpression SeriesWriter::inner_sum(const SeriesProduct& product) const {
+    return fmt::format("gathered[{}]", lanes_.number_of(product));
+}
 
 CodeExpression SeriesWriter::sums_of(int id) {
     if (lanes_.products(id).empty() || lanes_.is_packed(id)) return {};
     std::vector<Piece> pieces;
-    for (const SeriesProduct& product : lanes_.products(id)) pieces.push_back(piece(product.weight, inner_sum(product)));
+    for (const SeriesProduct& product : lanes_.products(id))
+        pieces.push_back(piece(product.weight, inner_sum(product)));
     return bracketed(joined(pieces));
 }
 
@@ -61,7 +67,8 @@ SeriesWriter::View SeriesWriter::view(int id) {
     return {.now = [this](int arg) { return now(arg); },
             .first = [this](int arg) { return first(arg); },
             .inverse = [this](int arg) { return names_of_[arg].inverse; },
-            .piece = [this](std::size_t, const Weight& weight, const CodeExpression& factor) { return piece(weight, factor); },
+            .piece = [this](std::size_t, const Weight& weight,
+                            const CodeExpression& factor) { return piece(weight, factor); },
             .sums = sums_of(id)};
 }
 
@@ -69,7 +76,8 @@ SeriesWriter::View SeriesWriter::view_of_pack(int number) {
     const SeriesPack& pack = lanes_.packs()[number];
     const PackNames& own = packs_[number];
     const auto source = [this, &pack](int arg) { return lanes_.source_of(pack, arg); };
-    const auto weighed = [this, &own](std::size_t term, const Weight& weight, const CodeExpression& factor) -> Piece {
+    const auto weighed = [this, &own](std::size_t term, const Weight& weight,
+                                      const CodeExpression& factor) -> Piece {
         if (own.weights[term].empty()) return piece(weight, factor);
         return {false, CodeExpression(fmt::format("loaded({} + l)", own.weights[term]), 1) * factor};
     };
@@ -79,10 +87,16 @@ SeriesWriter::View SeriesWriter::view_of_pack(int number) {
         sums.push_back(weighed(x.linear.size() + x.bilinear.size() + t, lanes_.products(pack.nodes[0])[t].weight,
                                {fmt::format("loaded({} + l)", own.sums[t]), 1}));
     return {.now = [this, source](int arg) -> CodeExpression {
-                return {fmt::format("loaded({} + {} * k + l)", packs_[source(arg)].column, lanes_.packs()[source(arg)].padded()), 3};
+                return {fmt::format("loaded({} + {} * k + l)", packs_[source(arg)].column,
+                                    lanes_.packs()[source(arg)].padded()),
+                        3};
             },
-            .first = [this, source](int arg) -> CodeExpression { return {fmt::format("loaded({} + l)", packs_[source(arg)].column), 1}; },
-            .inverse = [this, source](int arg) -> CodeExpression { return {fmt::format("loaded({} + l)", packs_[source(arg)].inverse), 1}; },
+            .first = [this, source](int arg) -> CodeExpression {
+                return {fmt::format("loaded({} + l)", packs_[source(arg)].column), 1};
+            },
+            .inverse = [this, source](int arg) -> CodeExpression {
+                return {fmt::format("loaded({} + l)", packs_[source(arg)].inverse), 1};
+            },
             .piece = weighed,
             .sums = sums.empty() ? CodeExpression() : bracketed(joined(sums))};
 }
@@ -94,7 +108,8 @@ std::vector<std::string> SeriesWriter::prepare() {
         const Node& x = p_[id];
         if (x.op == Op::variable) return fmt::format("par[{}]", x.variable.index);
         if (x.is_number()) return exact_text(x.number);
-        if (x.op == Op::pi) return "(Real(3.141592653589793) + Real(1.2246467991473532e-16) + Real(-2.9947698097183397e-33))";
+        if (x.op == Op::pi)
+            return "(Real(3.141592653589793) + Real(1.2246467991473532e-16) + Real(-2.9947698097183397e-33))";
         return known.at(id);
     };
     for (const int id : p_.needed(constants_)) {
@@ -105,7 +120,8 @@ std::vector<std::string> SeriesWriter::prepare() {
             std::vector<Piece> pieces;
             for (std::size_t k = 0; k < x.args.size(); ++k) {
                 const Rational size = cln::abs(x.coefficients[k]);
-                pieces.push_back({cln::minusp(x.coefficients[k]), (cln::equal(size, 1) ? "" : exact_text(size) + " * ") + text(x.args[k])});
+                pieces.push_back({cln::minusp(x.coefficients[k]),
+                                  (cln::equal(size, 1) ? "" : exact_text(size) + " * ") + text(x.args[k])});
             }
             if (!cln::zerop(x.number)) pieces.push_back({cln::minusp(x.number), exact_text(cln::abs(x.number))});
             value = joined(pieces).text;
@@ -113,10 +129,14 @@ std::vector<std::string> SeriesWriter::prepare() {
             std::string above, below;
             for (std::size_t k = 0; k < x.args.size(); ++k)
                 for (int e = 0; e < std::abs(x.exponents[k]); ++e)
-                    (x.exponents[k] > 0 ? above : below) += (x.exponents[k] < 0 ? " / " : above.empty() ? "" : " * ") + text(x.args[k]);
+                    (x.exponents[k] > 0 ? above : below) += (x.exponents[k] < 0 ? " / "
+                                                             : above.empty()    ? ""
+                                                                                : " * ") +
+                                                            text(x.args[k]);
             value = (above.empty() ? "Real(1)" : above) + below;
         } else {
-            value = std::string(name_of(x.op)) + "(" + text(x.args[0]) + (x.args.size() > 1 ? ", " + text(x.args[1]) : "") + ")";
+            value = std::string(name_of(x.op)) + "(" + text(x.args[0]) +
+                    (x.args.size() > 1 ? ", " + text(x.args[1]) : "") + ")";
         }
         known[id] = names_.numbered("c");
         lines.push_back(fmt::format("const Real {} = {};", known[id], value));

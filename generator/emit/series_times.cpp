@@ -9,7 +9,9 @@ using Kind = SeriesNode::Kind;
 
 namespace {
 
-int coordinates_of(const Recurrences& r) { return static_cast<int>(r.program.coordinates.size()); }
+int coordinates_of(const Recurrences& r) {
+    return static_cast<int>(r.program.coordinates.size());
+}
 
 /// The component of the state that a node is; −1: none.
 int component_of(const Recurrences& r, const SeriesNode& x) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The C++ of Taylor coefficients: names for what series_lanes.hpp has decided, statements of order 0 and of order k.
+/// The C++ of Taylor coefficients: names for what series_lanes.hpp has decided, statements of order 0 and of order
+/// k.
 ///
 ///     SeriesWriter writer(recurrences, lanes);
 ///     writer.order_zero();      // first coefficients, factors of the linear system
@@ -9,8 +10,8 @@
 ///     writer.chain();           // the coefficients of order k
 ///     writer.prepare();         // last: the constants that all of these have asked for
 ///
-/// series_names.cpp gives names and places; series_start.cpp writes order 0, series_order.cpp the statements of order k,
-/// series_values.cpp the values in them, series_text.cpp what values are made of.
+/// series_names.cpp gives names and places; series_start.cpp writes order 0, series_order.cpp the statements of
+/// order k, series_values.cpp the values in them, series_text.cpp what values are made of.
 
 #include <functional>
 #include <map>
@@ -53,14 +54,15 @@ public:
 
 private:
     struct NodeNames {
-        std::string now, first;            ///< the coefficient of this order; of order 0
-        std::string rate;                  ///< k times the coefficient of this order; empty: not needed
-        std::string inverse;               ///< of the first coefficient
+        std::string now, first;  ///< the coefficient of this order; of order 0
+        std::string rate;        ///< k times the coefficient of this order; empty: not needed
+        std::string inverse;     ///< of the first coefficient
     };
     struct PackNames {
-        std::string column = {}, rates = {}, inverse = {};  ///< arrays [order][padded]; rates and inverse where needed
-        std::vector<std::string> sums = {};                 ///< of each product
-        std::vector<std::string> weights = {};              ///< of each term, where lanes differ
+        std::string column = {}, rates = {},
+                    inverse = {};               ///< arrays [order][padded]; rates and inverse where needed
+        std::vector<std::string> sums = {};     ///< of each product
+        std::vector<std::string> weights = {};  ///< of each term, where lanes differ
     };
     struct EdgeNames {
         std::string one, before;  ///< the coefficient of order 1, with its rate's; of the order before

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What an emitted function is made of, from the writer to the template: nobody has to read C++ to know what a statement does.
+/// What an emitted function is made of, from the writer to the template: nobody has to read C++ to know what a
+/// statement does.
 ///
-///     CodeStatement{.names = {"z1"}, .uses = {"m1", "sin_theta"}, .cost = 1, .text = "const Real z1 = m1 * sin_theta;"}
+///     CodeStatement{.names = {"z1"}, .uses = {"m1", "sin_theta"}, .cost = 1, .text = "const Real z1 = m1 *
+///     sin_theta;"}
 
 #include <set>
 #include <string>
@@ -29,10 +31,10 @@ struct Passage {
 struct Goal {
     std::string section, name;
     int node;
-    bool own_name = false;       ///< `name` is taken by the caller, for this
-    bool is_negative = false;    ///< it is the node times −1: `name` is that of the negative
-    bool is_noted = false;       ///< where no variable gets its name, a note says what it is
-    bool is_computed = true;     ///< else it is there for its note alone
+    bool own_name = false;     ///< `name` is taken by the caller, for this
+    bool is_negative = false;  ///< it is the node times −1: `name` is that of the negative
+    bool is_noted = false;     ///< where no variable gets its name, a note says what it is
+    bool is_computed = true;   ///< else it is there for its note alone
 };
 
 }  // namespace alembert

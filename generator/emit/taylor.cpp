@@ -25,15 +25,34 @@ std::set<Op> elementary_functions(const Recurrences& r, const std::vector<int>& 
     for (const int id : r.program.needed(constants))
         if (r.program[id].op >= Op::sin) functions.insert(r.program[id].op);
     for (const SeriesNode& x : r.nodes) switch (x.kind) {
-            case Kind::sine: case Kind::cosine: functions.insert(Op::sin); break;
-            case Kind::hyperbolic_sine: functions.insert(Op::sinh); break;
-            case Kind::hyperbolic_cosine: functions.insert(Op::cosh); break;
-            case Kind::exponential: functions.insert(Op::exp); break;
-            case Kind::root: functions.insert(Op::sqrt); break;
-            case Kind::power: functions.insert({Op::sqrt, Op::pow}); break;
-            case Kind::area: case Kind::ratio: functions.insert(x.op); break;
-            case Kind::turn: functions.insert(Op::atan2); break;
-            default: break;
+            case Kind::sine:
+            case Kind::cosine:
+                functions.insert(Op::sin);
+                break;
+            case Kind::hyperbolic_sine:
+                functions.insert(Op::sinh);
+                break;
+            case Kind::hyperbolic_cosine:
+                functions.insert(Op::cosh);
+                break;
+            case Kind::exponential:
+                functions.insert(Op::exp);
+                break;
+            case Kind::root:
+                functions.insert(Op::sqrt);
+                break;
+            case Kind::power:
+                functions.insert({Op::sqrt, Op::pow});
+                break;
+            case Kind::area:
+            case Kind::ratio:
+                functions.insert(x.op);
+                break;
+            case Kind::turn:
+                functions.insert(Op::atan2);
+                break;
+            default:
+                break;
         }
     return functions;
 }

@@ -65,12 +65,23 @@ std::map<int, std::string> Vocabulary::variables() const {
         if (node.op != Op::variable) continue;
         const auto i = static_cast<std::size_t>(node.variable.index);
         switch (node.variable.kind) {
-            case Variable::Kind::parameter: leaves[id] = par_[i]; break;
-            case Variable::Kind::time: leaves[id] = "t"; break;
-            case Variable::Kind::coordinate: leaves[id] = q_[i]; break;
-            case Variable::Kind::rate: leaves[id] = u_[i]; break;
-            case Variable::Kind::acceleration: leaves[id] = a_[i]; break;
-            case Variable::Kind::unknown: break;
+            case Variable::Kind::parameter:
+                leaves[id] = par_[i];
+                break;
+            case Variable::Kind::time:
+                leaves[id] = "t";
+                break;
+            case Variable::Kind::coordinate:
+                leaves[id] = q_[i];
+                break;
+            case Variable::Kind::rate:
+                leaves[id] = u_[i];
+                break;
+            case Variable::Kind::acceleration:
+                leaves[id] = a_[i];
+                break;
+            case Variable::Kind::unknown:
+                break;
         }
     }
     return leaves;
@@ -89,15 +100,26 @@ std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool 
         if (node.op != Op::variable || constant_names_.contains(id)) continue;
         const auto i = static_cast<std::size_t>(node.variable.index);
         switch (node.variable.kind) {
-            case Variable::Kind::parameter: par[i] = 1; break;
-            case Variable::Kind::coordinate: q[i] = 1; break;
-            case Variable::Kind::rate: u[i] = 1; break;
-            case Variable::Kind::acceleration: a[i] = 1; break;
-            case Variable::Kind::time: case Variable::Kind::unknown: break;
+            case Variable::Kind::parameter:
+                par[i] = 1;
+                break;
+            case Variable::Kind::coordinate:
+                q[i] = 1;
+                break;
+            case Variable::Kind::rate:
+                u[i] = 1;
+                break;
+            case Variable::Kind::acceleration:
+                a[i] = 1;
+                break;
+            case Variable::Kind::time:
+            case Variable::Kind::unknown:
+                break;
         }
     }
     std::vector<ArrayInput> items;
-    const auto add = [&](const std::vector<std::string>& names, const std::vector<char>& wanted, ArrayInput::Array array, int first) {
+    const auto add = [&](const std::vector<std::string>& names, const std::vector<char>& wanted,
+                         ArrayInput::Array array, int first) {
         for (std::size_t i = 0; i < names.size(); ++i)
             if (wanted[i] != 0) items.push_back({names[i], array, first + static_cast<int>(i)});
     };
@@ -107,7 +129,8 @@ std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool 
     add(par_, par, ArrayInput::Array::par, 0);
     for (std::size_t k = 0; k < constants_.size(); ++k)
         if (uses.contains(constants_[k]))
-            items.push_back({constant_names_.at(constants_[k]), ArrayInput::Array::par, static_cast<int>(par_.size() + k)});
+            items.push_back(
+                {constant_names_.at(constants_[k]), ArrayInput::Array::par, static_cast<int>(par_.size() + k)});
     return items;
 }
 

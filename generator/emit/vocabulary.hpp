@@ -22,7 +22,7 @@ struct ArrayInput {
     std::string name;
     Array array;
     int place;
-    std::string source() const;             ///< "state[0]"
+    std::string source() const;  ///< "state[0]"
 };
 
 class Vocabulary {
@@ -38,10 +38,12 @@ public:
 
     const Names& names() const { return names_; }  ///< with all of the following taken
     const std::vector<std::string>& q() const { return q_; }
-    const std::vector<std::string>& u() const { return u_; }    ///< speeds
-    const std::vector<std::string>& a() const { return a_; }    ///< their rates
+    const std::vector<std::string>& u() const { return u_; }  ///< speeds
+    const std::vector<std::string>& a() const { return a_; }  ///< their rates
     const std::vector<std::string>& par() const { return par_; }
-    const std::vector<int>& constants() const { return constants_; }  ///< nodes that depend on parameters alone, in the order of `par`
+    const std::vector<int>& constants() const {
+        return constants_;
+    }  ///< nodes that depend on parameters alone, in the order of `par`
     const std::string& constant(int node) const { return constant_names_.at(node); }
 
 private:

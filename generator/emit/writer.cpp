@@ -17,10 +17,14 @@ namespace alembert {
 namespace {
 
 constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
-constexpr int widest_expression = 10;  // operations in one statement, so that it can be read
+constexpr int widest_expression = 10;            // operations in one statement, so that it can be read
 
-bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
-bool is_negation(const Node& node) { return node.is_scaled() && cln::equal(node.coefficients[0], -1); }
+bool is_trigonometric(const Node& node) {
+    return node.op == Op::sin || node.op == Op::cos;
+}
+bool is_negation(const Node& node) {
+    return node.is_scaled() && cln::equal(node.coefficients[0], -1);
+}
 
 }  // namespace
 
@@ -56,7 +60,8 @@ void Writer::shorten(int id, std::map<int, int>& length) {
     while (operations > widest_expression) {
         int longest = -1;
         for (const int arg : node.args)
-            if (!wanted_.contains(arg) && length[arg] > 0 && (longest < 0 || length[arg] > length[longest])) longest = arg;
+            if (!wanted_.contains(arg) && length[arg] > 0 && (longest < 0 || length[arg] > length[longest]))
+                longest = arg;
         if (longest < 0) break;
         wanted_.emplace(longest, "");
         operations -= length[longest];
@@ -79,7 +84,9 @@ void Writer::choose_statements(const std::vector<Goal>& goals) {
         (node.op == Op::sin ? sine : cosine) = id;
     }
     for (const Goal& goal : goals) {
-        if (!goal.is_computed || is_simple(goal.node) || goal.name.empty() || is_trigonometric(program_[goal.node])) continue;
+        if (!goal.is_computed || is_simple(goal.node) || goal.name.empty() ||
+            is_trigonometric(program_[goal.node]))
+            continue;
         std::string& wish = wanted_[goal.node];
         if (goal.is_negative) {
             if (wish.empty()) wanted_negatives_.emplace(goal.node, goal.name);
@@ -103,7 +110,8 @@ std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     const bool is_long = ready_->is_ordered() && wanted_.size() > readable_statements;
     std::vector<Passage> passages = is_long ? in_order_of_time(sections, nodes) : in_sections(sections);
     add_notes(passages, goals);
-    std::erase_if(passages, [](const Passage& passage) { return passage.statements.empty() && passage.notes.empty(); });
+    std::erase_if(passages,
+                  [](const Passage& passage) { return passage.statements.empty() && passage.notes.empty(); });
     return passages;
 }
 
@@ -137,7 +145,8 @@ Writer::Sections Writer::sections_of(const std::vector<Goal>& goals) const {
             if (place[id] != 0) place[id] = s;
     for (auto user = place.rbegin(); user != place.rend(); ++user)
         for (const int arg : program_[user->first].args)
-            if (const auto it = place.find(arg); it != place.end()) it->second = std::min(it->second, user->second);
+            if (const auto it = place.find(arg); it != place.end())
+                it->second = std::min(it->second, user->second);
     return sections;
 }
 
@@ -161,7 +170,9 @@ std::vector<Passage> Writer::in_order_of_time(const Sections& sections, const st
         if (sections.of(id) == 0 && !named_.contains(id)) first.push_back(id);
     std::vector<Passage> passages{{.title = sections.titles[0], .statements = trigonometry(first)},
                                   {.title = "All else, each value soon after those that it is made of"}};
-    const auto is_done = [&](int node) { return sections.of(node) == 0 || is_leaf(node) || named_.contains(node); };
+    const auto is_done = [&](int node) {
+        return sections.of(node) == 0 || is_leaf(node) || named_.contains(node);
+    };
     for (const int id : scheduled(program_, *ready_, nodes, is_done))
         if (wanted_.contains(id) && !named_.contains(id)) statements.push_back(id);
     for (const int id : in_registers(statements)) passages[1].statements.push_back(statement(id));
@@ -172,16 +183,20 @@ std::vector<Passage> Writer::in_order_of_time(const Sections& sections, const st
 void Writer::add_notes(std::vector<Passage>& passages, const std::vector<Goal>& goals) {
     const auto is_known = [&](int id) { return is_simple(id) || named_.contains(id) || negatives_.contains(id); };
     for (const Goal& goal : goals) {
-        if (!goal.is_noted || !(is_known(goal.node) || (program_[goal.node].is_scaled() && is_known(program_[goal.node].args[0])))) continue;
-        if (const auto negative = negatives_.find(goal.node); goal.is_negative && negative != negatives_.end()) continue;
+        if (!goal.is_noted ||
+            !(is_known(goal.node) || (program_[goal.node].is_scaled() && is_known(program_[goal.node].args[0]))))
+            continue;
+        if (const auto negative = negatives_.find(goal.node); goal.is_negative && negative != negatives_.end())
+            continue;
         const Node& node = program_[goal.node];
-        const std::string value = node.is_number()    ? shortest(cln::double_approx(node.number))
+        const std::string value = node.is_number()   ? shortest(cln::double_approx(node.number))
                                   : goal.is_negative ? "-" + text(goal.node, multiplicative)
                                                      : text(goal.node, additive);
         if (value == goal.name) continue;
         const auto same = [&](const Passage& passage) { return passage.title == goal.section; };
         const auto passage = std::find_if(passages.begin(), passages.end(), same);
-        (passage != passages.end() ? *passage : passages.back()).notes.push_back(fmt::format("{} = {}", goal.name, value));
+        (passage != passages.end() ? *passage : passages.back())
+            .notes.push_back(fmt::format("{} = {}", goal.name, value));
     }
     reading_.clear();
     operations_ = 0;

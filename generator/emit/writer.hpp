@@ -7,8 +7,8 @@
 ///     writer.write({{"Forcing f", "f0", node}});      // passages of statements
 ///     writer.assigned("forcing", "forcing[0]", node); // forcing[0] = f0;
 ///
-/// writer.cpp decides which nodes get statements, and where; writer_trigonometry.cpp writes sines and cosines, writer_text.cpp all
-/// other values.
+/// writer.cpp decides which nodes get statements, and where; writer_trigonometry.cpp writes sines and cosines,
+/// writer_text.cpp all other values.
 
 #include <map>
 #include <optional>
@@ -25,8 +25,8 @@ namespace alembert {
 class Writer {
 public:
     /// `leaves`: nodes that have names already (variables, constants that `prepare` made).
-    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations instead of 30, as good to
-    /// an ulp of 1, and further from the book.
+    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations
+    /// instead of 30, as good to an ulp of 1, and further from the book.
     Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false)
         : program_(program), names_(std::move(names)), named_(std::move(leaves)), adds_angles_(adds_angles) {}
 
@@ -88,10 +88,11 @@ private:
     std::map<int, std::string> named_;
     std::map<int, std::string> negatives_;  // nodes whose negative has a name: that name
     std::map<int, std::string> leaves_;
-    std::map<int, int> uses_;             // how often a needed node is used
-    std::map<int, std::string> wanted_;   // nodes that get a statement, and the name they ask for ("" for any)
-    std::map<int, std::string> promised_; // names that are theirs already
-    std::map<int, std::string> wanted_negatives_;  // nodes that are written as their negative, and the name of that
+    std::map<int, int> uses_;              // how often a needed node is used
+    std::map<int, std::string> wanted_;    // nodes that get a statement, and the name they ask for ("" for any)
+    std::map<int, std::string> promised_;  // names that are theirs already
+    std::map<int, std::string>
+        wanted_negatives_;  // nodes that are written as their negative, and the name of that
     std::map<int, std::string> argument_names_, sine_names_, cosine_names_;  // of an argument
     bool adds_angles_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed

@@ -4,15 +4,16 @@
 
 #include <algorithm>
 
-#include "emit/numbers.hpp"
 #include "emit/expression.hpp"
+#include "emit/numbers.hpp"
 #include "emit/writer.hpp"
 
 namespace alembert {
 
 /// The statement whose text was just made, with what was met on the way.
 CodeStatement Writer::finished(std::vector<std::string> names, std::string text) {
-    CodeStatement result{.names = std::move(names), .uses = std::move(reading_), .cost = operations_, .text = std::move(text)};
+    CodeStatement result{
+        .names = std::move(names), .uses = std::move(reading_), .cost = operations_, .text = std::move(text)};
     reading_.clear();
     operations_ = 0;
     return result;
@@ -109,8 +110,10 @@ std::string Writer::sum_text(int id, bool negated) {
         if (cln::equal(size, 1)) {
             const bool is_sum = arg.op == Op::sum && !arg.is_scaled() && !has_name(node.args[k]);
             // −1·(a − b) reads better as b − a.
-            if (negative && is_sum && node.args.size() == 1 && cln::zerop(node.number)) return sum_text(node.args[k], true);
-            pieces.push_back({negative, unsigned_text(node.args[k], is_sum || negative ? multiplicative : additive)});
+            if (negative && is_sum && node.args.size() == 1 && cln::zerop(node.number))
+                return sum_text(node.args[k], true);
+            pieces.push_back(
+                {negative, unsigned_text(node.args[k], is_sum || negative ? multiplicative : additive)});
         } else {
             pieces.push_back({negative, number_text(size) + " * " + unsigned_text(node.args[k], multiplicative)});
             ++operations_;
@@ -122,7 +125,8 @@ std::string Writer::sum_text(int id, bool negated) {
     operations_ += static_cast<int>(pieces.size()) - 1;
     // A positive term first, if there is one: b − a, not −a + b. But what is late stays last.
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return !p.negative; });
-    const bool late = ready_->is_ordered() && pieces.size() > 2 && positive != pieces.end() && positive + 1 == pieces.end();
+    const bool late =
+        ready_->is_ordered() && pieces.size() > 2 && positive != pieces.end() && positive + 1 == pieces.end();
     return (late ? in_order(pieces) : joined(std::move(pieces))).text;
 }
 
@@ -134,7 +138,8 @@ std::string Writer::product_text(int sought) {
         const Node& arg = program_[id];
         if (node.exponents[k] < 0 || (arg.is_reciprocal() && !named_.contains(id))) {
             const int below = node.exponents[k] < 0 ? id : arg.args[0];
-            for (int e = 0; e < std::abs(node.exponents[k]); ++e, ++operations_) denominators += " / " + unsigned_text(below, primary);
+            for (int e = 0; e < std::abs(node.exponents[k]); ++e, ++operations_)
+                denominators += " / " + unsigned_text(below, primary);
             continue;
         }
         for (int e = 0; e < node.exponents[k]; ++e) {

@@ -11,7 +11,9 @@ namespace alembert {
 
 namespace {
 
-bool is_trigonometric(const Node& node) { return node.op == Op::sin || node.op == Op::cos; }
+bool is_trigonometric(const Node& node) {
+    return node.op == Op::sin || node.op == Op::cos;
+}
 
 }  // namespace
 
@@ -36,11 +38,13 @@ std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
                 arguments.push_back(argument);
                 first.push_back(id);
             }
-        const std::vector<AngleSum> sums = adds_angles_ ? taken_out_sums(arguments, first) : std::vector<AngleSum>();
+        const std::vector<AngleSum> sums =
+            adds_angles_ ? taken_out_sums(arguments, first) : std::vector<AngleSum>();
         for (std::size_t begin = 0; begin < arguments.size(); begin += processor::widest_sincos) {
             const std::size_t end = std::min(begin + processor::widest_sincos, arguments.size());
             const auto at = [&](std::size_t k) { return arguments.begin() + static_cast<std::ptrdiff_t>(k); };
-            statements.push_back(end - begin == 1 ? statement(first[begin]) : sines_together({at(begin), at(end)}, sums));
+            statements.push_back(end - begin == 1 ? statement(first[begin])
+                                                  : sines_together({at(begin), at(end)}, sums));
         }
         for (const AngleSum& sum : sums) add_angle_sum(statements, sum);
     }
@@ -56,9 +60,10 @@ CodeStatement Writer::sines_together(const std::vector<int>& arguments, const st
         const int argument = arguments[k];
         const std::string base = trigonometric_name(argument);
         of += (of.empty() ? "" : ", ") + text(argument, additive);
-        const bool is_added = std::any_of(sums.begin(), sums.end(),
-                                          [&](const AngleSum& sum) { return sum.a == argument || sum.b == argument; });
-        const auto name_it = [&](int node, std::map<int, std::string>& known, const char* prefix, const char* part) {
+        const bool is_added = std::any_of(
+            sums.begin(), sums.end(), [&](const AngleSum& sum) { return sum.a == argument || sum.b == argument; });
+        const auto name_it = [&](int node, std::map<int, std::string>& known, const char* prefix,
+                                 const char* part) {
             if (node < 0 && !is_added) return;
             names.push_back(known[argument] = names_.fresh(prefix + base));
             if (node >= 0) named_[node] = names.back();
@@ -68,13 +73,15 @@ CodeStatement Writer::sines_together(const std::vector<int>& arguments, const st
         name_it(sine, sine_names_, "sin_", "sine");
         name_it(cosine, cosine_names_, "cos_", "cosine");
     }
-    return finished(std::move(names), fmt::format("const auto {} = sincos({});\nconst Real {};", group, of, values));
+    return finished(std::move(names),
+                    fmt::format("const auto {} = sincos({});\nconst Real {};", group, of, values));
 }
 
 void Writer::add_angle_sum(std::vector<CodeStatement>& statements, const AngleSum& sum) {
     const auto [sine, cosine] = sines_[sum.argument];
     const std::string base = trigonometric_name(sum.argument);
-    const std::string &sa = sine_names_[sum.a], &ca = cosine_names_[sum.a], &sb = sine_names_[sum.b], &cb = cosine_names_[sum.b];
+    const std::string &sa = sine_names_[sum.a], &ca = cosine_names_[sum.a], &sb = sine_names_[sum.b],
+                      &cb = cosine_names_[sum.b];
     const auto add = [&](int node, const char* prefix, const std::string& value) {
         if (node < 0) return;
         const std::string name = named_[node] = names_.fresh(prefix + base);
@@ -96,7 +103,8 @@ CodeStatement Writer::trigonometric_statement(int id) {
     if (cosine >= 0) named_[cosine] = names_.fresh("cos_" + base);
     ++operations_;
     if (sine >= 0 && cosine >= 0)
-        return finished({named_[sine], named_[cosine]}, fmt::format("const auto [{}, {}] = sincos({});", named_[sine], named_[cosine], of));
+        return finished({named_[sine], named_[cosine]},
+                        fmt::format("const auto [{}, {}] = sincos({});", named_[sine], named_[cosine], of));
     return finished({named_[id]}, fmt::format("const Real {} = {}({});", named_[id], name_of(node.op), of));
 }
 
@@ -106,14 +114,19 @@ std::vector<Writer::AngleSum> Writer::taken_out_sums(std::vector<int>& arguments
     if (arguments.size() > processor::widest_sincos) return sums;
     const std::vector<int> all = arguments;
     const auto is_alone = [&](int id) {
-        return std::find(all.begin(), all.end(), id) != all.end() && (program_[id].op != Op::sum || program_[id].is_scaled());
+        return std::find(all.begin(), all.end(), id) != all.end() &&
+               (program_[id].op != Op::sum || program_[id].is_scaled());
     };
     for (const int id : all) {
         const Node& node = program_[id];
-        if (node.op != Op::sum || node.args.size() != 2 || !cln::zerop(node.number) || !cln::equal(node.coefficients[0], 1) ||
-            !cln::equal(cln::abs(node.coefficients[1]), 1) || !is_alone(node.args[0]) || !is_alone(node.args[1]))
+        if (node.op != Op::sum || node.args.size() != 2 || !cln::zerop(node.number) ||
+            !cln::equal(node.coefficients[0], 1) || !cln::equal(cln::abs(node.coefficients[1]), 1) ||
+            !is_alone(node.args[0]) || !is_alone(node.args[1]))
             continue;
-        sums.push_back({.argument = id, .a = node.args[0], .b = node.args[1], .is_difference = cln::minusp(node.coefficients[1])});
+        sums.push_back({.argument = id,
+                        .a = node.args[0],
+                        .b = node.args[1],
+                        .is_difference = cln::minusp(node.coefficients[1])});
         const auto place = std::find(arguments.begin(), arguments.end(), id);
         first.erase(first.begin() + (place - arguments.begin()));
         arguments.erase(place);

@@ -93,8 +93,8 @@ int Lowering::lowered(const ex& e) {
         for (const ex& arg : e) args.push_back((*this)(arg));
         return program_.call(operations().at(function_name(e)), std::move(args));
     }
-    throw ModelError(fmt::format("an expression of kind '{}' cannot be turned into code",
-                                 ex_to<GiNaC::basic>(e).class_name()));
+    throw ModelError(
+        fmt::format("an expression of kind '{}' cannot be turned into code", ex_to<GiNaC::basic>(e).class_name()));
 }
 
 Rational Lowering::rational(const ex& e) {
@@ -114,16 +114,20 @@ int Lowering::symbol(const GiNaC::symbol& s) {
     }
     const SymbolInfo& info = m_.symbols->info(s);
     switch (info.kind) {
-        case SymbolInfo::Kind::time: return program_.variable({Variable::Kind::time, 0});
-        case SymbolInfo::Kind::parameter: return parameter(info.index);
-        case SymbolInfo::Kind::input: return input(info.index, info.order);
+        case SymbolInfo::Kind::time:
+            return program_.variable({Variable::Kind::time, 0});
+        case SymbolInfo::Kind::parameter:
+            return parameter(info.index);
+        case SymbolInfo::Kind::input:
+            return input(info.index, info.order);
         case SymbolInfo::Kind::coordinate: {
             const auto kind = info.order == 0   ? Variable::Kind::coordinate
                               : info.order == 1 ? Variable::Kind::rate
                                                 : Variable::Kind::acceleration;
             return program_.variable({kind, info.index});
         }
-        default: break;
+        default:
+            break;
     }
     throw ModelError(fmt::format("'{}' has no value", info.text()));
 }

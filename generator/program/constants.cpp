@@ -9,7 +9,9 @@ namespace alembert {
 
 namespace {
 
-bool is_constant_sum(const Node& node) { return node.op == Op::sum && node.is_constant(); }
+bool is_constant_sum(const Node& node) {
+    return node.op == Op::sum && node.is_constant();
+}
 
 struct Flat {
     Rational number = 0;

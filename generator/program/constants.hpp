@@ -3,7 +3,8 @@
 
 /// Sums of parameters without terms that cancel: z + (A − C − z) is A − C.
 ///
-/// A sum inside a sum is taken apart where the result has no more terms than before; where it is shared and nothing cancels, it stays.
+/// A sum inside a sum is taken apart where the result has no more terms than before; where it is shared and
+/// nothing cancels, it stays.
 
 #include "program/program.hpp"
 
