@@ -3,29 +3,142 @@
 //
 //   state  x [m], phi [rad], then their rates
 //   par    m1 [kg], m2 [kg], l [m], g [m/s^2]
-//   cost   17 operations a right-hand side: 3 additions, 11 multiplications, 1 divisions, 2 functions
+//   cost   17 operations a right-hand side: 3 additions, 11 multiplications, 1 division, 2 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &g = par[3];
+
+    // Constants
+    const Real M00 = m1 + m2;
+    const Real k0 = m2 * l;
+    const Real z0 = m2 * l * l;
+    const Real M11 = (Real(4) / Real(3)) * z0;
+    const Real k1 = m2 * l * g;
+    const Real k2 = Real(0.75) * Real(1) / z0;
+    const Real k3 = Real(0.5) * M00;
+    const Real k4 = (Real(2) / Real(3)) * z0;
+
+    // Result
+    par[4] = M00;
+    par[5] = k0;
+    par[6] = M11;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi;
+
+    // Forcing f
+    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
+    const Real f1 = -k1 * sin_phi;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z0 = k2 * M10;
+    const Real z1 = Real(1) / (M00 - M10 * z0);
+    const Real x_ddot = z1 * (f0 - f1 * z0);
+    const Real phi_ddot = k2 * f1 - x_ddot * z0;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = phi_dot;
+    rate[2] = x_ddot;
+    rate[3] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[1], &phi_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi;
+
+    // Forcing f
+    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
+    const Real f1 = -k1 * sin_phi;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = M10;
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &k0 = par[5], &k1 = par[7], &k3 = par[9], &k4 = par[10];
+
+    // Trigonometry
+    const Real cos_phi = cos(phi);
+
+    // Energy
+    const Real z0 = k0 * x_dot * phi_dot * cos_phi;
+    const Real T = k3 * x_dot * x_dot + k4 * phi_dot * phi_dot + z0;
+    const Real z1 = k1 * cos_phi;
+    const Real V = -z1;
+    const Real E = T - z1;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real tip_x = x + Real(2) * l * sin_phi;
+    const Real tip_y = -Real(2) * l * cos_phi;
+    const Real z0 = m2 * (x_dot + l * phi_dot * cos_phi);
+    const Real momentum = m1 * x_dot + z0;
+
+    // Result
+    out[0] = tip_x;
+    out[1] = tip_y;
+    out[2] = momentum;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,150 +294,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &g = par[3];
-
-    // Constants
-    const Real M00 = m1 + m2;
-    const Real k0 = m2 * l;
-    const Real z0 = m2 * l * l;
-    const Real M11 = (Real(4) / Real(3)) * z0;
-    const Real k1 = m2 * l * g;
-    const Real k2 = Real(0.75) * Real(1) / z0;
-    const Real k3 = Real(0.5) * M00;
-    const Real k4 = (Real(2) / Real(3)) * z0;
-
-    // Result
-    par[4] = M00;
-    par[5] = k0;
-    par[6] = M11;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi;
-
-    // Forcing f
-    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z0 = k1 * sin_phi;
-    const Real z1 = k2 * M10;
-    const Real z2 = Real(1) / (M00 - M10 * z1);
-    const Real x_ddot = z2 * (f0 + z0 * z1);
-    const Real phi_ddot = -x_ddot * z1 - k2 * z0;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = phi_dot;
-    rate[2] = x_ddot;
-    rate[3] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &phi = state[1], &phi_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi;
-
-    // Forcing f
-    const Real f0 = k0 * phi_dot * phi_dot * sin_phi;
-    const Real f1 = -k1 * sin_phi;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[2] = M10;
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
-    const Real &k0 = par[5], &k1 = par[7], &k3 = par[9], &k4 = par[10];
-
-    // Trigonometry
-    const Real cos_phi = cos(phi);
-
-    // Energy
-    const Real z0 = k0 * x_dot * phi_dot * cos_phi;
-    const Real T = k3 * x_dot * x_dot + k4 * phi_dot * phi_dot + z0;
-    const Real z1 = k1 * cos_phi;
-    const Real V = -z1;
-    const Real E = T - z1;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &l = par[2];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Outputs
-    const Real tip_x = x + Real(2) * l * sin_phi;
-    const Real tip_y = -Real(2) * l * cos_phi;
-    const Real z0 = m2 * (x_dot + l * phi_dot * cos_phi);
-    const Real momentum = m1 * x_dot + z0;
-
-    // Result
-    out[0] = tip_x;
-    out[1] = tip_y;
-    out[2] = momentum;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -377,13 +346,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

@@ -3,30 +3,11 @@
 //
 //   state  x [m], y [m], then their rates
 //   par    m [kg], l [m], g [m/s^2]
-//   cost   18 operations a right-hand side: 4 additions, 13 multiplications, 1 divisions, 0 functions
+//   cost   18 operations a right-hand side: 4 additions, 13 multiplications, 1 division, 0 functions
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -53,9 +34,15 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
-    const Real &m = par[0], &k0 = par[3], &k2 = par[5], &k3 = par[6];
+    const Real &k0 = par[3], &k2 = par[5], &k3 = par[6];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m
+
+    // Forcing f
+    // f0 = 0, f1 = -k0
 
     // Solve M q'' = f + A^T lambda, A q'' = gamma
     const Real z0 = k2 * x;
@@ -74,7 +61,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
     const Real &m = par[0], &k0 = par[3];
 
     // Result
@@ -87,7 +74,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &k0 = par[3], &k4 = par[7];
 
@@ -106,7 +93,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &k0 = par[3], &k2 = par[5], &k5 = par[8];
 
@@ -120,16 +107,9 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     out[0] = tension;
 }
 
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &k1 = par[4];
 
@@ -142,7 +122,7 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &k0 = par[3], &k2 = par[5];
 
@@ -158,7 +138,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &k1 = par[4], &k2 = par[5];
 
@@ -184,7 +164,7 @@ void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]]
 
 /// gamma of A q'' = gamma.
 template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
     const Real &x_dot = state[2], &y_dot = state[3];
 
     // Constraints
@@ -246,9 +226,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -3,29 +3,136 @@
 //
 //   state  r, phi [rad], then their rates
 //   par    m, k
-//   cost   14 operations a right-hand side: 1 additions, 11 multiplications, 2 divisions, 0 functions
+//   cost   14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0];
+
+    // Constants
+    const Real k0 = Real(2) * m;
+    const Real k1 = Real(1) / m;
+    const Real k2 = Real(0.5) * m;
+
+    // Result
+    par[2] = k0;
+    par[3] = k1;
+    par[4] = k2;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
+    const Real &m = par[0], &k = par[1], &k0 = par[2], &k1 = par[3];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0
+    const Real M11 = m * r * r;
+
+    // Forcing f
+    const Real z0 = r * phi_dot;
+    const Real z1 = Real(1) / r;
+    const Real f0 = m * phi_dot * z0 - k * z1 * z1;
+    const Real f1 = -k0 * r_dot * z0;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real r_ddot = k1 * f0;
+    const Real phi_ddot = f1 / M11;
+
+    // Result
+    rate[0] = r_dot;
+    rate[1] = phi_dot;
+    rate[2] = r_ddot;
+    rate[3] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
+    const Real &m = par[0], &k = par[1], &k0 = par[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M11 = m * r * r;
+
+    // Forcing f
+    const Real z0 = r * phi_dot;
+    const Real z1 = Real(1) / r;
+    const Real f0 = m * phi_dot * z0 - k * z1 * z1;
+    const Real f1 = -k0 * r_dot * z0;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
+    const Real &k = par[1], &k2 = par[4];
+
+    // Energy
+    const Real z0 = k / r;
+    const Real z1 = r * phi_dot * r * phi_dot + r_dot * r_dot;
+    const Real T = k2 * z1;
+    const Real V = -z0;
+    const Real E = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &r = state[0], &phi = state[1], &r_dot = state[2], &phi_dot = state[3];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real x = r * cos_phi;
+    const Real y = r * sin_phi;
+    const Real z0 = x * (r * phi_dot * cos_phi + r_dot * sin_phi);
+    const Real z1 = y * (r * phi_dot * sin_phi - r_dot * cos_phi);
+    const Real areal = Real(0.5) * (z0 + z1);
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = areal;
+}
+
+/// The scene's event functions.
+template <typename Real>
+void events_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &r_dot = state[2];
+
+    // Result
+    out[0] = r_dot;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,135 +288,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0];
-
-    // Constants
-    const Real k0 = Real(2) * m;
-    const Real k1 = Real(1) / m;
-    const Real k2 = Real(0.5) * m;
-
-    // Result
-    par[2] = k0;
-    par[3] = k1;
-    par[4] = k2;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &k = par[1], &k0 = par[2], &k1 = par[3];
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = m * r * r;
-
-    // Forcing f
-    const Real z0 = r * phi_dot;
-    const Real z1 = Real(1) / r;
-    const Real f0 = m * phi_dot * z0 - k * z1 * z1;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real r_ddot = k1 * f0;
-    const Real phi_ddot = -k0 * r_dot * z0 / M11;
-
-    // Result
-    rate[0] = r_dot;
-    rate[1] = phi_dot;
-    rate[2] = r_ddot;
-    rate[3] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &k = par[1], &k0 = par[2];
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = m * r * r;
-
-    // Forcing f
-    const Real z0 = r * phi_dot;
-    const Real z1 = Real(1) / r;
-    const Real f0 = m * phi_dot * z0 - k * z1 * z1;
-    const Real f1 = -k0 * r_dot * z0;
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &r = state[0], &r_dot = state[2], &phi_dot = state[3];
-    const Real &k = par[1], &k2 = par[4];
-
-    // Energy
-    const Real z0 = k / r;
-    const Real z1 = r * phi_dot * r * phi_dot + r_dot * r_dot;
-    const Real T = k2 * z1;
-    const Real V = -z0;
-    const Real E = T - z0;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &r = state[0], &phi = state[1], &r_dot = state[2], &phi_dot = state[3];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Outputs
-    const Real x = r * cos_phi;
-    const Real y = r * sin_phi;
-    const Real z0 = x * (r * phi_dot * cos_phi + r_dot * sin_phi);
-    const Real z1 = y * (r * phi_dot * sin_phi - r_dot * cos_phi);
-    const Real areal = Real(0.5) * (z0 + z1);
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-    out[2] = areal;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &r_dot = state[2];
-
-    // Result
-    out[0] = r_dot;
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -365,10 +343,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         events_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

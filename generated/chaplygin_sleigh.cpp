@@ -7,25 +7,252 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &J = par[1], &a = par[2];
+
+    // Constants
+    const Real k0 = m * a;
+    const Real M22 = J + m * a * a;
+    const Real k1 = Real(1) / M22;
+    const Real k2 = Real(0.5) * m;
+    const Real k3 = Real(0.5) * M22;
+
+    // Result
+    par[3] = k0;
+    par[4] = M22;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m
+    const Real M20 = -k0 * sin_phi;
+    const Real M21 = k0 * cos_phi;
+
+    // Forcing f
+    // f2 = 0
+    const Real z0 = phi_dot * phi_dot;
+    const Real f0 = M21 * z0;
+    const Real f1 = -M20 * z0;
+
+    // Constraints A q'' = gamma
+    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z1 = k1 * M21;
+    const Real z2 = -M20 * z1;
+    const Real z3 = Real(1) / (m - M21 * z1);
+    const Real z4 = z2 * z3;
+    const Real z5 = f0 - f1 * z4;
+    const Real z6 = -k1 * M20;
+    const Real z7 = Real(1) / ((m + M20 * z6) - z2 * z4);
+    const Real z8 = z3 * cos_phi;
+    const Real z9 = z2 * z8 + sin_phi;
+    const Real z10 = z9 * z7;
+    const Real z11 = (f1 * z8 - gamma0) - z5 * z10;
+    const Real z12 = z11 / (z8 * cos_phi + z9 * z10);
+    const Real x_ddot = z5 * z7 + z10 * z12;
+    const Real y_ddot = f1 * z3 - z8 * z12 - z4 * x_ddot;
+    const Real phi_ddot = z6 * x_ddot - z1 * y_ddot;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = phi_dot;
+    rate[3] = x_ddot;
+    rate[4] = y_ddot;
+    rate[5] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[2], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &M22 = par[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = k0 * sin_phi;
+    const Real M20 = -z0;
+    const Real M21 = k0 * cos_phi;
+
+    // Forcing f
+    const Real z1 = phi_dot * phi_dot;
+    const Real f0 = M21 * z1;
+    const Real f1 = z0 * z1;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = M20;
+    mass[5] = mass[7] = M21;
+    mass[8] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &k0 = par[3], &k2 = par[6], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Energy
+    const Real z0 = k2 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z1 = k0 * (x_dot * sin_phi - y_dot * cos_phi);
+    const Real T = z0 + phi_dot * (k3 * phi_dot - z1);
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real v = x_dot * cos_phi + y_dot * sin_phi;
+
+    // Result
+    out[0] = v;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real*, Real* position, Real* velocity, Real* rows) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = y_dot * cos_phi - x_dot * sin_phi;
+    rows[0] = -sin_phi;
+    rows[1] = cos_phi;
+    rows[2] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = k0 * sin_phi;
+    const Real z1 = k0 * cos_phi;
+    const Real z2 = phi_dot * phi_dot;
+    const Real z3 = z0 * z2;
+    const Real z4 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+    const Real z5 = k1 * z1;
+    const Real z6 = z0 * z5;
+    const Real z7 = Real(1) / (m - z1 * z5);
+    const Real z8 = z6 * z7;
+    const Real z9 = (m - z0 * k1 * z0) - z6 * z8;
+    const Real z10 = z7 * cos_phi;
+    const Real z11 = z6 * z10 + sin_phi;
+    const Real z12 = z11 / z9;
+    const Real z13 = Real(1) / (z10 * cos_phi + z11 * z12);
+    const Real z14 = (z1 * z2 - z3 * z8) * z12;
+    const Real lambda_blade = -z13 * ((z3 * z10 - z4) - z14);
+
+    // Result
+    lambda[0] = lambda_blade;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Projection
+    const Real z0 = k0 * sin_phi;
+    const Real z1 = k0 * cos_phi;
+    const Real z2 = k1 * z1;
+    const Real z3 = z0 * z2;
+    const Real z4 = Real(1) / (m - z1 * z2);
+    const Real z5 = z3 * z4;
+    const Real z6 = k1 * z0;
+    const Real z7 = Real(1) / ((m - z0 * z6) - z3 * z5);
+    const Real z8 = z4 * cos_phi;
+    const Real z9 = z3 * z8 + sin_phi;
+    const Real z10 = z9 * z7;
+    const Real z11 = z8 * cos_phi + z9 * z10;
+    const Real z12 = (x_dot * sin_phi - y_dot * cos_phi) / z11;
+    const Real z13 = z10 * z12;
+    const Real z14 = z8 * z12 + z5 * z13;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = phi;
+    out[3] = x_dot - z13;
+    out[4] = y_dot + z14;
+    out[5] = phi_dot - (z6 * z13 + z2 * z14);
+    position[0] = Real(0);
+    pivots[0] = z11;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
+
+    // Result
+    out[0] = gamma0;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,248 +408,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &J = par[1], &a = par[2];
-
-    // Constants
-    const Real k0 = m * a;
-    const Real M22 = J + m * a * a;
-    const Real k1 = Real(1) / M22;
-    const Real k2 = Real(0.5) * m;
-    const Real k3 = Real(0.5) * M22;
-
-    // Result
-    par[3] = k0;
-    par[4] = M22;
-    par[5] = k1;
-    par[6] = k2;
-    par[7] = k3;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &k0 = par[3], &M22 = par[4], &k1 = par[5];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Mass matrix M(q), lower triangle
-    const Real M21 = k0 * cos_phi;
-
-    // Forcing f
-    const Real z0 = k0 * sin_phi;
-    const Real z1 = phi_dot * phi_dot;
-    const Real f0 = M21 * z1;
-    const Real f1 = z0 * z1;
-
-    // Constraints A q'' = gamma
-    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z2 = k1 * M21;
-    const Real z3 = z0 * z2;
-    const Real z4 = Real(1) / (m - M21 * z2);
-    const Real z5 = z3 * z4;
-    const Real z6 = f0 - f1 * z5;
-    const Real z7 = k1 * z0;
-    const Real z8 = Real(1) / ((m - z0 * z7) - z3 * z5);
-    const Real z9 = z4 * cos_phi;
-    const Real z10 = z3 * z9 + sin_phi;
-    const Real z11 = z10 * z8;
-    const Real z12 = (f1 * z9 - gamma0) - z6 * z11;
-    const Real z13 = z12 / (z9 * cos_phi + z10 * z11);
-    const Real x_ddot = z6 * z8 + z11 * z13;
-    const Real y_ddot = f1 * z4 - z9 * z13 - z5 * x_ddot;
-    const Real phi_ddot = z7 * x_ddot - z2 * y_ddot;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = phi_dot;
-    rate[3] = x_ddot;
-    rate[4] = y_ddot;
-    rate[5] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &phi = state[2], &phi_dot = state[5];
-    const Real &m = par[0], &k0 = par[3], &M22 = par[4];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Mass matrix M(q), lower triangle
-    const Real z0 = k0 * sin_phi;
-    const Real M20 = -z0;
-    const Real M21 = k0 * cos_phi;
-
-    // Forcing f
-    const Real z1 = phi_dot * phi_dot;
-    const Real f0 = M21 * z1;
-    const Real f1 = z0 * z1;
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[3] = Real(0);
-    mass[4] = m;
-    mass[2] = mass[6] = M20;
-    mass[5] = mass[7] = M21;
-    mass[8] = M22;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &k0 = par[3], &k2 = par[6], &k3 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Energy
-    const Real z0 = k2 * (x_dot * x_dot + y_dot * y_dot);
-    const Real z1 = k0 * (x_dot * sin_phi - y_dot * cos_phi);
-    const Real T = z0 + phi_dot * (k3 * phi_dot - z1);
-
-    // Result
-    energy[0] = T;
-    energy[1] = Real(0);
-    energy[2] = T;
-    energy[3] = Real(0);
-    jacobi[0] = T;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Outputs
-    const Real v = x_dot * cos_phi + y_dot * sin_phi;
-
-    // Result
-    out[0] = v;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Result
-    position[0] = Real(0);
-    velocity[0] = y_dot * cos_phi - x_dot * sin_phi;
-    rows[0] = -sin_phi;
-    rows[1] = cos_phi;
-    rows[2] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Multipliers
-    const Real z0 = k0 * sin_phi;
-    const Real z1 = k0 * cos_phi;
-    const Real z2 = phi_dot * phi_dot;
-    const Real z3 = z0 * z2;
-    const Real z4 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
-    const Real z5 = k1 * z1;
-    const Real z6 = z0 * z5;
-    const Real z7 = Real(1) / (m - z1 * z5);
-    const Real z8 = z6 * z7;
-    const Real z9 = (m - z0 * k1 * z0) - z6 * z8;
-    const Real z10 = z7 * cos_phi;
-    const Real z11 = z6 * z10 + sin_phi;
-    const Real z12 = z11 / z9;
-    const Real z13 = Real(1) / (z10 * cos_phi + z11 * z12);
-    const Real z14 = (z1 * z2 - z3 * z8) * z12;
-    const Real lambda_blade = -z13 * ((z3 * z10 - z4) - z14);
-
-    // Result
-    lambda[0] = lambda_blade;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
-    const Real &phi_dot = state[5];
-    const Real &m = par[0], &k0 = par[3], &k1 = par[5];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Projection
-    const Real z0 = k0 * sin_phi;
-    const Real z1 = k0 * cos_phi;
-    const Real z2 = k1 * z1;
-    const Real z3 = z0 * z2;
-    const Real z4 = Real(1) / (m - z1 * z2);
-    const Real z5 = z3 * z4;
-    const Real z6 = k1 * z0;
-    const Real z7 = Real(1) / ((m - z0 * z6) - z3 * z5);
-    const Real z8 = z4 * cos_phi;
-    const Real z9 = z3 * z8 + sin_phi;
-    const Real z10 = z9 * z7;
-    const Real z11 = z8 * cos_phi + z9 * z10;
-    const Real z12 = (x_dot * sin_phi - y_dot * cos_phi) / z11;
-    const Real z13 = z10 * z12;
-    const Real z14 = z8 * z12 + z5 * z13;
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-    out[2] = phi;
-    out[3] = x_dot - z13;
-    out[4] = y_dot + z14;
-    out[5] = phi_dot - (z6 * z13 + z2 * z14);
-    position[0] = Real(0);
-    pivots[0] = z11;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Constraints
-    const Real gamma0 = phi_dot * (x_dot * cos_phi + y_dot * sin_phi);
-
-    // Result
-    out[0] = gamma0;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -475,9 +460,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,156 @@
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &J = par[1], &a = par[2];
+
+    // Constants
+    const Real M11 = J + m * a * a;
+    const Real k0 = m * a;
+    const Real k1 = Real(1) / m;
+    const Real k2 = Real(1) / M11;
+    const Real k3 = m * a * k2;
+
+    // Result
+    par[3] = M11;
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+}
+
+/// rate = (q', u') at t and state = (q, u).
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[2], &v = state[3], &w = state[4];
+    const Real &k0 = par[4], &k1 = par[5], &k2 = par[6];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Kinematics q' = h(q, u, t)
+    const Real x_dot = v * cos_phi;
+    const Real y_dot = v * sin_phi;
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0
+
+    // Forcing f
+    const Real z0 = k0 * w;
+    const Real f0 = w * z0;
+    const Real f1 = -v * z0;
+
+    // Solve M u' = f with M = L D L^T
+    const Real v_dot = k1 * f0;
+    const Real w_dot = k2 * f1;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = w;
+    rate[3] = v_dot;
+    rate[4] = w_dot;
+}
+
+/// M (s by s, row-major) and f of M u' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &v = state[3], &w = state[4];
+    const Real &m = par[0], &M11 = par[3], &k0 = par[4];
+
+    // Forcing f
+    const Real z0 = k0 * w;
+    const Real f0 = w * z0;
+    const Real f1 = -v * z0;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &v = state[3], &w = state[4];
+    const Real &m = par[0], &M11 = par[3];
+
+    // Energy
+    const Real T = Real(0.5) * (m * v * v + M11 * w * w);
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &v = state[3], &w = state[4];
+
+    // Result
+    out[0] = v;
+    out[1] = w;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real*, Real* position, Real* velocity, Real* rows) {
+    const Real &phi = state[2], &v = state[3];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = sin_phi * v * cos_phi - cos_phi * v * sin_phi;
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = -z0;
+    rows[0] = -sin_phi;
+    rows[1] = cos_phi;
+    rows[2] = Real(0);
+    rows[3] = Real(0);
+    rows[4] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &phi = state[2], &v = state[3], &w = state[4];
+    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = k0 * w;
+    const Real z1 = k1 * w * z0;
+    const Real z2 = k3 * v * z0;
+    const Real z3 = z1 * sin_phi + v * w * cos_phi;
+    const Real z4 = z1 * cos_phi - v * w * sin_phi;
+    const Real lambda_blade = m * z3 * cos_phi - z2 - m * z4 * sin_phi;
+
+    // Result
+    lambda[0] = lambda_blade;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,162 +312,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &J = par[1], &a = par[2];
-
-    // Constants
-    const Real M11 = J + m * a * a;
-    const Real k0 = m * a;
-    const Real k1 = Real(1) / m;
-    const Real k2 = Real(1) / M11;
-    const Real k3 = m * a * k2;
-    const Real k4 = Real(0.5) * M11;
-    const Real k5 = Real(0.5) * m;
-
-    // Result
-    par[3] = M11;
-    par[4] = k0;
-    par[5] = k1;
-    par[6] = k2;
-    par[7] = k3;
-    par[8] = k4;
-    par[9] = k5;
-}
-
-/// rate = (q', u') at t and state = (q, u).
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[2], &v = state[3], &w = state[4];
-    const Real &m = par[0], &M11 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Kinematics q' = h(q, u, t)
-    const Real x_dot = v * cos_phi;
-    const Real y_dot = v * sin_phi;
-
-    // Forcing f
-    const Real z0 = k0 * w;
-    const Real f0 = w * z0;
-
-    // Solve M u' = f with M = L D L^T
-    const Real v_dot = k1 * f0;
-    const Real w_dot = -k2 * v * z0;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = w;
-    rate[3] = v_dot;
-    rate[4] = w_dot;
-}
-
-/// M (s by s, row-major) and f of M u' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &v = state[3], &w = state[4];
-    const Real &m = par[0], &M11 = par[3], &k0 = par[4];
-
-    // Forcing f
-    const Real z0 = k0 * w;
-    const Real f0 = w * z0;
-    const Real f1 = -v * z0;
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &phi = state[2], &v = state[3], &w = state[4];
-    const Real &k0 = par[4], &k4 = par[8], &k5 = par[9];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Energy
-    const Real z0 = k0 * w;
-    const Real z1 = v * cos_phi;
-    const Real z2 = v * sin_phi;
-    const Real z3 = z0 * sin_phi * z1;
-    const Real z4 = k5 * (z1 * z1 + z2 * z2);
-    const Real T = k4 * w * w - z3 + z0 * cos_phi * z2 + z4;
-
-    // Result
-    energy[0] = T;
-    energy[1] = Real(0);
-    energy[2] = T;
-    energy[3] = Real(0);
-    jacobi[0] = T;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &v = state[3], &w = state[4];
-
-    // Result
-    out[0] = v;
-    out[1] = w;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2], &v = state[3];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Constraints
-    const Real z0 = sin_phi * v * cos_phi - cos_phi * v * sin_phi;
-
-    // Result
-    position[0] = Real(0);
-    velocity[0] = -z0;
-    rows[0] = -sin_phi;
-    rows[1] = cos_phi;
-    rows[2] = Real(0);
-    rows[3] = Real(0);
-    rows[4] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &phi = state[2], &v = state[3], &w = state[4];
-    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k3 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Multipliers
-    const Real z0 = k0 * w;
-    const Real z1 = k1 * w * z0;
-    const Real z2 = k3 * v * z0;
-    const Real z3 = z1 * sin_phi + v * w * cos_phi;
-    const Real z4 = z1 * cos_phi - v * w * sin_phi;
-    const Real lambda_blade = m * z3 * cos_phi - z2 - m * z4 * sin_phi;
-
-    // Result
-    lambda[0] = lambda_blade;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -376,7 +351,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 1, 0.5, 0};
 
 constexpr alembert_solver_table table{
-    4, 3, 2, 3, 7, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
+    4, 3, 2, 3, 5, 2, 0, 1, "chaplygin_sleigh_in_speeds", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -389,9 +364,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,248 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &J1 = par[2], &J3 = par[3], &beta = par[4], &g = par[5];
+
+    // Trigonometry
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Constants
+    const Real f0 = m * g * sin_beta;
+    const Real k0 = Real(1) / m;
+    const Real k1 = k0 * f0;
+    const Real k2 = Real(1) / J1;
+    const Real k3 = Real(0.5) * m;
+    const Real k4 = Real(0.5) * J1;
+    const Real k5 = Real(0.5) * J3;
+    const Real k6 = m * r * g * cos_beta;
+
+    // Result
+    par[6] = f0;
+    par[7] = k0;
+    par[8] = k1;
+    par[9] = k2;
+    par[10] = k3;
+    par[11] = k4;
+    par[12] = k5;
+    par[13] = k6;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &theta = state[2], &x_dot = state[4], &y_dot = state[5], &theta_dot = state[6];
+    const Real &phi_dot = state[7];
+    const Real &r = par[1], &k0 = par[7], &k1 = par[8], &k2 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M20 = 0, M21 = 0, M22 = J3, M30 = 0, M31 = 0, M32 = 0, M33 = J1
+
+    // Forcing f
+    // f1 = 0, f2 = 0, f3 = 0
+
+    // Constraints A q'' = gamma
+    const Real z0 = r * cos_theta;
+    const Real z1 = theta_dot * phi_dot;
+    const Real gamma1 = z0 * z1;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z2 = r * sin_theta;
+    const Real z3 = k2 * z2;
+    const Real z4 = Real(1) / (k0 + z2 * z3);
+    const Real z5 = z0 * z3;
+    const Real z6 = z4 * z5;
+    const Real z7 = k2 * z0;
+    const Real z8 = Real(1) / ((k0 + z0 * z7) - z6 * z5);
+    const Real z9 = ((k1 + z2 * z1) + z6 * gamma1) * z8;
+    const Real x_ddot = k1 - k0 * z9;
+    const Real z10 = z4 * gamma1 + z6 * z9;
+    const Real y_ddot = k0 * z10;
+    const Real phi_ddot = z9 * z7 - z10 * z3;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = theta_dot;
+    rate[3] = phi_dot;
+    rate[4] = x_ddot;
+    rate[5] = y_ddot;
+    rate[6] = Real(0);
+    rate[7] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &J1 = par[2], &J3 = par[3], &f0 = par[6];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[4] = Real(0);
+    mass[5] = m;
+    mass[2] = mass[8] = Real(0);
+    mass[6] = mass[9] = Real(0);
+    mass[10] = J3;
+    mass[3] = mass[12] = Real(0);
+    mass[7] = mass[13] = Real(0);
+    mass[11] = mass[14] = Real(0);
+    mass[15] = J1;
+    forcing[0] = f0;
+    forcing[1] = Real(0);
+    forcing[2] = Real(0);
+    forcing[3] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &x_dot = state[4], &y_dot = state[5], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &f0 = par[6], &k3 = par[10], &k4 = par[11], &k5 = par[12], &k6 = par[13];
+
+    // Energy
+    const Real z0 = k3 * (x_dot * x_dot + y_dot * y_dot);
+    const Real T = z0 + k4 * phi_dot * phi_dot + k5 * theta_dot * theta_dot;
+    const Real V = k6 - f0 * x;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &theta = state[2], &x_dot = state[4], &y_dot = state[5], &phi_dot = state[7];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Constraints
+    const Real z0 = r * cos_theta;
+    const Real z1 = r * sin_theta;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = x_dot - phi_dot * z0;
+    velocity[1] = y_dot - phi_dot * z1;
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = -z0;
+    rows[4] = Real(0);
+    rows[5] = Real(1);
+    rows[6] = Real(0);
+    rows[7] = -z1;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &theta = state[2], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &r = par[1], &k0 = par[7], &k1 = par[8], &k2 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Multipliers
+    const Real z0 = r * cos_theta;
+    const Real z1 = r * sin_theta;
+    const Real z2 = theta_dot * phi_dot;
+    const Real z3 = z0 * z2;
+    const Real z4 = k2 * z1;
+    const Real z5 = Real(1) / (k0 + z1 * z4);
+    const Real z6 = z0 * z4;
+    const Real z7 = z5 * z6;
+    const Real z8 = (k1 + z1 * z2) + z7 * z3;
+    const Real z9 = (k0 + z0 * k2 * z0) - z7 * z6;
+    const Real z10 = z8 / z9;
+    const Real lambda_y = z5 * z3 + z7 * z10;
+    const Real lambda_x = -z10;
+
+    // Result
+    lambda[0] = lambda_x;
+    lambda[1] = lambda_y;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &theta = state[2], &phi = state[3], &x_dot = state[4];
+    const Real &y_dot = state[5], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &r = par[1], &k0 = par[7], &k2 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Projection
+    const Real z0 = r * cos_theta;
+    const Real z1 = r * sin_theta;
+    const Real z2 = y_dot - phi_dot * z1;
+    const Real z3 = k2 * z1;
+    const Real z4 = k0 + z1 * z3;
+    const Real z5 = Real(1) / z4;
+    const Real z6 = z0 * z3;
+    const Real z7 = z5 * z6;
+    const Real z8 = k2 * z0;
+    const Real z9 = (k0 + z0 * z8) - z7 * z6;
+    const Real z10 = z7 * z2 - (x_dot - phi_dot * z0);
+    const Real z11 = z10 / z9;
+    const Real z12 = z5 * z2 + z7 * z11;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = theta;
+    out[3] = phi;
+    out[4] = x_dot + k0 * z11;
+    out[5] = y_dot - k0 * z12;
+    out[6] = theta_dot;
+    out[7] = phi_dot - (z11 * z8 - z12 * z3);
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z9;
+    pivots[1] = z4;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &theta = state[2], &theta_dot = state[6], &phi_dot = state[7];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Constraints
+    const Real z0 = theta_dot * phi_dot;
+    const Real gamma0 = -r * sin_theta * z0;
+    const Real gamma1 = r * cos_theta * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,247 +404,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &r = par[1], &J1 = par[2], &J3 = par[3], &beta = par[4], &g = par[5];
-
-    // Trigonometry
-    const auto [sin_beta, cos_beta] = sincos(beta);
-
-    // Constants
-    const Real f0 = m * g * sin_beta;
-    const Real k0 = Real(1) / m;
-    const Real k1 = k0 * f0;
-    const Real k2 = Real(1) / J1;
-    const Real k3 = Real(0.5) * m;
-    const Real k4 = Real(0.5) * J1;
-    const Real k5 = Real(0.5) * J3;
-    const Real k6 = m * r * g * cos_beta;
-
-    // Result
-    par[6] = f0;
-    par[7] = k0;
-    par[8] = k1;
-    par[9] = k2;
-    par[10] = k3;
-    par[11] = k4;
-    par[12] = k5;
-    par[13] = k6;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta = state[2], &x_dot = state[4], &y_dot = state[5], &theta_dot = state[6];
-    const Real &phi_dot = state[7];
-    const Real &m = par[0], &r = par[1], &J1 = par[2], &f0 = par[6], &k0 = par[7], &k1 = par[8], &k2 = par[9];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Constraints A q'' = gamma
-    const Real z0 = r * cos_theta;
-    const Real z1 = theta_dot * phi_dot;
-    const Real gamma1 = z0 * z1;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z2 = r * sin_theta;
-    const Real z3 = k2 * z2;
-    const Real z4 = Real(1) / (k0 + z2 * z3);
-    const Real z5 = z0 * z3;
-    const Real z6 = z4 * z5;
-    const Real z7 = k2 * z0;
-    const Real z8 = Real(1) / ((k0 + z0 * z7) - z6 * z5);
-    const Real z9 = ((k1 + z2 * z1) + z6 * gamma1) * z8;
-    const Real x_ddot = k1 - k0 * z9;
-    const Real z10 = z4 * gamma1 + z6 * z9;
-    const Real y_ddot = k0 * z10;
-    const Real phi_ddot = z9 * z7 - z10 * z3;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = theta_dot;
-    rate[3] = phi_dot;
-    rate[4] = x_ddot;
-    rate[5] = y_ddot;
-    rate[6] = Real(0);
-    rate[7] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &J1 = par[2], &J3 = par[3], &f0 = par[6];
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[4] = Real(0);
-    mass[5] = m;
-    mass[2] = mass[8] = Real(0);
-    mass[6] = mass[9] = Real(0);
-    mass[10] = J3;
-    mass[3] = mass[12] = Real(0);
-    mass[7] = mass[13] = Real(0);
-    mass[11] = mass[14] = Real(0);
-    mass[15] = J1;
-    forcing[0] = f0;
-    forcing[1] = Real(0);
-    forcing[2] = Real(0);
-    forcing[3] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &x = state[0], &x_dot = state[4], &y_dot = state[5], &theta_dot = state[6], &phi_dot = state[7];
-    const Real &f0 = par[6], &k3 = par[10], &k4 = par[11], &k5 = par[12], &k6 = par[13];
-
-    // Energy
-    const Real z0 = k3 * (x_dot * x_dot + y_dot * y_dot);
-    const Real T = z0 + k4 * phi_dot * phi_dot + k5 * theta_dot * theta_dot;
-    const Real V = k6 - f0 * x;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &theta = state[2], &x_dot = state[4], &y_dot = state[5], &phi_dot = state[7];
-    const Real &r = par[1];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Constraints
-    const Real z0 = r * cos_theta;
-    const Real z1 = r * sin_theta;
-
-    // Result
-    position[0] = Real(0);
-    position[1] = Real(0);
-    velocity[0] = x_dot - phi_dot * z0;
-    velocity[1] = y_dot - phi_dot * z1;
-    rows[0] = Real(1);
-    rows[1] = Real(0);
-    rows[2] = Real(0);
-    rows[3] = -z0;
-    rows[4] = Real(0);
-    rows[5] = Real(1);
-    rows[6] = Real(0);
-    rows[7] = -z1;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &theta = state[2], &theta_dot = state[6], &phi_dot = state[7];
-    const Real &r = par[1], &k0 = par[7], &k1 = par[8], &k2 = par[9];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Multipliers
-    const Real z0 = r * cos_theta;
-    const Real z1 = r * sin_theta;
-    const Real z2 = theta_dot * phi_dot;
-    const Real z3 = z0 * z2;
-    const Real z4 = k2 * z1;
-    const Real z5 = Real(1) / (k0 + z1 * z4);
-    const Real z6 = z0 * z4;
-    const Real z7 = z5 * z6;
-    const Real z8 = (k1 + z1 * z2) + z7 * z3;
-    const Real z9 = (k0 + z0 * k2 * z0) - z7 * z6;
-    const Real z10 = z8 / z9;
-    const Real lambda_y = z5 * z3 + z7 * z10;
-    const Real lambda_x = -z10;
-
-    // Result
-    lambda[0] = lambda_x;
-    lambda[1] = lambda_y;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &y = state[1], &theta = state[2], &phi = state[3], &x_dot = state[4];
-    const Real &y_dot = state[5], &theta_dot = state[6], &phi_dot = state[7];
-    const Real &r = par[1], &k0 = par[7], &k2 = par[9];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Projection
-    const Real z0 = r * cos_theta;
-    const Real z1 = r * sin_theta;
-    const Real z2 = y_dot - phi_dot * z1;
-    const Real z3 = k2 * z1;
-    const Real z4 = k0 + z1 * z3;
-    const Real z5 = Real(1) / z4;
-    const Real z6 = z0 * z3;
-    const Real z7 = z5 * z6;
-    const Real z8 = k2 * z0;
-    const Real z9 = (k0 + z0 * z8) - z7 * z6;
-    const Real z10 = z7 * z2 - (x_dot - phi_dot * z0);
-    const Real z11 = z10 / z9;
-    const Real z12 = z5 * z2 + z7 * z11;
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-    out[2] = theta;
-    out[3] = phi;
-    out[4] = x_dot + k0 * z11;
-    out[5] = y_dot - k0 * z12;
-    out[6] = theta_dot;
-    out[7] = phi_dot - (z11 * z8 - z12 * z3);
-    position[0] = Real(0);
-    position[1] = Real(0);
-    pivots[0] = z9;
-    pivots[1] = z4;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &theta = state[2], &theta_dot = state[6], &phi_dot = state[7];
-    const Real &r = par[1];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Constraints
-    const Real z0 = theta_dot * phi_dot;
-    const Real gamma0 = -r * sin_theta * z0;
-    const Real gamma1 = r * cos_theta * z0;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -471,12 +453,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,26 +7,7 @@
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -62,19 +43,21 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &k2 = par[3], &c2 = par[6], &k0 = par[7], &k4 = par[8], &k5 = par[9];
-    const Real &k6 = par[10], &k7 = par[11];
+    const Real &k2 = par[3], &c2 = par[6], &k0 = par[7], &k4 = par[8], &k5 = par[9], &k6 = par[10], &k7 = par[11];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m1, M10 = 0, M11 = m2
 
     // Forcing f
-    const Real z0 = c2 * (x1_dot - x2_dot);
-    const Real f1 = k2 * x1 - k5 * x2 + z0;
+    const Real z0 = k0 * x1;
+    const Real f0 = k2 * x2 - z0 - k4 * x1_dot + c2 * x2_dot;
+    const Real z1 = c2 * (x1_dot - x2_dot);
+    const Real f1 = k2 * x1 - k5 * x2 + z1;
 
     // Solve M q'' = f with M = L D L^T
-    const Real z1 = k0 * x1;
-    const Real z2 = z1 - k2 * x2 + k4 * x1_dot - c2 * x2_dot;
-    const Real x1_ddot = -k6 * z2;
+    const Real x1_ddot = k6 * f0;
     const Real x2_ddot = k7 * f1;
 
     // Result
@@ -86,7 +69,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
     const Real &m1 = par[0], &m2 = par[1], &k2 = par[3], &c2 = par[6], &k0 = par[7], &k4 = par[8], &k5 = par[9];
 
@@ -107,7 +90,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &x1 = state[0], &x2 = state[1], &x1_dot = state[2], &x2_dot = state[3];
     const Real &c2 = par[6], &k4 = par[8], &k8 = par[12], &k9 = par[13], &k10 = par[14], &k11 = par[15];
     const Real &k12 = par[16], &k13 = par[17];
@@ -130,7 +113,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
     const Real &x1_dot = state[2], &x2_dot = state[3];
     const Real &c1 = par[5], &c2 = par[6];
 
@@ -140,27 +123,6 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
 
     // Result
     out[0] = loss;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -215,13 +177,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

@@ -7,26 +7,7 @@
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -63,9 +44,12 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &x_dot = state[2], &y_dot = state[3];
-    const Real &M00 = par[4], &M11 = par[6], &f0 = par[10], &f1 = par[11], &k4 = par[12], &k5 = par[13];
+    const Real &k4 = par[12], &k5 = par[13];
+
+    // Mass matrix M(q), lower triangle
+    // M10 = -k0
 
     // Result
     rate[0] = x_dot;
@@ -76,7 +60,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
     const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &f0 = par[10], &f1 = par[11];
 
     // Result
@@ -89,58 +73,23 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &y = state[1], &x_dot = state[2], &y_dot = state[3];
-    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &k1 = par[7], &k2 = par[8], &k3 = par[9];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9];
 
     // Energy
-    const Real z0 = x_dot - y_dot;
-    const Real z1 = x_dot + y_dot;
-    const Real z2 = m1 * x_dot * x_dot + m2 * z0 * z0 + m3 * z1 * z1;
-    const Real T = Real(0.5) * z2;
-    const Real z3 = k2 * (x - y);
-    const Real z4 = k1 * x - z3 - k3 * (x + y);
-    const Real V = -z4;
-    const Real E = Real(0.5) * z2 - z4;
-    const Real z5 = m2 * z0;
-    const Real z6 = m3 * z1;
-    const Real z7 = x_dot * (z5 + m1 * x_dot + z6);
-    const Real h = (z7 - y_dot * (z5 - z6)) - (z4 + Real(0.5) * z2);
+    const Real T = Real(0.5) * M00 * x_dot * x_dot - k0 * x_dot * y_dot + Real(0.5) * M11 * y_dot * y_dot;
+    const Real z0 = k2 * (x - y);
+    const Real z1 = k1 * x - z0 - k3 * (x + y);
+    const Real V = -z1;
+    const Real E = T - z1;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
+    jacobi[0] = E;
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -192,16 +141,10 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

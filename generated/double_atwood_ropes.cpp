@@ -7,26 +7,7 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -86,10 +67,12 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &y1_dot = state[4], &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
-    const Real &f3 = par[10], &k9 = par[20], &k11 = par[22], &k12 = par[23], &k13 = par[24];
+    const Real &k9 = par[20], &k11 = par[22], &k12 = par[23], &k13 = par[24];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m1, M10 = 0, M11 = mp, M20 = 0, M21 = 0, M22 = m2, M30 = 0, M31 = 0, M32 = 0, M33 = m3
 
     // Result
     rate[0] = y1_dot;
@@ -104,7 +87,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
     const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
     const Real &f3 = par[10];
 
@@ -127,7 +110,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
     const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
     const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &mp = par[3], &f0 = par[7], &f1 = par[8], &f2 = par[9];
@@ -141,23 +124,18 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z3 = z2 + f2 * y2 + f3 * y3 + f1 * z;
     const Real V = -z3;
     const Real E = Real(0.5) * z1 - z3;
-    const Real z4 = y1_dot * m1 * y1_dot;
-    const Real z5 = y2_dot * m2 * y2_dot;
-    const Real z6 = y3_dot * m3 * y3_dot;
-    const Real z7 = z4 + z5 + z6 + z_dot * mp * z_dot;
-    const Real h = z7 - (z3 + Real(0.5) * z1);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real*, const Real*, const Real* par, Real* out) {
     const Real &k8 = par[19], &k10 = par[21];
 
     // Result
@@ -165,16 +143,9 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     out[1] = k10;
 }
 
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
     const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
     const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
     const Real &L1 = par[4], &L2 = par[5];
@@ -196,7 +167,7 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+void multipliers_at(const Real&, const Real*, const Real* par, Real* lambda) {
     const Real &k8 = par[19], &k10 = par[21];
 
     // Result
@@ -206,7 +177,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
     const Real &y1 = state[0], &z = state[1], &y2 = state[2], &y3 = state[3], &y1_dot = state[4];
     const Real &z_dot = state[5], &y2_dot = state[6], &y3_dot = state[7];
     const Real &L1 = par[4], &L2 = par[5], &k0 = par[11], &k1 = par[12], &k2 = par[13], &k3 = par[14];
@@ -238,7 +209,7 @@ void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]]
 
 /// gamma of A q'' = gamma.
 template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
+void gamma_at(const Real&, const Real*, const Real*, Real* out) {
 
 
     // Result
@@ -298,9 +269,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -3,29 +3,153 @@
 //
 //   state  theta1 [rad], theta2 [rad], then their rates
 //   par    m1 [kg], m2 [kg], l1 [m], l2 [m], g [m/s^2]
-//   cost   35 operations a right-hand side: 8 additions, 19 multiplications, 1 divisions, 7 functions
+//   cost   35 operations a right-hand side: 8 additions, 19 multiplications, 1 division, 7 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l1 = par[2], &l2 = par[3], &g = par[4];
+
+    // Constants
+    const Real z0 = m1 + m2;
+    const Real M00 = l1 * l1 * z0;
+    const Real k0 = m2 * l1 * l2;
+    const Real M11 = m2 * l2 * l2;
+    const Real k1 = l1 * g * z0;
+    const Real k2 = Real(0.5) * l1;
+    const Real k3 = m2 * l2 * g;
+    const Real k4 = Real(0.5) * l2;
+    const Real k5 = Real(1) / M11;
+    const Real k6 = Real(0.5) * M00;
+    const Real k7 = Real(0.5) * M11;
+
+    // Result
+    par[5] = M00;
+    par[6] = k0;
+    par[7] = M11;
+    par[8] = k1;
+    par[9] = k2;
+    par[10] = k3;
+    par[11] = k4;
+    par[12] = k5;
+    par[13] = k6;
+    par[14] = k7;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &M00 = par[5], &k0 = par[6], &k1 = par[8], &k2 = par[9], &k3 = par[10], &k4 = par[11];
+    const Real &k5 = par[12];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const Real phi1 = Real(3) * t;
+    const auto trig0 = sincos(phi0, theta1, phi1, theta2);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
+        cos_theta1 = trig0.cosine[1], sin_phi1 = trig0.sine[2], sin_theta2 = trig0.sine[3],
+        cos_theta2 = trig0.cosine[3];
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real z1 = k2 * sin_phi1 * cos_theta1;
+    const Real f0 = z1 - k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
+    const Real z2 = k4 * sin_phi1 * cos_theta2;
+    const Real f1 = z0 * theta1_dot * theta1_dot - k3 * sin_theta2 + z2;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z3 = k5 * M10;
+    const Real z4 = Real(1) / (M00 - M10 * z3);
+    const Real z5 = z4 * (z3 * f1 - f0);
+    const Real theta1_ddot = -z5;
+    const Real theta2_ddot = z5 * z3 + k5 * f1;
+
+    // Result
+    rate[0] = theta1_dot;
+    rate[1] = theta2_dot;
+    rate[2] = theta1_ddot;
+    rate[3] = theta2_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real& t, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &M00 = par[5], &k0 = par[6], &M11 = par[7], &k1 = par[8], &k2 = par[9], &k3 = par[10];
+    const Real &k4 = par[11];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const Real phi1 = Real(3) * t;
+    const auto trig0 = sincos(phi0, theta1, phi1, theta2);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
+        cos_theta1 = trig0.cosine[1], sin_phi1 = trig0.sine[2], sin_theta2 = trig0.sine[3],
+        cos_theta2 = trig0.cosine[3];
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real z1 = k2 * sin_phi1 * cos_theta1;
+    const Real f0 = z1 - k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
+    const Real z2 = k4 * sin_phi1 * cos_theta2;
+    const Real f1 = z0 * theta1_dot * theta1_dot - k3 * sin_theta2 + z2;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = M10;
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real& t, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &k0 = par[6], &k1 = par[8], &k2 = par[9], &k3 = par[10], &k4 = par[11], &k6 = par[13];
+    const Real &k7 = par[14];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const Real phi1 = Real(3) * t;
+    const auto trig0 = sincos(phi0, phi1, theta1, theta2);
+    const Real cos_phi0 = trig0.cosine[0], sin_phi1 = trig0.sine[1], cos_theta1 = trig0.cosine[2],
+        cos_theta2 = trig0.cosine[3];
+
+    // Energy
+    const Real z0 = theta1_dot * theta2_dot * k0 * cos_phi0;
+    const Real T = k6 * theta1_dot * theta1_dot + k7 * theta2_dot * theta2_dot + z0;
+    const Real z1 = k1 * cos_theta1 + k3 * cos_theta2;
+    const Real V = -z1;
+    const Real E = T - z1;
+    const Real z2 = theta1_dot * k2 * sin_phi1 * cos_theta1;
+    const Real P = z2 + theta2_dot * k4 * sin_phi1 * cos_theta2;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = P;
+    jacobi[0] = E;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,166 +305,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1], &l1 = par[2], &l2 = par[3], &g = par[4];
-
-    // Constants
-    const Real z0 = m1 + m2;
-    const Real M00 = l1 * l1 * z0;
-    const Real k0 = m2 * l1 * l2;
-    const Real M11 = m2 * l2 * l2;
-    const Real k1 = l1 * g * z0;
-    const Real k2 = Real(0.5) * l1;
-    const Real k3 = m2 * l2 * g;
-    const Real k4 = Real(0.5) * l2;
-    const Real k5 = Real(1) / M11;
-    const Real k6 = Real(0.5) * M00;
-    const Real k7 = Real(0.5) * M11;
-
-    // Result
-    par[5] = M00;
-    par[6] = k0;
-    par[7] = M11;
-    par[8] = k1;
-    par[9] = k2;
-    par[10] = k3;
-    par[11] = k4;
-    par[12] = k5;
-    par[13] = k6;
-    par[14] = k7;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &M00 = par[5], &k0 = par[6], &M11 = par[7], &k1 = par[8], &k2 = par[9], &k3 = par[10];
-    const Real &k4 = par[11], &k5 = par[12];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const Real phi1 = Real(3) * t;
-    const auto trig0 = sincos(phi0, theta1, phi1, theta2);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
-        cos_theta1 = trig0.cosine[1], sin_phi1 = trig0.sine[2], sin_theta2 = trig0.sine[3],
-        cos_theta2 = trig0.cosine[3];
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z0 = k0 * sin_phi0;
-    const Real z1 = k2 * sin_phi1 * cos_theta1;
-    const Real z2 = k1 * sin_theta1 + z0 * theta2_dot * theta2_dot - z1;
-    const Real z3 = k4 * sin_phi1 * cos_theta2;
-    const Real z4 = k3 * sin_theta2 - z0 * theta1_dot * theta1_dot - z3;
-    const Real z5 = k5 * M10;
-    const Real z6 = Real(1) / (M00 - M10 * z5);
-    const Real z7 = z6 * (z2 - z5 * z4);
-    const Real theta1_ddot = -z7;
-    const Real theta2_ddot = z7 * z5 - k5 * z4;
-
-    // Result
-    rate[0] = theta1_dot;
-    rate[1] = theta2_dot;
-    rate[2] = theta1_ddot;
-    rate[3] = theta2_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &M00 = par[5], &k0 = par[6], &M11 = par[7], &k1 = par[8], &k2 = par[9], &k3 = par[10];
-    const Real &k4 = par[11];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const Real phi1 = Real(3) * t;
-    const auto trig0 = sincos(phi0, theta1, phi1, theta2);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
-        cos_theta1 = trig0.cosine[1], sin_phi1 = trig0.sine[2], sin_theta2 = trig0.sine[3],
-        cos_theta2 = trig0.cosine[3];
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Forcing f
-    const Real z0 = k0 * sin_phi0;
-    const Real z1 = k2 * sin_phi1 * cos_theta1;
-    const Real f0 = z1 - k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
-    const Real z2 = k4 * sin_phi1 * cos_theta2;
-    const Real f1 = z0 * theta1_dot * theta1_dot - k3 * sin_theta2 + z2;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[2] = M10;
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &k0 = par[6], &k1 = par[8], &k2 = par[9], &k3 = par[10], &k4 = par[11], &k6 = par[13];
-    const Real &k7 = par[14];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const Real phi1 = Real(3) * t;
-    const auto trig0 = sincos(phi0, phi1, theta1, theta2);
-    const Real cos_phi0 = trig0.cosine[0], sin_phi1 = trig0.sine[1], cos_theta1 = trig0.cosine[2],
-        cos_theta2 = trig0.cosine[3];
-
-    // Energy
-    const Real z0 = theta1_dot * theta2_dot * k0 * cos_phi0;
-    const Real T = k6 * theta1_dot * theta1_dot + k7 * theta2_dot * theta2_dot + z0;
-    const Real z1 = k1 * cos_theta1 + k3 * cos_theta2;
-    const Real V = -z1;
-    const Real E = T - z1;
-    const Real z2 = theta1_dot * k2 * sin_phi1 * cos_theta1;
-    const Real P = z2 + theta2_dot * k4 * sin_phi1 * cos_theta2;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = P;
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -390,16 +354,10 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

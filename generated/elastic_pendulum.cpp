@@ -3,29 +3,138 @@
 //
 //   state  r [m], theta [rad], then their rates
 //   par    m [kg], k [N/m], l0 [m], g [m/s^2]
-//   cost   19 operations a right-hand side: 4 additions, 12 multiplications, 1 divisions, 2 functions
+//   cost   19 operations a right-hand side: 4 additions, 12 multiplications, 1 division, 2 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &k = par[1], &g = par[3];
+
+    // Constants
+    const Real k0 = m * g;
+    const Real k1 = Real(2) * m;
+    const Real k2 = Real(1) / m;
+    const Real k3 = Real(0.5) * m;
+    const Real k4 = Real(0.5) * k;
+
+    // Result
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+    par[8] = k4;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
+    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Shared terms
+    const Real z0 = m * r;
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0
+    const Real M11 = r * z0;
+
+    // Forcing f
+    const Real z1 = k * (l0 - r);
+    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
+    const Real f1 = -r * (k1 * r_dot * theta_dot + k0 * sin_theta);
+
+    // Solve M q'' = f with M = L D L^T
+    const Real r_ddot = k2 * f0;
+    const Real theta_ddot = f1 / M11;
+
+    // Result
+    rate[0] = r_dot;
+    rate[1] = theta_dot;
+    rate[2] = r_ddot;
+    rate[3] = theta_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
+    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = m * r;
+    const Real M11 = r * z0;
+
+    // Forcing f
+    const Real z1 = k * (l0 - r);
+    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
+    const Real f1 = -r * (k1 * r_dot * theta_dot + k0 * sin_theta);
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
+    const Real &l0 = par[2], &k0 = par[4], &k3 = par[7], &k4 = par[8];
+
+    // Trigonometry
+    const Real cos_theta = cos(theta);
+
+    // Energy
+    const Real z0 = l0 - r;
+    const Real T = k3 * (r * r * theta_dot * theta_dot + r_dot * r_dot);
+    const Real z1 = r * k0 * cos_theta - k4 * z0 * z0;
+    const Real V = -z1;
+    const Real E = T - z1;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &r = state[0], &theta = state[1];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Outputs
+    const Real x = r * sin_theta;
+    const Real y = -r * cos_theta;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,145 +290,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &k = par[1], &g = par[3];
-
-    // Constants
-    const Real k0 = m * g;
-    const Real k1 = Real(2) * m;
-    const Real k2 = Real(1) / m;
-    const Real k3 = Real(0.5) * m;
-    const Real k4 = Real(0.5) * k;
-
-    // Result
-    par[4] = k0;
-    par[5] = k1;
-    par[6] = k2;
-    par[7] = k3;
-    par[8] = k4;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5], &k2 = par[6];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Shared terms
-    const Real z0 = m * r;
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = r * z0;
-
-    // Forcing f
-    const Real z1 = k * (l0 - r);
-    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z2 = r * (k1 * r_dot * theta_dot + k0 * sin_theta);
-    const Real r_ddot = k2 * f0;
-    const Real theta_ddot = -z2 / M11;
-
-    // Result
-    rate[0] = r_dot;
-    rate[1] = theta_dot;
-    rate[2] = r_ddot;
-    rate[3] = theta_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &m = par[0], &k = par[1], &l0 = par[2], &k0 = par[4], &k1 = par[5];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real z0 = m * r;
-    const Real M11 = r * z0;
-
-    // Forcing f
-    const Real z1 = k * (l0 - r);
-    const Real f0 = z0 * theta_dot * theta_dot + k0 * cos_theta + z1;
-    const Real f1 = -r * (k1 * r_dot * theta_dot + k0 * sin_theta);
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &r = state[0], &theta = state[1], &r_dot = state[2], &theta_dot = state[3];
-    const Real &l0 = par[2], &k0 = par[4], &k3 = par[7], &k4 = par[8];
-
-    // Trigonometry
-    const Real cos_theta = cos(theta);
-
-    // Energy
-    const Real z0 = l0 - r;
-    const Real T = k3 * (r * r * theta_dot * theta_dot + r_dot * r_dot);
-    const Real z1 = r * k0 * cos_theta - k4 * z0 * z0;
-    const Real V = -z1;
-    const Real E = T - z1;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &r = state[0], &theta = state[1];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Outputs
-    const Real x = r * sin_theta;
-    const Real y = -r * cos_theta;
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -372,13 +342,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

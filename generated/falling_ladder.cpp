@@ -7,25 +7,239 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &g = par[2];
+
+    // Constants
+    const Real z0 = m * l * l;
+    const Real M22 = (Real(1) / Real(3)) * z0;
+    const Real k0 = m * g;
+    const Real k1 = Real(1) / m;
+    const Real k2 = Real(3) * Real(1) / z0;
+    const Real k3 = k1 * k0;
+    const Real k4 = (Real(1) / Real(6)) * z0;
+    const Real k5 = Real(0.5) * m;
+
+    // Result
+    par[3] = M22;
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+    par[8] = k4;
+    par[9] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &l = par[1], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M20 = 0, M21 = 0
+
+    // Forcing f
+    // f0 = 0, f1 = -k0, f2 = 0
+
+    // Constraints A q'' = gamma
+    const Real A1_2 = l * sin_phi;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = l * cos_phi;
+    const Real z1 = phi_dot * phi_dot;
+    const Real z2 = z0 * z1;
+    const Real z3 = k2 * A1_2;
+    const Real z4 = Real(1) / (k1 + z3 * A1_2);
+    const Real z5 = z3 * z0;
+    const Real z6 = z5 * z4;
+    const Real z7 = k2 * z0;
+    const Real z8 = Real(1) / ((k1 + z7 * z0) - z5 * z6);
+    const Real z9 = ((k3 - A1_2 * z1) - z6 * z2) * z8;
+    const Real z10 = z4 * z2 - z6 * z9;
+    const Real x_ddot = -k1 * z10;
+    const Real y_ddot = k1 * z9 - k3;
+    const Real phi_ddot = -z7 * z9 - z3 * z10;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = phi_dot;
+    rate[3] = x_ddot;
+    rate[4] = y_ddot;
+    rate[5] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &M22 = par[3], &k0 = par[4];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = M22;
+    forcing[0] = Real(0);
+    forcing[1] = -k0;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &y = state[1], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
+    const Real &k0 = par[4], &k4 = par[8], &k5 = par[9];
+
+    // Energy
+    const Real z0 = k5 * (x_dot * x_dot + y_dot * y_dot);
+    const Real T = k4 * phi_dot * phi_dot + z0;
+    const Real V = k0 * y;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * sin_phi;
+
+    // Result
+    position[0] = y - z1;
+    position[1] = x - z0;
+    velocity[0] = y_dot - phi_dot * z0;
+    velocity[1] = x_dot + phi_dot * z1;
+    rows[0] = Real(0);
+    rows[1] = Real(1);
+    rows[2] = -z0;
+    rows[3] = Real(1);
+    rows[4] = Real(0);
+    rows[5] = z1;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &phi = state[2], &phi_dot = state[5];
+    const Real &l = par[1], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * sin_phi;
+    const Real z2 = phi_dot * phi_dot;
+    const Real z3 = z0 * z2;
+    const Real z4 = k2 * z1;
+    const Real z5 = Real(1) / (k1 + z4 * z1);
+    const Real z6 = z4 * z0;
+    const Real z7 = z6 * z5;
+    const Real z8 = (k3 - z1 * z2) - z7 * z3;
+    const Real z9 = (k1 + k2 * z0 * z0) - z6 * z7;
+    const Real lambda_floor = z8 / z9;
+    const Real lambda_wall = z7 * lambda_floor - z5 * z3;
+
+    // Result
+    lambda[0] = lambda_floor;
+    lambda[1] = lambda_wall;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &l = par[1], &k1 = par[5], &k2 = par[6];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * sin_phi;
+    const Real z2 = y - z1;
+    const Real z3 = x - z0;
+    const Real z4 = k2 * z1;
+    const Real z5 = k1 + z4 * z1;
+    const Real z6 = Real(1) / z5;
+    const Real z7 = z4 * z0;
+    const Real z8 = z7 * z6;
+    const Real z9 = k2 * z0;
+    const Real z10 = (k1 + z9 * z0) - z7 * z8;
+    const Real z11 = Real(1) / z10;
+    const Real z12 = (z8 * z3 + z2) * z11;
+    const Real z13 = z6 * z3 + z8 * z12;
+    const Real phi0 = phi + (z9 * z12 - z4 * z13);
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+
+    // Projection
+    const Real z14 = x_dot + phi_dot * l * sin_phi0;
+    const Real z15 = (y_dot - phi_dot * l * cos_phi0) + z8 * z14;
+    const Real z16 = z11 * z15;
+    const Real z17 = z6 * z14 + z8 * z16;
+
+    // Result
+    out[0] = x - k1 * z13;
+    out[1] = y - k1 * z12;
+    out[2] = phi0;
+    out[3] = x_dot - k1 * z17;
+    out[4] = y_dot - k1 * z16;
+    out[5] = phi_dot + (z9 * z16 - z4 * z17);
+    position[0] = z2;
+    position[1] = z3;
+    pivots[0] = z10;
+    pivots[1] = z5;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &phi = state[2], &phi_dot = state[5];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Constraints
+    const Real z0 = phi_dot * phi_dot;
+    const Real gamma0 = -l * sin_phi * z0;
+    const Real gamma1 = -l * cos_phi * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,238 +395,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &g = par[2];
-
-    // Constants
-    const Real z0 = m * l * l;
-    const Real M22 = (Real(1) / Real(3)) * z0;
-    const Real k0 = m * g;
-    const Real k1 = Real(1) / m;
-    const Real k2 = Real(3) * Real(1) / z0;
-    const Real k3 = k1 * k0;
-    const Real k4 = (Real(1) / Real(6)) * z0;
-    const Real k5 = Real(0.5) * m;
-
-    // Result
-    par[3] = M22;
-    par[4] = k0;
-    par[5] = k1;
-    par[6] = k2;
-    par[7] = k3;
-    par[8] = k4;
-    par[9] = k5;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[2], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &l = par[1], &k1 = par[5], &k2 = par[6], &k3 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Constraints A q'' = gamma
-    const Real A1_2 = l * sin_phi;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z0 = l * cos_phi;
-    const Real z1 = phi_dot * phi_dot;
-    const Real z2 = z0 * z1;
-    const Real z3 = k2 * A1_2;
-    const Real z4 = Real(1) / (k1 + z3 * A1_2);
-    const Real z5 = z3 * z0;
-    const Real z6 = z5 * z4;
-    const Real z7 = k2 * z0;
-    const Real z8 = Real(1) / ((k1 + z7 * z0) - z5 * z6);
-    const Real z9 = ((k3 - A1_2 * z1) - z6 * z2) * z8;
-    const Real z10 = z4 * z2 - z6 * z9;
-    const Real x_ddot = -k1 * z10;
-    const Real y_ddot = k1 * z9 - k3;
-    const Real phi_ddot = -z7 * z9 - z3 * z10;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = phi_dot;
-    rate[3] = x_ddot;
-    rate[4] = y_ddot;
-    rate[5] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &M22 = par[3], &k0 = par[4];
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[3] = Real(0);
-    mass[4] = m;
-    mass[2] = mass[6] = Real(0);
-    mass[5] = mass[7] = Real(0);
-    mass[8] = M22;
-    forcing[0] = Real(0);
-    forcing[1] = -k0;
-    forcing[2] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &y = state[1], &x_dot = state[3], &y_dot = state[4], &phi_dot = state[5];
-    const Real &k0 = par[4], &k4 = par[8], &k5 = par[9];
-
-    // Energy
-    const Real z0 = k5 * (x_dot * x_dot + y_dot * y_dot);
-    const Real T = k4 * phi_dot * phi_dot + z0;
-    const Real V = k0 * y;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
-    const Real &phi_dot = state[5];
-    const Real &l = par[1];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Constraints
-    const Real z0 = l * cos_phi;
-    const Real z1 = l * sin_phi;
-
-    // Result
-    position[0] = y - z1;
-    position[1] = x - z0;
-    velocity[0] = y_dot - phi_dot * z0;
-    velocity[1] = x_dot + phi_dot * z1;
-    rows[0] = Real(0);
-    rows[1] = Real(1);
-    rows[2] = -z0;
-    rows[3] = Real(1);
-    rows[4] = Real(0);
-    rows[5] = z1;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &phi = state[2], &phi_dot = state[5];
-    const Real &l = par[1], &k1 = par[5], &k2 = par[6], &k3 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Multipliers
-    const Real z0 = l * cos_phi;
-    const Real z1 = l * sin_phi;
-    const Real z2 = phi_dot * phi_dot;
-    const Real z3 = z0 * z2;
-    const Real z4 = k2 * z1;
-    const Real z5 = Real(1) / (k1 + z4 * z1);
-    const Real z6 = z4 * z0;
-    const Real z7 = z6 * z5;
-    const Real z8 = (k3 - z1 * z2) - z7 * z3;
-    const Real z9 = (k1 + k2 * z0 * z0) - z6 * z7;
-    const Real lambda_floor = z8 / z9;
-    const Real lambda_wall = z7 * lambda_floor - z5 * z3;
-
-    // Result
-    lambda[0] = lambda_floor;
-    lambda[1] = lambda_wall;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &y = state[1], &phi = state[2], &x_dot = state[3], &y_dot = state[4];
-    const Real &phi_dot = state[5];
-    const Real &l = par[1], &k1 = par[5], &k2 = par[6];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-    const Real z0 = l * cos_phi;
-    const Real z1 = l * sin_phi;
-    const Real z2 = y - z1;
-    const Real z3 = x - z0;
-    const Real z4 = k2 * z1;
-    const Real z5 = k1 + z4 * z1;
-    const Real z6 = Real(1) / z5;
-    const Real z7 = z4 * z0;
-    const Real z8 = z7 * z6;
-    const Real z9 = k2 * z0;
-    const Real z10 = (k1 + z9 * z0) - z7 * z8;
-    const Real z11 = Real(1) / z10;
-    const Real z12 = (z8 * z3 + z2) * z11;
-    const Real z13 = z6 * z3 + z8 * z12;
-    const Real phi0 = phi + (z9 * z12 - z4 * z13);
-    const auto [sin_phi0, cos_phi0] = sincos(phi0);
-
-    // Projection
-    const Real z14 = x_dot + phi_dot * l * sin_phi0;
-    const Real z15 = (y_dot - phi_dot * l * cos_phi0) + z8 * z14;
-    const Real z16 = z11 * z15;
-    const Real z17 = z6 * z14 + z8 * z16;
-
-    // Result
-    out[0] = x - k1 * z13;
-    out[1] = y - k1 * z12;
-    out[2] = phi0;
-    out[3] = x_dot - k1 * z17;
-    out[4] = y_dot - k1 * z16;
-    out[5] = phi_dot + (z9 * z16 - z4 * z17);
-    position[0] = z2;
-    position[1] = z3;
-    pivots[0] = z10;
-    pivots[1] = z5;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &phi = state[2], &phi_dot = state[5];
-    const Real &l = par[1];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Constraints
-    const Real z0 = phi_dot * phi_dot;
-    const Real gamma0 = -l * sin_phi * z0;
-    const Real gamma1 = -l * cos_phi * z0;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -462,12 +444,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,367 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &a = par[0], &b = par[1], &c = par[2], &m1 = par[4], &m2 = par[5], &m3 = par[6];
+
+    // Constants
+    const Real z0 = a * a * (m1 + Real(3) * m2);
+    const Real M00 = (Real(1) / Real(3)) * z0;
+    const Real k0 = Real(0.5) * a * b * m2;
+    const Real z1 = b * b * m2;
+    const Real M11 = (Real(1) / Real(3)) * z1;
+    const Real z2 = c * c * m3;
+    const Real M22 = (Real(1) / Real(3)) * z2;
+    const Real k1 = Real(3) * Real(1) / z1;
+    const Real k2 = Real(3) * Real(1) / z2;
+    const Real k3 = (Real(1) / Real(6)) * z0;
+    const Real k4 = (Real(1) / Real(6)) * z1;
+    const Real k5 = (Real(1) / Real(6)) * z2;
+
+    // Result
+    par[7] = M00;
+    par[8] = k0;
+    par[9] = M11;
+    par[10] = M22;
+    par[11] = k1;
+    par[12] = k2;
+    par[13] = k3;
+    par[14] = k4;
+    par[15] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto trig0 = sincos(phi0, alpha, beta, gamma);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3],
+        cos_gamma = trig0.cosine[3];
+
+    // Shared terms
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+
+    // Mass matrix M(q), lower triangle
+    // M20 = 0, M21 = 0
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    // f2 = 0
+    const Real z2 = k0 * sin_phi0;
+    const Real f0 = -z2 * z0;
+    const Real f1 = z2 * z1;
+
+    // Constraints A q'' = gamma
+    const Real z3 = a * sin_alpha;
+    const Real z4 = b * sin_beta;
+    const Real A0_2 = c * sin_gamma;
+    const Real A1_0 = a * cos_alpha;
+    const Real A1_1 = b * cos_beta;
+    const Real z5 = c * cos_gamma;
+    const Real z6 = gamma_dot * gamma_dot;
+    const Real gamma0 = A1_0 * z1 + A1_1 * z0 - z5 * z6;
+    const Real gamma1 = z3 * z1 + z4 * z0 - A0_2 * z6;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z7 = k1 * M10;
+    const Real z8 = Real(1) / (M00 - M10 * z7);
+    const Real z9 = f1 * z7 - f0;
+    const Real z10 = k1 * z4;
+    const Real z11 = z3 - M10 * z10;
+    const Real z12 = z11 * z8;
+    const Real z13 = k2 * A0_2;
+    const Real z14 = z11 * z12 + (z4 * z10 + A0_2 * z13);
+    const Real z15 = k1 * A1_1;
+    const Real z16 = A1_0 - M10 * z15;
+    const Real z17 = z16 * z8;
+    const Real z18 = k2 * z5;
+    const Real z19 = z11 * z17 + (z4 * z15 + A0_2 * z18);
+    const Real z20 = z16 * z17 + (A1_1 * z15 + z5 * z18);
+    const Real z21 = Real(1) / z20;
+    const Real z22 = z19 * z21;
+    const Real z23 = Real(1) / (z14 - z19 * z22);
+    const Real z24 = (gamma0 + f1 * z10) - z9 * z12;
+    const Real z25 = (gamma1 - f1 * z15) + z9 * z17;
+    const Real z26 = z23 * (z24 + z25 * z22);
+    const Real z27 = z21 * z25 + z22 * z26;
+    const Real z28 = z8 * z9 + z12 * z26 - z17 * z27;
+    const Real alpha_ddot = -z28;
+    const Real z29 = k1 * f1;
+    const Real beta_ddot = z29 - z26 * z10 + z27 * z15 + z7 * z28;
+    const Real gamma_ddot = z26 * z13 - z27 * z18;
+
+    // Result
+    rate[0] = alpha_dot;
+    rate[1] = beta_dot;
+    rate[2] = gamma_dot;
+    rate[3] = alpha_ddot;
+    rate[4] = beta_ddot;
+    rate[5] = gamma_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &M00 = par[7], &k0 = par[8], &M11 = par[9], &M22 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto [sin_phi0, cos_phi0] = sincos(phi0);
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -z0 * beta_dot * beta_dot;
+    const Real f1 = z0 * alpha_dot * alpha_dot;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = M10;
+    mass[4] = M11;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &gamma_dot = state[5];
+    const Real &k0 = par[8], &k3 = par[13], &k4 = par[14], &k5 = par[15];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const Real cos_phi0 = cos(phi0);
+
+    // Energy
+    const Real z0 = k3 * alpha_dot * alpha_dot;
+    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
+    const Real T = z0 + z1 + k4 * beta_dot * beta_dot + k5 * gamma_dot * gamma_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta, gamma);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1], sin_gamma = trig0.sine[2], cos_gamma = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = a * sin_alpha;
+    const Real z1 = b * sin_beta;
+    const Real z2 = c * sin_gamma;
+    const Real z3 = a * cos_alpha;
+    const Real z4 = b * cos_beta;
+    const Real z5 = c * cos_gamma;
+
+    // Result
+    position[0] = (z3 + z4) - (d + z5);
+    position[1] = (z0 + z1) - z2;
+    velocity[0] = gamma_dot * z2 - alpha_dot * z0 - beta_dot * z1;
+    velocity[1] = alpha_dot * z3 + beta_dot * z4 - gamma_dot * z5;
+    rows[0] = -z0;
+    rows[1] = -z1;
+    rows[2] = z2;
+    rows[3] = z3;
+    rows[4] = z4;
+    rows[5] = -z5;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto trig0 = sincos(phi0, alpha, beta, gamma);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3],
+        cos_gamma = trig0.cosine[3];
+
+    // Multipliers
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = k0 * sin_phi0;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = alpha_dot * alpha_dot;
+    const Real z4 = z1 * z3;
+    const Real z5 = a * sin_alpha;
+    const Real z6 = b * sin_beta;
+    const Real z7 = c * sin_gamma;
+    const Real z8 = a * cos_alpha;
+    const Real z9 = b * cos_beta;
+    const Real z10 = c * cos_gamma;
+    const Real z11 = gamma_dot * gamma_dot;
+    const Real z12 = z8 * z3 + z9 * z2 - z10 * z11;
+    const Real z13 = z5 * z3 + z6 * z2 - z7 * z11;
+    const Real z14 = k1 * z0;
+    const Real z15 = Real(1) / (M00 - z0 * z14);
+    const Real z16 = z1 * z2 + z4 * z14;
+    const Real z17 = k1 * z6;
+    const Real z18 = z5 - z0 * z17;
+    const Real z19 = z18 * z15;
+    const Real z20 = z6 * z17 + z7 * k2 * z7;
+    const Real z21 = k1 * z9;
+    const Real z22 = z8 - z0 * z21;
+    const Real z23 = z22 * z15;
+    const Real z24 = k2 * z10;
+    const Real z25 = z18 * z23 + (z6 * z21 + z7 * z24);
+    const Real z26 = z22 * z23 + (z9 * z21 + z10 * z24);
+    const Real z27 = Real(1) / z26;
+    const Real z28 = z25 * z27;
+    const Real z29 = Real(1) / ((z18 * z19 + z20) - z25 * z28);
+    const Real z30 = (z12 + z4 * z17) - z16 * z19;
+    const Real z31 = (z13 - z4 * z21) + z16 * z23;
+    const Real lambda_x = z29 * (z30 + z31 * z28);
+    const Real lambda_y = z27 * z31 + z28 * lambda_x;
+
+    // Result
+    lambda[0] = lambda_x;
+    lambda[1] = lambda_y;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3], &M00 = par[7], &k0 = par[8], &k1 = par[11];
+    const Real &k2 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha - beta;
+    const auto trig0 = sincos(phi0, alpha, beta, gamma);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
+        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3], cos_gamma = trig0.cosine[3];
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = a * sin_alpha;
+    const Real z2 = b * sin_beta;
+    const Real z3 = c * sin_gamma;
+    const Real z4 = a * cos_alpha;
+    const Real z5 = b * cos_beta;
+    const Real z6 = c * cos_gamma;
+    const Real z7 = (z4 + z5) - (d + z6);
+    const Real z8 = (z1 + z2) - z3;
+    const Real z9 = k1 * z0;
+    const Real z10 = Real(1) / (M00 - z0 * z9);
+    const Real z11 = k1 * z2;
+    const Real z12 = z1 - z0 * z11;
+    const Real z13 = z12 * z10;
+    const Real z14 = k2 * z3;
+    const Real z15 = z12 * z13 + (z2 * z11 + z3 * z14);
+    const Real z16 = k1 * z5;
+    const Real z17 = z4 - z0 * z16;
+    const Real z18 = z17 * z10;
+    const Real z19 = k2 * z6;
+    const Real z20 = z12 * z18 + (z2 * z16 + z3 * z19);
+    const Real z21 = z17 * z18 + (z5 * z16 + z6 * z19);
+    const Real z22 = Real(1) / z21;
+    const Real z23 = z20 * z22;
+    const Real z24 = z15 - z20 * z23;
+    const Real z25 = Real(1) / z24;
+    const Real z26 = (z7 + z8 * z23) * z25;
+    const Real z27 = z8 * z22 + z23 * z26;
+    const Real z28 = z13 * z26 - z18 * z27;
+    const Real phi1 = alpha + z28;
+    const Real z29 = z26 * z11 - z27 * z16 - z9 * z28;
+    const Real phi2 = beta + z29;
+    const Real phi3 = gamma - (z26 * z14 - z27 * z19);
+    const auto trig1 = sincos(phi3, phi1, phi2);
+    const Real sin_phi3 = trig1.sine[0], cos_phi3 = trig1.cosine[0], sin_phi1 = trig1.sine[1],
+        cos_phi1 = trig1.cosine[1], sin_phi2 = trig1.sine[2], cos_phi2 = trig1.cosine[2];
+
+    // Projection
+    const Real z30 = gamma_dot * c * sin_phi3;
+    const Real z31 = alpha_dot * a * sin_phi1;
+    const Real z32 = z30 - z31 - beta_dot * b * sin_phi2;
+    const Real z33 = gamma_dot * c * cos_phi3;
+    const Real z34 = alpha_dot * a * cos_phi1;
+    const Real z35 = z33 - z34 - beta_dot * b * cos_phi2;
+    const Real z36 = z25 * (z32 - z23 * z35);
+    const Real z37 = z22 * z35 - z23 * z36;
+    const Real z38 = z13 * z36 + z18 * z37;
+    const Real z39 = z36 * z11 + z37 * z16 - z9 * z38;
+
+    // Result
+    out[0] = phi1;
+    out[1] = phi2;
+    out[2] = phi3;
+    out[3] = alpha_dot + z38;
+    out[4] = beta_dot + z39;
+    out[5] = gamma_dot - (z36 * z14 + z37 * z19);
+    position[0] = z7;
+    position[1] = z8;
+    pivots[0] = z24;
+    pivots[1] = z21;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
+    const Real &beta_dot = state[4], &gamma_dot = state[5];
+    const Real &a = par[0], &b = par[1], &c = par[2];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta, gamma);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1], sin_gamma = trig0.sine[2], cos_gamma = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+    const Real z2 = a * cos_alpha * z1;
+    const Real z3 = b * cos_beta * z0;
+    const Real z4 = gamma_dot * gamma_dot;
+    const Real gamma0 = z2 + z3 - c * cos_gamma * z4;
+    const Real z5 = a * sin_alpha * z1;
+    const Real z6 = b * sin_beta * z0;
+    const Real gamma1 = z5 + z6 - c * sin_gamma * z4;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,369 +523,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &a = par[0], &b = par[1], &c = par[2], &m1 = par[4], &m2 = par[5], &m3 = par[6];
-
-    // Constants
-    const Real z0 = a * a * (m1 + Real(3) * m2);
-    const Real M00 = (Real(1) / Real(3)) * z0;
-    const Real k0 = Real(0.5) * a * b * m2;
-    const Real z1 = b * b * m2;
-    const Real M11 = (Real(1) / Real(3)) * z1;
-    const Real z2 = c * c * m3;
-    const Real M22 = (Real(1) / Real(3)) * z2;
-    const Real k1 = Real(3) * Real(1) / z1;
-    const Real k2 = Real(3) * Real(1) / z2;
-    const Real k3 = (Real(1) / Real(6)) * z0;
-    const Real k4 = (Real(1) / Real(6)) * z1;
-    const Real k5 = (Real(1) / Real(6)) * z2;
-
-    // Result
-    par[7] = M00;
-    par[8] = k0;
-    par[9] = M11;
-    par[10] = M22;
-    par[11] = k1;
-    par[12] = k2;
-    par[13] = k3;
-    par[14] = k4;
-    par[15] = k5;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
-    const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha - beta;
-    const auto trig0 = sincos(phi0, alpha, beta, gamma);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
-        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3],
-        cos_gamma = trig0.cosine[3];
-
-    // Shared terms
-    const Real z0 = alpha_dot * alpha_dot;
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Forcing f
-    const Real z1 = k0 * sin_phi0;
-    const Real f1 = z1 * z0;
-
-    // Constraints A q'' = gamma
-    const Real z2 = beta_dot * beta_dot;
-    const Real z3 = a * sin_alpha;
-    const Real z4 = b * sin_beta;
-    const Real A0_2 = c * sin_gamma;
-    const Real A1_0 = a * cos_alpha;
-    const Real A1_1 = b * cos_beta;
-    const Real z5 = c * cos_gamma;
-    const Real z6 = gamma_dot * gamma_dot;
-    const Real gamma0 = A1_0 * z0 + A1_1 * z2 - z5 * z6;
-    const Real gamma1 = z3 * z0 + z4 * z2 - A0_2 * z6;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z7 = k1 * M10;
-    const Real z8 = Real(1) / (M00 - M10 * z7);
-    const Real z9 = z1 * z2 + f1 * z7;
-    const Real z10 = k1 * z4;
-    const Real z11 = z3 - M10 * z10;
-    const Real z12 = z11 * z8;
-    const Real z13 = k2 * A0_2;
-    const Real z14 = z11 * z12 + (z4 * z10 + A0_2 * z13);
-    const Real z15 = k1 * A1_1;
-    const Real z16 = A1_0 - M10 * z15;
-    const Real z17 = z16 * z8;
-    const Real z18 = k2 * z5;
-    const Real z19 = z11 * z17 + (z4 * z15 + A0_2 * z18);
-    const Real z20 = z16 * z17 + (A1_1 * z15 + z5 * z18);
-    const Real z21 = Real(1) / z20;
-    const Real z22 = z19 * z21;
-    const Real z23 = Real(1) / (z14 - z19 * z22);
-    const Real z24 = (gamma0 + f1 * z10) - z9 * z12;
-    const Real z25 = (gamma1 - f1 * z15) + z9 * z17;
-    const Real z26 = z23 * (z24 + z25 * z22);
-    const Real z27 = z21 * z25 + z22 * z26;
-    const Real z28 = z8 * z9 + z12 * z26 - z17 * z27;
-    const Real alpha_ddot = -z28;
-    const Real z29 = k1 * f1;
-    const Real beta_ddot = z29 - z26 * z10 + z27 * z15 + z7 * z28;
-    const Real gamma_ddot = z26 * z13 - z27 * z18;
-
-    // Result
-    rate[0] = alpha_dot;
-    rate[1] = beta_dot;
-    rate[2] = gamma_dot;
-    rate[3] = alpha_ddot;
-    rate[4] = beta_ddot;
-    rate[5] = gamma_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &M00 = par[7], &k0 = par[8], &M11 = par[9], &M22 = par[10];
-
-    // Trigonometry
-    const Real phi0 = alpha - beta;
-    const auto [sin_phi0, cos_phi0] = sincos(phi0);
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Forcing f
-    const Real z0 = k0 * sin_phi0;
-    const Real f0 = -z0 * beta_dot * beta_dot;
-    const Real f1 = z0 * alpha_dot * alpha_dot;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[3] = M10;
-    mass[4] = M11;
-    mass[2] = mass[6] = Real(0);
-    mass[5] = mass[7] = Real(0);
-    mass[8] = M22;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &gamma_dot = state[5];
-    const Real &k0 = par[8], &k3 = par[13], &k4 = par[14], &k5 = par[15];
-
-    // Trigonometry
-    const Real phi0 = alpha - beta;
-    const Real cos_phi0 = cos(phi0);
-
-    // Energy
-    const Real z0 = k3 * alpha_dot * alpha_dot;
-    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
-    const Real T = z0 + z1 + k4 * beta_dot * beta_dot + k5 * gamma_dot * gamma_dot;
-
-    // Result
-    energy[0] = T;
-    energy[1] = Real(0);
-    energy[2] = T;
-    energy[3] = Real(0);
-    jacobi[0] = T;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
-    const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3];
-
-    // Trigonometry
-    const auto trig0 = sincos(alpha, beta, gamma);
-    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
-        cos_beta = trig0.cosine[1], sin_gamma = trig0.sine[2], cos_gamma = trig0.cosine[2];
-
-    // Constraints
-    const Real z0 = a * sin_alpha;
-    const Real z1 = b * sin_beta;
-    const Real z2 = c * sin_gamma;
-    const Real z3 = a * cos_alpha;
-    const Real z4 = b * cos_beta;
-    const Real z5 = c * cos_gamma;
-
-    // Result
-    position[0] = (z3 + z4) - (d + z5);
-    position[1] = (z0 + z1) - z2;
-    velocity[0] = gamma_dot * z2 - alpha_dot * z0 - beta_dot * z1;
-    velocity[1] = alpha_dot * z3 + beta_dot * z4 - gamma_dot * z5;
-    rows[0] = -z0;
-    rows[1] = -z1;
-    rows[2] = z2;
-    rows[3] = z3;
-    rows[4] = z4;
-    rows[5] = -z5;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
-    const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2], &M00 = par[7], &k0 = par[8], &k1 = par[11], &k2 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha - beta;
-    const auto trig0 = sincos(phi0, alpha, beta, gamma);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
-        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3],
-        cos_gamma = trig0.cosine[3];
-
-    // Multipliers
-    const Real z0 = k0 * cos_phi0;
-    const Real z1 = k0 * sin_phi0;
-    const Real z2 = beta_dot * beta_dot;
-    const Real z3 = alpha_dot * alpha_dot;
-    const Real z4 = z1 * z3;
-    const Real z5 = a * sin_alpha;
-    const Real z6 = b * sin_beta;
-    const Real z7 = c * sin_gamma;
-    const Real z8 = a * cos_alpha;
-    const Real z9 = b * cos_beta;
-    const Real z10 = c * cos_gamma;
-    const Real z11 = gamma_dot * gamma_dot;
-    const Real z12 = z8 * z3 + z9 * z2 - z10 * z11;
-    const Real z13 = z5 * z3 + z6 * z2 - z7 * z11;
-    const Real z14 = k1 * z0;
-    const Real z15 = Real(1) / (M00 - z0 * z14);
-    const Real z16 = z1 * z2 + z4 * z14;
-    const Real z17 = k1 * z6;
-    const Real z18 = z5 - z0 * z17;
-    const Real z19 = z18 * z15;
-    const Real z20 = z6 * z17 + z7 * k2 * z7;
-    const Real z21 = k1 * z9;
-    const Real z22 = z8 - z0 * z21;
-    const Real z23 = z22 * z15;
-    const Real z24 = k2 * z10;
-    const Real z25 = z18 * z23 + (z6 * z21 + z7 * z24);
-    const Real z26 = z22 * z23 + (z9 * z21 + z10 * z24);
-    const Real z27 = Real(1) / z26;
-    const Real z28 = z25 * z27;
-    const Real z29 = Real(1) / ((z18 * z19 + z20) - z25 * z28);
-    const Real z30 = (z12 + z4 * z17) - z16 * z19;
-    const Real z31 = (z13 - z4 * z21) + z16 * z23;
-    const Real lambda_x = z29 * (z30 + z31 * z28);
-    const Real lambda_y = z27 * z31 + z28 * lambda_x;
-
-    // Result
-    lambda[0] = lambda_x;
-    lambda[1] = lambda_y;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
-    const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2], &d = par[3], &M00 = par[7], &k0 = par[8], &k1 = par[11];
-    const Real &k2 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha - beta;
-    const auto trig0 = sincos(phi0, alpha, beta, gamma);
-    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
-        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2], sin_gamma = trig0.sine[3], cos_gamma = trig0.cosine[3];
-    const Real z0 = k0 * cos_phi0;
-    const Real z1 = a * sin_alpha;
-    const Real z2 = b * sin_beta;
-    const Real z3 = c * sin_gamma;
-    const Real z4 = a * cos_alpha;
-    const Real z5 = b * cos_beta;
-    const Real z6 = c * cos_gamma;
-    const Real z7 = (z4 + z5) - (d + z6);
-    const Real z8 = (z1 + z2) - z3;
-    const Real z9 = k1 * z0;
-    const Real z10 = Real(1) / (M00 - z0 * z9);
-    const Real z11 = k1 * z2;
-    const Real z12 = z1 - z0 * z11;
-    const Real z13 = z12 * z10;
-    const Real z14 = k2 * z3;
-    const Real z15 = z12 * z13 + (z2 * z11 + z3 * z14);
-    const Real z16 = k1 * z5;
-    const Real z17 = z4 - z0 * z16;
-    const Real z18 = z17 * z10;
-    const Real z19 = k2 * z6;
-    const Real z20 = z12 * z18 + (z2 * z16 + z3 * z19);
-    const Real z21 = z17 * z18 + (z5 * z16 + z6 * z19);
-    const Real z22 = Real(1) / z21;
-    const Real z23 = z20 * z22;
-    const Real z24 = z15 - z20 * z23;
-    const Real z25 = Real(1) / z24;
-    const Real z26 = (z7 + z8 * z23) * z25;
-    const Real z27 = z8 * z22 + z23 * z26;
-    const Real z28 = z13 * z26 - z18 * z27;
-    const Real phi1 = alpha + z28;
-    const Real z29 = z26 * z11 - z27 * z16 - z9 * z28;
-    const Real phi2 = beta + z29;
-    const Real phi3 = gamma - (z26 * z14 - z27 * z19);
-    const auto trig1 = sincos(phi3, phi1, phi2);
-    const Real sin_phi3 = trig1.sine[0], cos_phi3 = trig1.cosine[0], sin_phi1 = trig1.sine[1],
-        cos_phi1 = trig1.cosine[1], sin_phi2 = trig1.sine[2], cos_phi2 = trig1.cosine[2];
-
-    // Projection
-    const Real z30 = gamma_dot * c * sin_phi3;
-    const Real z31 = alpha_dot * a * sin_phi1;
-    const Real z32 = z30 - z31 - beta_dot * b * sin_phi2;
-    const Real z33 = gamma_dot * c * cos_phi3;
-    const Real z34 = alpha_dot * a * cos_phi1;
-    const Real z35 = z33 - z34 - beta_dot * b * cos_phi2;
-    const Real z36 = z25 * (z32 - z23 * z35);
-    const Real z37 = z22 * z35 - z23 * z36;
-    const Real z38 = z13 * z36 + z18 * z37;
-    const Real z39 = z36 * z11 + z37 * z16 - z9 * z38;
-
-    // Result
-    out[0] = phi1;
-    out[1] = phi2;
-    out[2] = phi3;
-    out[3] = alpha_dot + z38;
-    out[4] = beta_dot + z39;
-    out[5] = gamma_dot - (z36 * z14 + z37 * z19);
-    position[0] = z7;
-    position[1] = z8;
-    pivots[0] = z24;
-    pivots[1] = z21;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &alpha = state[0], &beta = state[1], &gamma = state[2], &alpha_dot = state[3];
-    const Real &beta_dot = state[4], &gamma_dot = state[5];
-    const Real &a = par[0], &b = par[1], &c = par[2];
-
-    // Trigonometry
-    const auto trig0 = sincos(alpha, beta, gamma);
-    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
-        cos_beta = trig0.cosine[1], sin_gamma = trig0.sine[2], cos_gamma = trig0.cosine[2];
-
-    // Constraints
-    const Real z0 = beta_dot * beta_dot;
-    const Real z1 = alpha_dot * alpha_dot;
-    const Real z2 = a * cos_alpha * z1;
-    const Real z3 = b * cos_beta * z0;
-    const Real z4 = gamma_dot * gamma_dot;
-    const Real gamma0 = z2 + z3 - c * cos_gamma * z4;
-    const Real z5 = a * sin_alpha * z1;
-    const Real z6 = b * sin_beta * z0;
-    const Real gamma1 = z5 + z6 - c * sin_gamma * z4;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -593,12 +572,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

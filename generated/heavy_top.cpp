@@ -3,29 +3,138 @@
 //
 //   state  phi [rad], theta [rad], psi [rad], then their rates
 //   par    m [kg], l [m], g [m/s^2], A [kg m^2], C [kg m^2]
-//   cost   32 operations a right-hand side: 7 additions, 22 multiplications, 1 divisions, 2 functions
+//   cost   32 operations a right-hand side: 7 additions, 22 multiplications, 1 division, 2 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &g = par[2], &A = par[3], &C = par[4];
+
+    // Constants
+    const Real k0 = A - C;
+    const Real k1 = Real(2) * k0;
+    const Real k2 = m * l * g;
+    const Real k3 = Real(1) / C;
+    const Real k4 = Real(1) / A;
+    const Real k5 = Real(0.5) * A;
+    const Real k6 = Real(0.5) * C;
+
+    // Result
+    par[5] = k0;
+    par[6] = k1;
+    par[7] = k2;
+    par[8] = k3;
+    par[9] = k4;
+    par[10] = k5;
+    par[11] = k6;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
+    const Real &A = par[3], &C = par[4], &k0 = par[5], &k1 = par[6], &k2 = par[7], &k3 = par[8], &k4 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0, M11 = A, M21 = 0, M22 = C
+    const Real M20 = C * cos_theta;
+    const Real M00 = A * sin_theta * sin_theta + M20 * cos_theta;
+
+    // Forcing f
+    const Real z0 = phi_dot * cos_theta;
+    const Real z1 = C * psi_dot;
+    const Real f0 = -theta_dot * (k1 * z0 - z1) * sin_theta;
+    const Real f1 = (k2 + phi_dot * (k0 * z0 - z1)) * sin_theta;
+    const Real f2 = C * phi_dot * theta_dot * sin_theta;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z2 = k3 * M20;
+    const Real z3 = Real(1) / (M00 - M20 * z2);
+    const Real z4 = z3 * (f2 * z2 - f0);
+    const Real phi_ddot = -z4;
+    const Real theta_ddot = k4 * f1;
+    const Real psi_ddot = z4 * z2 + k3 * f2;
+
+    // Result
+    rate[0] = phi_dot;
+    rate[1] = theta_dot;
+    rate[2] = psi_dot;
+    rate[3] = phi_ddot;
+    rate[4] = theta_ddot;
+    rate[5] = psi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
+    const Real &A = par[3], &C = par[4], &k0 = par[5], &k1 = par[6], &k2 = par[7];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    const Real M20 = C * cos_theta;
+    const Real M00 = A * sin_theta * sin_theta + M20 * cos_theta;
+
+    // Forcing f
+    const Real z0 = phi_dot * cos_theta;
+    const Real z1 = C * psi_dot;
+    const Real f0 = -theta_dot * (k1 * z0 - z1) * sin_theta;
+    const Real f1 = (k2 + phi_dot * (k0 * z0 - z1)) * sin_theta;
+    const Real f2 = C * phi_dot * theta_dot * sin_theta;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = A;
+    mass[2] = mass[6] = M20;
+    mass[5] = mass[7] = Real(0);
+    mass[8] = C;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = f2;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
+    const Real &A = par[3], &C = par[4], &k2 = par[7], &k5 = par[10], &k6 = par[11];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Energy
+    const Real z0 = C * cos_theta;
+    const Real z1 = k5 * theta_dot * theta_dot + k6 * psi_dot * psi_dot;
+    const Real z2 = phi_dot * (A * sin_theta * sin_theta + z0 * cos_theta);
+    const Real T = z1 + phi_dot * (Real(0.5) * z2 + psi_dot * z0);
+    const Real V = k2 * cos_theta;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,152 +290,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &g = par[2], &A = par[3], &C = par[4];
-
-    // Constants
-    const Real k0 = A - C;
-    const Real k1 = Real(2) * k0;
-    const Real k2 = m * l * g;
-    const Real k3 = Real(1) / C;
-    const Real k4 = Real(1) / A;
-    const Real k5 = Real(0.5) * A;
-    const Real k6 = Real(0.5) * C;
-
-    // Result
-    par[5] = k0;
-    par[6] = k1;
-    par[7] = k2;
-    par[8] = k3;
-    par[9] = k4;
-    par[10] = k5;
-    par[11] = k6;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
-    const Real &A = par[3], &C = par[4], &k0 = par[5], &k1 = par[6], &k2 = par[7], &k3 = par[8], &k4 = par[9];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M20 = C * cos_theta;
-    const Real M00 = A * sin_theta * sin_theta + M20 * cos_theta;
-
-    // Forcing f
-    const Real z0 = phi_dot * cos_theta;
-    const Real z1 = C * psi_dot;
-    const Real f1 = (k2 + phi_dot * (k0 * z0 - z1)) * sin_theta;
-    const Real f2 = C * phi_dot * theta_dot * sin_theta;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z2 = theta_dot * (k1 * z0 - z1) * sin_theta;
-    const Real z3 = k3 * M20;
-    const Real z4 = Real(1) / (M00 - M20 * z3);
-    const Real z5 = z4 * (z2 + f2 * z3);
-    const Real phi_ddot = -z5;
-    const Real theta_ddot = k4 * f1;
-    const Real psi_ddot = z5 * z3 + k3 * f2;
-
-    // Result
-    rate[0] = phi_dot;
-    rate[1] = theta_dot;
-    rate[2] = psi_dot;
-    rate[3] = phi_ddot;
-    rate[4] = theta_ddot;
-    rate[5] = psi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
-    const Real &A = par[3], &C = par[4], &k0 = par[5], &k1 = par[6], &k2 = par[7];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M20 = C * cos_theta;
-    const Real M00 = A * sin_theta * sin_theta + M20 * cos_theta;
-
-    // Forcing f
-    const Real z0 = phi_dot * cos_theta;
-    const Real z1 = C * psi_dot;
-    const Real f0 = -theta_dot * (k1 * z0 - z1) * sin_theta;
-    const Real f1 = (k2 + phi_dot * (k0 * z0 - z1)) * sin_theta;
-    const Real f2 = C * phi_dot * theta_dot * sin_theta;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[3] = Real(0);
-    mass[4] = A;
-    mass[2] = mass[6] = M20;
-    mass[5] = mass[7] = Real(0);
-    mass[8] = C;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = f2;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &theta = state[1], &phi_dot = state[3], &theta_dot = state[4], &psi_dot = state[5];
-    const Real &A = par[3], &C = par[4], &k2 = par[7], &k5 = par[10], &k6 = par[11];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Energy
-    const Real z0 = C * cos_theta;
-    const Real z1 = k5 * theta_dot * theta_dot + k6 * psi_dot * psi_dot;
-    const Real z2 = phi_dot * (A * sin_theta * sin_theta + z0 * cos_theta);
-    const Real T = z1 + phi_dot * (Real(0.5) * z2 + psi_dot * z0);
-    const Real V = k2 * cos_theta;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -376,16 +339,10 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

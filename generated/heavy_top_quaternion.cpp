@@ -3,30 +3,11 @@
 //
 //   state  e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
 //   par    m [kg], l [m], g [m/s^2], A [kg m^2], C [kg m^2], theta0 [rad]
-//   cost   49 operations a right-hand side: 15 additions, 33 multiplications, 1 divisions, 0 functions
+//   cost   49 operations a right-hand side: 15 additions, 33 multiplications, 1 division, 0 functions
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -34,13 +15,12 @@ void prepare(Real* par) {
     const Real &m = par[0], &l = par[1], &g = par[2], &A = par[3], &C = par[4];
 
     // Constants
-    const Real z0 = m * l * l;
-    const Real k0 = z0 + (A - C - z0);
+    const Real k0 = A - C;
     const Real k1 = Real(2) * m * l * g;
     const Real k2 = Real(1) / A;
     const Real k3 = m * g;
     const Real k4 = l * k3;
-    const Real k5 = A - z0;
+    const Real k5 = A - m * l * l;
     const Real k6 = Real(2) * l;
     const Real k7 = Real(0.5) * k5;
     const Real k8 = Real(0.5) * C;
@@ -61,10 +41,10 @@ void prepare(Real* par) {
 
 /// rate = (q', u') at t and state = (q, u).
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
-    const Real &A = par[3], &C = par[4], &k0 = par[6], &k1 = par[7], &k2 = par[8];
+    const Real &k0 = par[6], &k1 = par[7], &k2 = par[8];
 
     // Kinematics q' = h(q, u, t)
     const Real e0_dot = -Real(0.5) * (e1 * w1 + e2 * w2 + e3 * w3);
@@ -72,16 +52,21 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real e2_dot = Real(0.5) * (e0 * w2 - e1 * w3 + e3 * w1);
     const Real e3_dot = Real(0.5) * (e0 * w3 + e1 * w2 - e2 * w1);
 
+    // Mass matrix M(q), lower triangle
+    // M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C
+
     // Forcing f
+    // f2 = 0
     const Real z0 = (e0 * e0 + e3 * e3) + (e1 * e1 + e2 * e2);
     const Real z1 = k1 / z0;
     const Real z2 = z1 * (e0 * e1 + e2 * e3);
-    const Real f0 = w2 * k0 * w3 + z2;
+    const Real f0 = z2 + w2 * k0 * w3;
+    const Real z3 = z1 * (e0 * e2 - e1 * e3);
+    const Real f1 = z3 - w3 * k0 * w1;
 
     // Solve M u' = f with M = L D L^T
-    const Real z3 = z1 * (e0 * e2 - e1 * e3);
     const Real w1_dot = k2 * f0;
-    const Real w2_dot = -k2 * (w3 * k0 * w1 - z3);
+    const Real w2_dot = k2 * f1;
 
     // Result
     rate[0] = e0_dot;
@@ -95,7 +80,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (s by s, row-major) and f of M u' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
     const Real &A = par[3], &C = par[4], &k0 = par[6], &k1 = par[7];
@@ -104,7 +89,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
     const Real z0 = (e0 * e0 + e3 * e3) + (e1 * e1 + e2 * e2);
     const Real z1 = k1 / z0;
     const Real z2 = z1 * (e0 * e1 + e2 * e3);
-    const Real f0 = w2 * k0 * w3 + z2;
+    const Real f0 = z2 + w2 * k0 * w3;
     const Real z3 = z1 * (e0 * e2 - e1 * e3);
     const Real f1 = z3 - w3 * k0 * w1;
 
@@ -122,81 +107,31 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
-    const Real &m = par[0], &l = par[1], &k3 = par[9], &k7 = par[13], &k8 = par[14];
+    const Real &l = par[1], &A = par[3], &C = par[4], &k3 = par[9];
 
     // Energy
     const Real z0 = e0 * e0 + e3 * e3;
     const Real z1 = e1 * e1 + e2 * e2;
-    const Real z2 = Real(1) / (z0 + z1);
-    const Real z3 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z4 = e0 * w1 + e2 * w3 - e3 * w2;
-    const Real z5 = e2 * z3 + e1 * z4;
-    const Real z6 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z7 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z8 = e3 * z6 - e0 * z7;
-    const Real z9 = z0 - z1;
-    const Real z10 = z2 * z2;
-    const Real z11 = e0 * e1 - e2 * e3;
-    const Real z12 = e0 * e2 + e1 * e3;
-    const Real z13 = e0 * z4 - e2 * z6;
-    const Real z14 = e3 * z3 + e1 * z7;
-    const Real z15 = z10 * (z5 + z8);
-    const Real z16 = e3 * z4 - e2 * z7;
-    const Real z17 = e0 * z3 + e1 * z6;
-    const Real z18 = z2 * (z16 - z17);
-    const Real z19 = e2 * z4;
-    const Real z20 = z19 - e1 * z3 + e0 * z6 + e3 * z7;
-    const Real z21 = z2 * z20;
-    const Real z22 = k8 * z21;
-    const Real z23 = z2 * (z13 + z14);
-    const Real z24 = k7 * (z23 * z23 + z18 * z18) + z22 * z21;
-    const Real z25 = l * (z2 * (z16 + z17) - Real(2) * z12 * z15);
-    const Real z26 = l * (z2 * (z13 - z14) - Real(2) * z11 * z15);
-    const Real z27 = l * (z2 * (z5 - z8) + z9 * z15);
-    const Real T = z24 + Real(0.5) * m * (z25 * z25 + z26 * z26 + z27 * z27);
-    const Real V = k3 * l * z9 * z2;
-    const Real E = V + T;
-    const Real z28 = k7 * z18 * z2;
-    const Real z29 = l * m * z25;
-    const Real z30 = z29 * z2;
-    const Real z31 = Real(4) * z28 - Real(2) * z30;
-    const Real z32 = k7 * z23 * z2;
-    const Real z33 = l * m * z26;
-    const Real z34 = z33 * z2;
-    const Real z35 = Real(4) * z32 - Real(2) * z34;
-    const Real z36 = z22 * z2;
-    const Real z37 = l * m * z27;
-    const Real z38 = z37 * z2;
-    const Real z39 = Real(2) * z29 * z12 + Real(2) * z33 * z11 - z37 * z9;
-    const Real z40 = z39 * z10;
-    const Real z41 = z38 - z40;
-    const Real z42 = (e3 * z35 - Real(4) * e1 * z36) + Real(2) * e2 * z41;
-    const Real z43 = (e0 * z31 - z42) * z3;
-    const Real z44 = Real(4) * z28 + Real(2) * z30;
-    const Real z45 = e1 * z35 - (e2 * z44 - Real(4) * e3 * z36);
-    const Real z46 = z38 + z40;
-    const Real z47 = (z45 + Real(2) * e0 * z46) * z7;
-    const Real z48 = Real(4) * z32 + Real(2) * z34;
-    const Real z49 = e2 * z48 + (Real(2) * e3 * z46 - Real(4) * e0 * z36);
-    const Real z50 = (e1 * z31 + z49) * z6;
-    const Real z51 = (e3 * z44 + Real(4) * e2 * z36) + Real(2) * e1 * z41;
-    const Real z52 = z43 - z47 + z50 - (e0 * z48 + z51) * z4;
-    const Real h = (V - T) - Real(0.5) * z52;
+    const Real z2 = A * (w1 * w1 + w2 * w2) + C * w3 * w3;
+    const Real T = Real(0.5) * z2;
+    const Real z3 = l * (z0 - z1) / (z0 + z1);
+    const Real V = k3 * z3;
+    const Real E = V + Real(0.5) * z2;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
     const Real &C = par[4], &k9 = par[15];
@@ -229,16 +164,9 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     out[4] = w3;
 }
 
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+void constraints_at(const Real&, const Real* state, const Real*, Real* position, Real* velocity, Real* rows) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
 
@@ -264,7 +192,7 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
     const Real &m = par[0], &l = par[1], &C = par[4], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k4 = par[10];
@@ -277,10 +205,10 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z3 = k1 * z2;
     const Real z4 = e0 * e1;
     const Real z5 = e2 * e3;
-    const Real z6 = w2 * k0 * w3 + z3 * (z4 + z5);
+    const Real z6 = z3 * (z4 + z5) + w2 * k0 * w3;
     const Real z7 = e0 * e2;
     const Real z8 = e1 * e3;
-    const Real z9 = w3 * k0 * w1 - z3 * (z7 - z8);
+    const Real z9 = z3 * (z7 - z8) - w3 * k0 * w1;
     const Real z10 = e0 * w2 - e1 * w3 + e3 * w1;
     const Real z11 = e0 * w1 + e2 * w3 - e3 * w2;
     const Real z12 = e2 * z10 + e1 * z11;
@@ -297,7 +225,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z23 = z19 - z22;
     const Real z24 = e0 * z23;
     const Real z25 = (w2 * z13 - w3 * z10) + w1 * z14;
-    const Real z26 = Real(0.5) * e0 * z17 + Real(0.5) * e3 * z18 - Real(0.25) * z25;
+    const Real z26 = Real(0.5) * e0 * z17 - Real(0.5) * e3 * z18 - Real(0.25) * z25;
     const Real z27 = e3 * z2;
     const Real z28 = k5 * z27;
     const Real z29 = e2 * z2;
@@ -321,39 +249,39 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z47 = k6 * (z30 - z20 * z39);
     const Real z48 = z38 * z40 + z43 * z44 - z46 * z47;
     const Real z49 = Real(4) * z34 + z48;
-    const Real z50 = z26 * z49;
-    const Real z51 = (w2 * z11 - w1 * z10) - w3 * z14;
-    const Real z52 = Real(0.5) * e1 * z18 + Real(0.5) * e2 * z17 - Real(0.25) * z51;
-    const Real z53 = k5 * z32;
-    const Real z54 = k5 * z29;
-    const Real z55 = C * z30;
-    const Real z56 = z53 * z29 - z54 * z32 + z55 * z27;
-    const Real z57 = e3 * z21;
-    const Real z58 = l * (Real(2) * z32 - Real(4) * z41 * z57);
-    const Real z59 = m * z58;
-    const Real z60 = l * (Real(2) * z29 + Real(4) * z35 * z57);
-    const Real z61 = m * z60;
-    const Real z62 = k6 * (z27 - z20 * z57);
-    const Real z63 = m * z62;
-    const Real z64 = z59 * z44 - z61 * z40 + z63 * z47;
-    const Real z65 = Real(4) * z56 - z64;
-    const Real z66 = z52 * z65;
-    const Real z67 = (w3 * z11 - w1 * z13) + w2 * z14;
-    const Real z68 = Real(0.5) * e3 * z17 - Real(0.5) * e0 * z18 - Real(0.25) * z67;
-    const Real z69 = C * z32;
-    const Real z70 = z28 * z32 + z31 * z29 - z69 * z27;
-    const Real z71 = e2 * z21;
-    const Real z72 = l * (Real(2) * z30 - Real(4) * z41 * z71);
-    const Real z73 = m * z72;
-    const Real z74 = l * (Real(2) * z27 + Real(4) * z35 * z71);
-    const Real z75 = m * z74;
-    const Real z76 = k6 * (z29 + z20 * z71);
-    const Real z77 = m * z76;
-    const Real z78 = z73 * z44 - z75 * z40 - z77 * z47;
-    const Real z79 = Real(4) * z70 - z78;
+    const Real z50 = (w2 * z11 - w1 * z10) - w3 * z14;
+    const Real z51 = Real(0.5) * e2 * z17 - Real(0.5) * e1 * z18 - Real(0.25) * z50;
+    const Real z52 = k5 * z32;
+    const Real z53 = k5 * z29;
+    const Real z54 = C * z30;
+    const Real z55 = z52 * z29 - z53 * z32 + z54 * z27;
+    const Real z56 = e3 * z21;
+    const Real z57 = l * (Real(2) * z32 - Real(4) * z41 * z56);
+    const Real z58 = m * z57;
+    const Real z59 = l * (Real(2) * z29 + Real(4) * z35 * z56);
+    const Real z60 = m * z59;
+    const Real z61 = k6 * (z27 - z20 * z56);
+    const Real z62 = m * z61;
+    const Real z63 = z58 * z44 - z60 * z40 + z62 * z47;
+    const Real z64 = Real(4) * z55 - z63;
+    const Real z65 = z51 * z64;
+    const Real z66 = (w3 * z11 - w1 * z13) + w2 * z14;
+    const Real z67 = Real(0.5) * e3 * z17 + Real(0.5) * e0 * z18 - Real(0.25) * z66;
+    const Real z68 = C * z32;
+    const Real z69 = z28 * z32 + z31 * z29 - z68 * z27;
+    const Real z70 = e2 * z21;
+    const Real z71 = l * (Real(2) * z30 - Real(4) * z41 * z70);
+    const Real z72 = m * z71;
+    const Real z73 = l * (Real(2) * z27 + Real(4) * z35 * z70);
+    const Real z74 = m * z73;
+    const Real z75 = k6 * (z29 + z20 * z70);
+    const Real z76 = m * z75;
+    const Real z77 = z72 * z44 - z74 * z40 - z76 * z47;
+    const Real z78 = Real(4) * z69 - z77;
+    const Real z79 = z67 * z78;
     const Real z80 = w1 * z11 + (w3 * z13 + w2 * z10);
-    const Real z81 = Real(0.5) * e1 * z17 - Real(0.5) * e2 * z18 + Real(0.25) * z80;
-    const Real z82 = z54 * z29 + z53 * z32;
+    const Real z81 = Real(0.5) * e2 * z18 + Real(0.5) * e1 * z17 + Real(0.25) * z80;
+    const Real z82 = z53 * z29 + z52 * z32;
     const Real z83 = m * z44 * z44;
     const Real z84 = m * z40 * z40;
     const Real z85 = z83 + z84 + m * z47 * z47;
@@ -393,45 +321,45 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real z119 = z116 * z107 - z108 * z115;
     const Real z120 = z119 - k8 * z110 * z90;
     const Real z121 = z114 * z32 - z118 * z29 - z120 * z27;
-    const Real z122 = Real(2) * z24 + z50 + z66 - z68 * z79 - z86 - z104 + Real(4) * z121;
-    const Real z123 = e0 * z122;
-    const Real z124 = z19 + z22;
-    const Real z125 = e1 * z124;
-    const Real z126 = z28 * z30 - z31 * z27 - z69 * z29;
-    const Real z127 = z73 * z42 - z75 * z37 + z77 * z45;
-    const Real z128 = Real(4) * z126 + z127;
-    const Real z129 = z68 * z128;
-    const Real z130 = z54 * z30 + z53 * z27 - z55 * z29;
-    const Real z131 = z59 * z42 - z61 * z37 - z63 * z45;
-    const Real z132 = Real(4) * z130 - z131;
-    const Real z133 = z52 * z132;
-    const Real z134 = z28 * z27 + z31 * z30;
-    const Real z135 = z38 * z37 + z43 * z42 + z46 * z45;
-    const Real z136 = z26 * (Real(4) * (z134 + z33 * z29) + z135);
-    const Real z137 = z100 * z42 - z95 * z37 - z103 * z45;
-    const Real z138 = z114 * z30 + z118 * z27 - z120 * z29;
-    const Real z139 = Real(2) * z125 - z129 - z133 + z81 * z49 - z136 - z137 + Real(4) * z138;
+    const Real z122 = Real(2) * z24 + z65 - z79 + z26 * z49 - z86 - z104 + Real(4) * z121;
+    const Real z123 = z19 + z22;
+    const Real z124 = e1 * z123;
+    const Real z125 = z28 * z30 - z31 * z27 - z68 * z29;
+    const Real z126 = z72 * z42 - z74 * z37 + z76 * z45;
+    const Real z127 = Real(4) * z125 + z126;
+    const Real z128 = z67 * z127;
+    const Real z129 = z53 * z30 + z52 * z27 - z54 * z29;
+    const Real z130 = z58 * z42 - z60 * z37 - z62 * z45;
+    const Real z131 = Real(4) * z129 - z130;
+    const Real z132 = z81 * z49;
+    const Real z133 = z28 * z27 + z31 * z30;
+    const Real z134 = z38 * z37 + z43 * z42 + z46 * z45;
+    const Real z135 = z26 * (Real(4) * (z133 + z33 * z29) + z134);
+    const Real z136 = z100 * z42 - z95 * z37 - z103 * z45;
+    const Real z137 = z114 * z30 + z118 * z27 - z120 * z29;
+    const Real z138 = Real(2) * z124 - z128 + z132 - z51 * z131 - z135 - z136 + Real(4) * z137;
+    const Real z139 = e1 * z138;
     const Real z140 = e3 * z23;
-    const Real z141 = z26 * z132;
-    const Real z142 = z81 * z65;
-    const Real z143 = z53 * z30 - z54 * z27 - z55 * z32;
-    const Real z144 = z61 * z74 + z59 * z72 - z63 * z76;
-    const Real z145 = Real(4) * z143 + z144;
-    const Real z146 = z61 * z60 + z59 * z58 + z63 * z62;
-    const Real z147 = z52 * (Real(4) * (z82 + z55 * z30) + z146);
-    const Real z148 = z95 * z60 + z100 * z58 + z103 * z62;
+    const Real z141 = z26 * z131;
+    const Real z142 = z52 * z30 - z53 * z27 - z54 * z32;
+    const Real z143 = z60 * z73 + z58 * z71 - z62 * z75;
+    const Real z144 = Real(4) * z142 + z143;
+    const Real z145 = z67 * z144;
+    const Real z146 = z60 * z59 + z58 * z57 + z62 * z61;
+    const Real z147 = z51 * (Real(4) * (z82 + z54 * z30) + z146);
+    const Real z148 = z95 * z59 + z100 * z57 + z103 * z61;
     const Real z149 = z118 * z32 + z114 * z29 + z120 * z30;
-    const Real z150 = Real(2) * z140 - z141 + z142 + z68 * z145 - z147 + z148 + Real(4) * z149;
-    const Real z151 = e2 * z124;
-    const Real z152 = z52 * z145;
-    const Real z153 = z26 * z128;
-    const Real z154 = z73 * z72 + z75 * z74 + z77 * z76;
-    const Real z155 = z68 * (Real(4) * (z134 + z69 * z32) + z154);
-    const Real z156 = z100 * z72 + z95 * z74 - z103 * z76;
+    const Real z150 = Real(2) * z140 - z141 + z145 + z81 * z64 - z147 + z148 + Real(4) * z149;
+    const Real z151 = e2 * z123;
+    const Real z152 = z51 * z144;
+    const Real z153 = z26 * z127;
+    const Real z154 = z72 * z71 + z74 * z73 + z76 * z75;
+    const Real z155 = z67 * (Real(4) * (z133 + z68 * z32) + z154);
+    const Real z156 = z100 * z71 + z95 * z73 - z103 * z75;
     const Real z157 = z114 * z27 - z118 * z30 + z120 * z32;
-    const Real z158 = Real(2) * z151 + z152 - z153 - z81 * z79 - z155 - z156 + Real(4) * z157;
-    const Real z159 = z123 - e1 * z139 + e3 * z150 - e2 * z158;
-    const Real lambda_F = Real(0.5) * z159 * z2;
+    const Real z158 = Real(2) * z151 - z153 + z152 - z81 * z78 - z155 - z156 + Real(4) * z157;
+    const Real z159 = z139 - e0 * z122 + e2 * z158 - e3 * z150;
+    const Real lambda_F = -Real(0.5) * z159 * z2;
 
     // Result
     lambda[0] = lambda_F;
@@ -439,7 +367,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+void project(const Real&, const Real* state, const Real*, Real* out, Real* position, Real* pivots) {
     const Real &e0 = state[0], &e1 = state[1], &e2 = state[2], &e3 = state[3], &w1 = state[4], &w2 = state[5];
     const Real &w3 = state[6];
 
@@ -512,9 +440,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,224 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &M = par[0], &m = par[1], &R = par[2], &l = par[3], &g = par[4];
+
+    // Constants
+    const Real M00 = M + m;
+    const Real M11 = M * R * R;
+    const Real k0 = m * l;
+    const Real M22 = m * l * l;
+    const Real k1 = m * l * g;
+    const Real k2 = Real(1) / M22;
+    const Real k3 = R / M11;
+    const Real k4 = R * k3;
+    const Real k5 = Real(0.5) * M00;
+    const Real k6 = Real(0.5) * M11;
+    const Real k7 = Real(0.5) * M22;
+    const Real k8 = R * g * M00;
+
+    // Result
+    par[5] = M00;
+    par[6] = M11;
+    par[7] = k0;
+    par[8] = M22;
+    par[9] = k1;
+    par[10] = k2;
+    par[11] = k3;
+    par[12] = k4;
+    par[13] = k5;
+    par[14] = k6;
+    par[15] = k7;
+    par[16] = k8;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &theta = state[2], &x_dot = state[3], &psi_dot = state[4], &theta_dot = state[5];
+    const Real &M00 = par[5], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0, M21 = 0
+    const Real M20 = k0 * cos_theta;
+
+    // Forcing f
+    // f1 = 0
+    const Real f0 = k0 * theta_dot * theta_dot * sin_theta;
+    const Real f2 = -k1 * sin_theta;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = k2 * M20;
+    const Real z1 = Real(1) / (M00 - M20 * z0);
+    const Real z2 = z1 * (f0 - f2 * z0);
+    const Real z3 = z2 / (k4 + z1);
+    const Real x_ddot = z2 - z1 * z3;
+    const Real psi_ddot = k3 * z3;
+    const Real theta_ddot = k2 * f2 - x_ddot * z0;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = psi_dot;
+    rate[2] = theta_dot;
+    rate[3] = x_ddot;
+    rate[4] = psi_ddot;
+    rate[5] = theta_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &theta = state[2], &theta_dot = state[5];
+    const Real &M00 = par[5], &M11 = par[6], &k0 = par[7], &M22 = par[8], &k1 = par[9];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    const Real M20 = k0 * cos_theta;
+
+    // Forcing f
+    const Real f0 = k0 * theta_dot * theta_dot * sin_theta;
+    const Real f2 = -k1 * sin_theta;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = M11;
+    mass[2] = mass[6] = M20;
+    mass[5] = mass[7] = Real(0);
+    mass[8] = M22;
+    forcing[0] = f0;
+    forcing[1] = Real(0);
+    forcing[2] = f2;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &theta = state[2], &x_dot = state[3], &psi_dot = state[4], &theta_dot = state[5];
+    const Real &k0 = par[7], &k1 = par[9], &k5 = par[13], &k6 = par[14], &k7 = par[15], &k8 = par[16];
+
+    // Trigonometry
+    const Real cos_theta = cos(theta);
+
+    // Energy
+    const Real z0 = k0 * x_dot * theta_dot * cos_theta;
+    const Real T = k5 * x_dot * x_dot + k6 * psi_dot * psi_dot + k7 * theta_dot * theta_dot + z0;
+    const Real V = k8 - k1 * cos_theta;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &theta = state[2], &x_dot = state[3], &theta_dot = state[5];
+    const Real &M00 = par[5], &k0 = par[7];
+
+    // Trigonometry
+    const Real cos_theta = cos(theta);
+
+    // Outputs
+    const Real momentum = M00 * x_dot + k0 * theta_dot * cos_theta;
+
+    // Result
+    out[0] = momentum;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &x_dot = state[3], &psi_dot = state[4];
+    const Real &R = par[2];
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = x_dot - R * psi_dot;
+    rows[0] = Real(1);
+    rows[1] = -R;
+    rows[2] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &theta = state[2], &theta_dot = state[5];
+    const Real &M00 = par[5], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k4 = par[12];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Multipliers
+    const Real z0 = k0 * cos_theta;
+    const Real z1 = k2 * z0;
+    const Real z2 = Real(1) / (M00 - z0 * z1);
+    const Real z3 = k0 * theta_dot * theta_dot * sin_theta + k1 * sin_theta * z1;
+    const Real F = -z2 * z3 / (k4 + z2);
+
+    // Result
+    lambda[0] = F;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &psi = state[1], &theta = state[2], &x_dot = state[3], &psi_dot = state[4];
+    const Real &theta_dot = state[5];
+    const Real &R = par[2], &M00 = par[5], &k0 = par[7], &k2 = par[10], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const Real cos_theta = cos(theta);
+
+    // Projection
+    const Real z0 = k0 * cos_theta;
+    const Real z1 = k2 * z0;
+    const Real z2 = Real(1) / (M00 - z0 * z1);
+    const Real z3 = k4 + z2;
+    const Real z4 = (x_dot - R * psi_dot) / z3;
+    const Real z5 = z2 * z4;
+
+    // Result
+    out[0] = x;
+    out[1] = psi;
+    out[2] = theta;
+    out[3] = x_dot - z5;
+    out[4] = psi_dot + k3 * z4;
+    out[5] = theta_dot + z5 * z1;
+    position[0] = Real(0);
+    pivots[0] = z3;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real*, const Real*, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,221 +380,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &M = par[0], &m = par[1], &R = par[2], &l = par[3], &g = par[4];
-
-    // Constants
-    const Real M00 = M + m;
-    const Real M11 = M * R * R;
-    const Real k0 = m * l;
-    const Real M22 = m * l * l;
-    const Real k1 = m * l * g;
-    const Real k2 = Real(1) / M22;
-    const Real k3 = R / M11;
-    const Real k4 = R * k3;
-    const Real k5 = Real(0.5) * M00;
-    const Real k6 = Real(0.5) * M11;
-    const Real k7 = Real(0.5) * M22;
-    const Real k8 = R * g * M00;
-
-    // Result
-    par[5] = M00;
-    par[6] = M11;
-    par[7] = k0;
-    par[8] = M22;
-    par[9] = k1;
-    par[10] = k2;
-    par[11] = k3;
-    par[12] = k4;
-    par[13] = k5;
-    par[14] = k6;
-    par[15] = k7;
-    par[16] = k8;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta = state[2], &x_dot = state[3], &psi_dot = state[4], &theta_dot = state[5];
-    const Real &M00 = par[5], &M11 = par[6], &k0 = par[7], &M22 = par[8], &k1 = par[9], &k2 = par[10];
-    const Real &k3 = par[11], &k4 = par[12];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M20 = k0 * cos_theta;
-
-    // Forcing f
-    const Real f0 = k0 * theta_dot * theta_dot * sin_theta;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z0 = k1 * sin_theta;
-    const Real z1 = k2 * M20;
-    const Real z2 = Real(1) / (M00 - M20 * z1);
-    const Real z3 = z2 * (f0 + z0 * z1);
-    const Real z4 = z3 / (k4 + z2);
-    const Real x_ddot = z3 - z2 * z4;
-    const Real psi_ddot = k3 * z4;
-    const Real theta_ddot = -x_ddot * z1 - k2 * z0;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = psi_dot;
-    rate[2] = theta_dot;
-    rate[3] = x_ddot;
-    rate[4] = psi_ddot;
-    rate[5] = theta_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &theta = state[2], &theta_dot = state[5];
-    const Real &M00 = par[5], &M11 = par[6], &k0 = par[7], &M22 = par[8], &k1 = par[9];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M20 = k0 * cos_theta;
-
-    // Forcing f
-    const Real f0 = k0 * theta_dot * theta_dot * sin_theta;
-    const Real f2 = -k1 * sin_theta;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[3] = Real(0);
-    mass[4] = M11;
-    mass[2] = mass[6] = M20;
-    mass[5] = mass[7] = Real(0);
-    mass[8] = M22;
-    forcing[0] = f0;
-    forcing[1] = Real(0);
-    forcing[2] = f2;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &theta = state[2], &x_dot = state[3], &psi_dot = state[4], &theta_dot = state[5];
-    const Real &k0 = par[7], &k1 = par[9], &k5 = par[13], &k6 = par[14], &k7 = par[15], &k8 = par[16];
-
-    // Trigonometry
-    const Real cos_theta = cos(theta);
-
-    // Energy
-    const Real z0 = k0 * x_dot * theta_dot * cos_theta;
-    const Real T = k5 * x_dot * x_dot + k6 * psi_dot * psi_dot + k7 * theta_dot * theta_dot + z0;
-    const Real V = k8 - k1 * cos_theta;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &theta = state[2], &x_dot = state[3], &theta_dot = state[5];
-    const Real &M00 = par[5], &k0 = par[7];
-
-    // Trigonometry
-    const Real cos_theta = cos(theta);
-
-    // Outputs
-    const Real momentum = M00 * x_dot + k0 * theta_dot * cos_theta;
-
-    // Result
-    out[0] = momentum;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &x_dot = state[3], &psi_dot = state[4];
-    const Real &R = par[2];
-
-    // Result
-    position[0] = Real(0);
-    velocity[0] = x_dot - R * psi_dot;
-    rows[0] = Real(1);
-    rows[1] = -R;
-    rows[2] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &theta = state[2], &theta_dot = state[5];
-    const Real &M00 = par[5], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k4 = par[12];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Multipliers
-    const Real z0 = k0 * cos_theta;
-    const Real z1 = k2 * z0;
-    const Real z2 = Real(1) / (M00 - z0 * z1);
-    const Real z3 = k0 * theta_dot * theta_dot * sin_theta + k1 * sin_theta * z1;
-    const Real F = -z2 * z3 / (k4 + z2);
-
-    // Result
-    lambda[0] = F;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &psi = state[1], &theta = state[2], &x_dot = state[3], &psi_dot = state[4];
-    const Real &theta_dot = state[5];
-    const Real &R = par[2], &M00 = par[5], &k0 = par[7], &k2 = par[10], &k3 = par[11], &k4 = par[12];
-
-    // Trigonometry
-    const Real cos_theta = cos(theta);
-
-    // Projection
-    const Real z0 = k0 * cos_theta;
-    const Real z1 = k2 * z0;
-    const Real z2 = Real(1) / (M00 - z0 * z1);
-    const Real z3 = k4 + z2;
-    const Real z4 = (x_dot - R * psi_dot) / z3;
-    const Real z5 = z2 * z4;
-
-    // Result
-    out[0] = x;
-    out[1] = psi;
-    out[2] = theta;
-    out[3] = x_dot - z5;
-    out[4] = psi_dot + k3 * z4;
-    out[5] = theta_dot + z5 * z1;
-    position[0] = Real(0);
-    pivots[0] = z3;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-
-
-    // Result
-    out[0] = Real(0);
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -448,9 +432,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,320 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &beta = par[3], &g = par[4];
+
+    // Trigonometry
+    const Real sin_beta = sin(beta);
+
+    // Constants
+    const Real z0 = g * sin_beta;
+    const Real k0 = m1 * z0;
+    const Real k1 = m2 * z0;
+    const Real k2 = l * l;
+    const Real k3 = Real(1) / m1;
+    const Real k4 = Real(2) * k3;
+    const Real k5 = Real(1) / m2;
+    const Real k6 = Real(2) * k5;
+    const Real k7 = k3 * k0;
+    const Real k8 = k5 * k1;
+    const Real z1 = Real(1) / l;
+    const Real k9 = z1 * z1;
+
+    // Result
+    par[5] = k0;
+    par[6] = k1;
+    par[7] = k2;
+    par[8] = k3;
+    par[9] = k4;
+    par[10] = k5;
+    par[11] = k6;
+    par[12] = k7;
+    par[13] = k8;
+    par[14] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+    const Real &k7 = par[12], &k8 = par[13];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m1, M10 = 0, M11 = m1, M20 = 0, M21 = 0, M22 = m2, M30 = 0, M31 = 0, M32 = 0, M33 = m2
+
+    // Forcing f
+    // f0 = 0, f1 = -k0, f2 = 0, f3 = -k1
+
+    // Constraints A q'' = gamma
+    const Real A1_1 = x1 - x2;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = y1 - y2;
+    const Real z1 = x1_dot - x2_dot;
+    const Real z2 = y1_dot - y2_dot;
+    const Real z3 = z1 * z1 + z2 * z2;
+    const Real z4 = z1 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z2;
+    const Real z5 = k4 * A1_1;
+    const Real z6 = k4 * z0;
+    const Real z7 = k6 * z0;
+    const Real z8 = k6 * A1_1;
+    const Real z9 = z0 * (z6 + z7) + A1_1 * (z5 + z8);
+    const Real z10 = k3 * A1_1;
+    const Real z11 = k5 * A1_1;
+    const Real z12 = k3 * z0;
+    const Real z13 = k5 * z0;
+    const Real z14 = z0 * (z10 - z11) - A1_1 * (z12 - z13);
+    const Real z15 = z0 * (z12 + z13) + A1_1 * (z10 + z11);
+    const Real z16 = Real(1) / z15;
+    const Real z17 = z14 * z16;
+    const Real z18 = k0 * z10 - z4 + k1 * z11;
+    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z3 - Real(2) * z18 * z17;
+    const Real z20 = z19 / (Real(2) * z9 - Real(4) * z14 * z17);
+    const Real z21 = z18 * z16 - Real(2) * z17 * z20;
+    const Real x1_ddot = z5 * z20 - z12 * z21;
+    const Real y1_ddot = z6 * z20 - k7 + z10 * z21;
+    const Real x2_ddot = -z8 * z20 - z13 * z21;
+    const Real y2_ddot = -k8 - z7 * z20 + z11 * z21;
+
+    // Result
+    rate[0] = x1_dot;
+    rate[1] = y1_dot;
+    rate[2] = x2_dot;
+    rate[3] = y2_dot;
+    rate[4] = x1_ddot;
+    rate[5] = y1_ddot;
+    rate[6] = x2_ddot;
+    rate[7] = y2_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
+
+    // Result
+    mass[0] = m1;
+    mass[1] = mass[4] = Real(0);
+    mass[5] = m1;
+    mass[2] = mass[8] = Real(0);
+    mass[6] = mass[9] = Real(0);
+    mass[10] = m2;
+    mass[3] = mass[12] = Real(0);
+    mass[7] = mass[13] = Real(0);
+    mass[11] = mass[14] = Real(0);
+    mass[15] = m2;
+    forcing[0] = Real(0);
+    forcing[1] = -k0;
+    forcing[2] = Real(0);
+    forcing[3] = -k1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &y1 = state[1], &y2 = state[3], &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6];
+    const Real &y2_dot = state[7];
+    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
+
+    // Energy
+    const Real z0 = m1 * (x1_dot * x1_dot + y1_dot * y1_dot);
+    const Real z1 = z0 + m2 * (x2_dot * x2_dot + y2_dot * y2_dot);
+    const Real T = Real(0.5) * z1;
+    const Real V = k0 * y1 + k1 * y2;
+    const Real E = V + Real(0.5) * z1;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &l = par[2], &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+    const Real &k9 = par[14];
+
+    // Outputs
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = x1_dot - x2_dot;
+    const Real z3 = y1_dot - y2_dot;
+    const Real z4 = z2 * z2 + z3 * z3;
+    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z6 = k4 * z1;
+    const Real z7 = k6 * z1;
+    const Real z8 = z0 * (k4 * z0 + k6 * z0);
+    const Real z9 = k3 * z0;
+    const Real z10 = k5 * z0;
+    const Real z11 = k3 * z1;
+    const Real z12 = k5 * z1;
+    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
+    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
+    const Real z15 = z13 / z14;
+    const Real z16 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z15;
+    const Real z17 = (k0 * z9 - z5 + k1 * z10) * z15;
+    const Real z18 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z17;
+    const Real tension = -Real(2) * l * z18 / z16;
+    const Real turn = k9 * (z0 * z3 - z1 * z2);
+
+    // Result
+    out[0] = tension;
+    out[1] = turn;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k2 = par[7];
+
+    // Constraints
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = z0 * (x1_dot - x2_dot) + z1 * (y1_dot - y2_dot);
+
+    // Result
+    position[0] = z0 * z0 - k2 + z1 * z1;
+    position[1] = Real(0);
+    velocity[0] = Real(2) * z2;
+    velocity[1] = z0 * (y1_dot + y2_dot) - z1 * (x1_dot + x2_dot);
+    rows[0] = Real(2) * z0;
+    rows[1] = Real(2) * z1;
+    rows[2] = -Real(2) * z0;
+    rows[3] = -Real(2) * z1;
+    rows[4] = -z1;
+    rows[5] = z0;
+    rows[6] = -z1;
+    rows[7] = z0;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Multipliers
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = x1_dot - x2_dot;
+    const Real z3 = y1_dot - y2_dot;
+    const Real z4 = z2 * z2 + z3 * z3;
+    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
+    const Real z6 = k4 * z1;
+    const Real z7 = k6 * z1;
+    const Real z8 = z0 * (k4 * z0 + k6 * z0);
+    const Real z9 = k3 * z0;
+    const Real z10 = k5 * z0;
+    const Real z11 = k3 * z1;
+    const Real z12 = k5 * z1;
+    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
+    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
+    const Real z15 = Real(1) / z14;
+    const Real z16 = z13 * z15;
+    const Real z17 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z16;
+    const Real z18 = k0 * z9 - z5 + k1 * z10;
+    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z18 * z16;
+    const Real lambda1 = z19 / z17;
+    const Real lambda2 = z18 * z15 - Real(2) * z16 * lambda1;
+
+    // Result
+    lambda[0] = lambda1;
+    lambda[1] = lambda2;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
+    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+    const Real &k2 = par[7], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Projection
+    const Real z0 = x1 - x2;
+    const Real z1 = y1 - y2;
+    const Real z2 = k2 - z0 * z0 - z1 * z1;
+    const Real z3 = k4 * z0;
+    const Real z4 = k4 * z1;
+    const Real z5 = k6 * z1;
+    const Real z6 = k6 * z0;
+    const Real z7 = z1 * (z4 + z5) + z0 * (z3 + z6);
+    const Real z8 = k3 * z0;
+    const Real z9 = k5 * z0;
+    const Real z10 = k3 * z1;
+    const Real z11 = k5 * z1;
+    const Real z12 = z1 * (z8 - z9) - z0 * (z10 - z11);
+    const Real z13 = z1 * (z10 + z11) + z0 * (z8 + z9);
+    const Real z14 = Real(1) / z13;
+    const Real z15 = z12 * z14;
+    const Real z16 = Real(2) * z7 - Real(4) * z12 * z15;
+    const Real z17 = Real(1) / z16;
+    const Real z18 = z2 * z17;
+    const Real z19 = z15 * z18;
+    const Real z20 = x1 + z3 * z18 + Real(2) * z10 * z19;
+    const Real z21 = y1 + z4 * z18 - Real(2) * z8 * z19;
+    const Real z22 = x2 - z6 * z18 + Real(2) * z11 * z19;
+    const Real z23 = y2 - z5 * z18 - Real(2) * z9 * z19;
+    const Real z24 = z22 - z20;
+    const Real z25 = z23 - z21;
+    const Real z26 = (x1_dot + x2_dot) * z25 - (y1_dot + y2_dot) * z24;
+    const Real z27 = (y1_dot - y2_dot) * z25 + z15 * z26;
+    const Real z28 = z17 * (z27 + (x1_dot - x2_dot) * z24);
+    const Real z29 = z14 * z26 + Real(4) * z15 * z28;
+
+    // Result
+    out[0] = z20;
+    out[1] = z21;
+    out[2] = z22;
+    out[3] = z23;
+    out[4] = x1_dot + Real(2) * z3 * z28 + z10 * z29;
+    out[5] = y1_dot + Real(2) * z4 * z28 - z8 * z29;
+    out[6] = x2_dot - Real(2) * z6 * z28 + z11 * z29;
+    out[7] = y2_dot - Real(2) * z5 * z28 - z9 * z29;
+    position[0] = -z2;
+    position[1] = Real(0);
+    pivots[0] = z16;
+    pivots[1] = z13;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
+    const Real &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
+
+    // Constraints
+    const Real z0 = x1_dot - x2_dot;
+    const Real z1 = y1_dot - y2_dot;
+    const Real gamma0 = -Real(2) * (z0 * z0 + z1 * z1);
+    const Real z2 = z0 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z1;
+    const Real gamma1 = -z2;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,316 +476,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1], &l = par[2], &beta = par[3], &g = par[4];
-
-    // Trigonometry
-    const Real sin_beta = sin(beta);
-
-    // Constants
-    const Real z0 = g * sin_beta;
-    const Real k0 = m1 * z0;
-    const Real k1 = m2 * z0;
-    const Real k2 = l * l;
-    const Real k3 = Real(1) / m1;
-    const Real k4 = Real(2) * k3;
-    const Real k5 = Real(1) / m2;
-    const Real k6 = Real(2) * k5;
-    const Real k7 = k3 * k0;
-    const Real k8 = k5 * k1;
-    const Real z1 = Real(1) / l;
-    const Real k9 = z1 * z1;
-
-    // Result
-    par[5] = k0;
-    par[6] = k1;
-    par[7] = k2;
-    par[8] = k3;
-    par[9] = k4;
-    par[10] = k5;
-    par[11] = k6;
-    par[12] = k7;
-    par[13] = k8;
-    par[14] = k9;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
-    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10];
-    const Real &k6 = par[11], &k7 = par[12], &k8 = par[13];
-
-    // Constraints A q'' = gamma
-    const Real A1_1 = x1 - x2;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z0 = y1 - y2;
-    const Real z1 = x1_dot - x2_dot;
-    const Real z2 = y1_dot - y2_dot;
-    const Real z3 = z1 * z1 + z2 * z2;
-    const Real z4 = z1 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z2;
-    const Real z5 = k4 * A1_1;
-    const Real z6 = k4 * z0;
-    const Real z7 = k6 * z0;
-    const Real z8 = k6 * A1_1;
-    const Real z9 = z0 * (z6 + z7) + A1_1 * (z5 + z8);
-    const Real z10 = k3 * A1_1;
-    const Real z11 = k5 * A1_1;
-    const Real z12 = k3 * z0;
-    const Real z13 = k5 * z0;
-    const Real z14 = z0 * (z10 - z11) - A1_1 * (z12 - z13);
-    const Real z15 = z0 * (z12 + z13) + A1_1 * (z10 + z11);
-    const Real z16 = Real(1) / z15;
-    const Real z17 = z14 * z16;
-    const Real z18 = k0 * z10 - z4 + k1 * z11;
-    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z3 - Real(2) * z18 * z17;
-    const Real z20 = z19 / (Real(2) * z9 - Real(4) * z14 * z17);
-    const Real z21 = z18 * z16 - Real(2) * z17 * z20;
-    const Real x1_ddot = z5 * z20 - z12 * z21;
-    const Real y1_ddot = z6 * z20 - k7 + z10 * z21;
-    const Real x2_ddot = -z8 * z20 - z13 * z21;
-    const Real y2_ddot = -k8 - z7 * z20 + z11 * z21;
-
-    // Result
-    rate[0] = x1_dot;
-    rate[1] = y1_dot;
-    rate[2] = x2_dot;
-    rate[3] = y2_dot;
-    rate[4] = x1_ddot;
-    rate[5] = y1_ddot;
-    rate[6] = x2_ddot;
-    rate[7] = y2_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
-
-    // Result
-    mass[0] = m1;
-    mass[1] = mass[4] = Real(0);
-    mass[5] = m1;
-    mass[2] = mass[8] = Real(0);
-    mass[6] = mass[9] = Real(0);
-    mass[10] = m2;
-    mass[3] = mass[12] = Real(0);
-    mass[7] = mass[13] = Real(0);
-    mass[11] = mass[14] = Real(0);
-    mass[15] = m2;
-    forcing[0] = Real(0);
-    forcing[1] = -k0;
-    forcing[2] = Real(0);
-    forcing[3] = -k1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &y1 = state[1], &y2 = state[3], &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6];
-    const Real &y2_dot = state[7];
-    const Real &m1 = par[0], &m2 = par[1], &k0 = par[5], &k1 = par[6];
-
-    // Energy
-    const Real z0 = m1 * (x1_dot * x1_dot + y1_dot * y1_dot);
-    const Real z1 = z0 + m2 * (x2_dot * x2_dot + y2_dot * y2_dot);
-    const Real T = Real(0.5) * z1;
-    const Real V = k0 * y1 + k1 * y2;
-    const Real E = V + Real(0.5) * z1;
-    const Real z2 = y1_dot * m1 * y1_dot;
-    const Real z3 = x1_dot * m1 * x1_dot;
-    const Real z4 = y2_dot * m2 * y2_dot;
-    const Real h = V + z2 + z3 + z4 + x2_dot * m2 * x2_dot - Real(0.5) * z1;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = h;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
-    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-    const Real &l = par[2], &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-    const Real &k9 = par[14];
-
-    // Outputs
-    const Real z0 = x1 - x2;
-    const Real z1 = y1 - y2;
-    const Real z2 = x1_dot - x2_dot;
-    const Real z3 = y1_dot - y2_dot;
-    const Real z4 = z2 * z2 + z3 * z3;
-    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
-    const Real z6 = k4 * z1;
-    const Real z7 = k6 * z1;
-    const Real z8 = z0 * (k4 * z0 + k6 * z0);
-    const Real z9 = k3 * z0;
-    const Real z10 = k5 * z0;
-    const Real z11 = k3 * z1;
-    const Real z12 = k5 * z1;
-    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
-    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
-    const Real z15 = z13 / z14;
-    const Real z16 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z15;
-    const Real z17 = (k0 * z9 - z5 + k1 * z10) * z15;
-    const Real z18 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z17;
-    const Real tension = -Real(2) * l * z18 / z16;
-    const Real turn = k9 * (z0 * z3 - z1 * z2);
-
-    // Result
-    out[0] = tension;
-    out[1] = turn;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
-    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-    const Real &k2 = par[7];
-
-    // Constraints
-    const Real z0 = x1 - x2;
-    const Real z1 = y1 - y2;
-    const Real z2 = z0 * (x1_dot - x2_dot) + z1 * (y1_dot - y2_dot);
-
-    // Result
-    position[0] = z0 * z0 - k2 + z1 * z1;
-    position[1] = Real(0);
-    velocity[0] = Real(2) * z2;
-    velocity[1] = z0 * (y1_dot + y2_dot) - z1 * (x1_dot + x2_dot);
-    rows[0] = Real(2) * z0;
-    rows[1] = Real(2) * z1;
-    rows[2] = -Real(2) * z0;
-    rows[3] = -Real(2) * z1;
-    rows[4] = -z1;
-    rows[5] = z0;
-    rows[6] = -z1;
-    rows[7] = z0;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
-    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-    const Real &k0 = par[5], &k1 = par[6], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-
-    // Multipliers
-    const Real z0 = x1 - x2;
-    const Real z1 = y1 - y2;
-    const Real z2 = x1_dot - x2_dot;
-    const Real z3 = y1_dot - y2_dot;
-    const Real z4 = z2 * z2 + z3 * z3;
-    const Real z5 = z2 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z3;
-    const Real z6 = k4 * z1;
-    const Real z7 = k6 * z1;
-    const Real z8 = z0 * (k4 * z0 + k6 * z0);
-    const Real z9 = k3 * z0;
-    const Real z10 = k5 * z0;
-    const Real z11 = k3 * z1;
-    const Real z12 = k5 * z1;
-    const Real z13 = z1 * (z9 - z10) - z0 * (z11 - z12);
-    const Real z14 = z1 * (z11 + z12) + z0 * (z9 + z10);
-    const Real z15 = Real(1) / z14;
-    const Real z16 = z13 * z15;
-    const Real z17 = Real(2) * (z1 * (z6 + z7) + z8) - Real(4) * z13 * z16;
-    const Real z18 = k0 * z9 - z5 + k1 * z10;
-    const Real z19 = k0 * z6 - k1 * z7 - Real(2) * z4 - Real(2) * z18 * z16;
-    const Real lambda1 = z19 / z17;
-    const Real lambda2 = z18 * z15 - Real(2) * z16 * lambda1;
-
-    // Result
-    lambda[0] = lambda1;
-    lambda[1] = lambda2;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x1 = state[0], &y1 = state[1], &x2 = state[2], &y2 = state[3], &x1_dot = state[4];
-    const Real &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-    const Real &k2 = par[7], &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-
-    // Projection
-    const Real z0 = x1 - x2;
-    const Real z1 = y1 - y2;
-    const Real z2 = k2 - z0 * z0 - z1 * z1;
-    const Real z3 = k4 * z0;
-    const Real z4 = k4 * z1;
-    const Real z5 = k6 * z1;
-    const Real z6 = k6 * z0;
-    const Real z7 = z1 * (z4 + z5) + z0 * (z3 + z6);
-    const Real z8 = k3 * z0;
-    const Real z9 = k5 * z0;
-    const Real z10 = k3 * z1;
-    const Real z11 = k5 * z1;
-    const Real z12 = z1 * (z8 - z9) - z0 * (z10 - z11);
-    const Real z13 = z1 * (z10 + z11) + z0 * (z8 + z9);
-    const Real z14 = Real(1) / z13;
-    const Real z15 = z12 * z14;
-    const Real z16 = Real(2) * z7 - Real(4) * z12 * z15;
-    const Real z17 = Real(1) / z16;
-    const Real z18 = z2 * z17;
-    const Real z19 = z15 * z18;
-    const Real z20 = x1 + z3 * z18 + Real(2) * z10 * z19;
-    const Real z21 = y1 + z4 * z18 - Real(2) * z8 * z19;
-    const Real z22 = x2 - z6 * z18 + Real(2) * z11 * z19;
-    const Real z23 = y2 - z5 * z18 - Real(2) * z9 * z19;
-    const Real z24 = z22 - z20;
-    const Real z25 = z23 - z21;
-    const Real z26 = (x1_dot + x2_dot) * z25 - (y1_dot + y2_dot) * z24;
-    const Real z27 = (y1_dot - y2_dot) * z25 + z15 * z26;
-    const Real z28 = z17 * (z27 + (x1_dot - x2_dot) * z24);
-    const Real z29 = z14 * z26 + Real(4) * z15 * z28;
-
-    // Result
-    out[0] = z20;
-    out[1] = z21;
-    out[2] = z22;
-    out[3] = z23;
-    out[4] = x1_dot + Real(2) * z3 * z28 + z10 * z29;
-    out[5] = y1_dot + Real(2) * z4 * z28 - z8 * z29;
-    out[6] = x2_dot - Real(2) * z6 * z28 + z11 * z29;
-    out[7] = y2_dot - Real(2) * z5 * z28 - z9 * z29;
-    position[0] = -z2;
-    position[1] = Real(0);
-    pivots[0] = z16;
-    pivots[1] = z13;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &x1_dot = state[4], &y1_dot = state[5], &x2_dot = state[6], &y2_dot = state[7];
-
-    // Constraints
-    const Real z0 = x1_dot - x2_dot;
-    const Real z1 = y1_dot - y2_dot;
-    const Real gamma0 = -Real(2) * (z0 * z0 + z1 * z1);
-    const Real z2 = z0 * (y1_dot + y2_dot) - (x1_dot + x2_dot) * z1;
-    const Real gamma1 = -z2;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -543,9 +528,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -3,30 +3,13 @@
 //
 //   state  x [m], y [m], z [m], then their rates
 //   par    m [kg], q [C], B [T], E [V/m]
-//   cost   4 operations a right-hand side: 1 additions, 3 multiplications, 0 divisions, 0 functions
+//   cost   4 operations a right-hand side: 1 addition, 3 multiplications, 0 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
 inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -50,11 +33,15 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
-    const Real &m = par[0], &k0 = par[4], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+    const Real &k0 = par[4], &k1 = par[5], &k2 = par[6], &k3 = par[7];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M20 = 0, M21 = 0, M22 = m
 
     // Forcing f
+    // f2 = 0
     const Real f0 = k0 + k1 * y_dot;
 
     // Solve M q'' = f with M = L D L^T
@@ -72,7 +59,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &x_dot = state[3], &y_dot = state[4];
     const Real &m = par[0], &k0 = par[4], &k1 = par[5];
 
@@ -94,7 +81,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &x = state[0], &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
     const Real &k0 = par[4], &k4 = par[8];
 
@@ -114,7 +101,7 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
     const Real &x_dot = state[3], &y_dot = state[4], &z_dot = state[5];
 
     // Outputs
@@ -122,27 +109,6 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
 
     // Result
     out[0] = speed;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -197,13 +163,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

@@ -7,25 +7,154 @@
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
 inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &a = par[2], &gamma = par[3], &g = par[4];
+
+    // Constants
+    const Real M00 = m * l * l;
+    const Real k0 = m * l;
+    const Real k1 = a * k0;
+    const Real k2 = gamma * gamma;
+    const Real k3 = m * l * g;
+    const Real k4 = Real(1) / M00;
+    const Real k5 = a * gamma;
+    const Real k6 = Real(0.5) * M00;
+    const Real k7 = Real(0.5) * m;
+    const Real k8 = m * g;
+
+    // Result
+    par[5] = M00;
+    par[6] = k0;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[0], &phi_dot = state[1];
+    const Real &gamma = par[3], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10];
+
+    // Trigonometry
+    const Real phi0 = gamma * t;
+    const auto trig0 = sincos(phi0, phi);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        cos_phi = trig0.cosine[1];
+
+    // Forcing f
+    const Real z0 = (k3 - k1 * k2 * sin_phi0) * sin_phi;
+    const Real f0 = k1 * k2 * cos_phi0 * cos_phi - z0;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real phi_ddot = k4 * f0;
+
+    // Result
+    rate[0] = phi_dot;
+    rate[1] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real& t, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[0];
+    const Real &gamma = par[3], &M00 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9];
+
+    // Trigonometry
+    const Real phi0 = gamma * t;
+    const auto trig0 = sincos(phi0, phi);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        cos_phi = trig0.cosine[1];
+
+    // Forcing f
+    const Real z0 = (k3 - k1 * k2 * sin_phi0) * sin_phi;
+    const Real f0 = k1 * k2 * cos_phi0 * cos_phi - z0;
+
+    // Result
+    mass[0] = M00;
+    forcing[0] = f0;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real& t, const Real* state, const Real* rate, const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi = state[0], &phi_dot = state[1];
+    const Real &phi_ddot = rate[1];
+    const Real &m = par[0], &a = par[2], &gamma = par[3], &k0 = par[6], &k3 = par[9], &k5 = par[11];
+    const Real &k6 = par[12], &k7 = par[13], &k8 = par[14];
+
+    // Trigonometry
+    const Real phi0 = gamma * t;
+    const auto trig0 = sincos(phi0, phi);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        cos_phi = trig0.cosine[1];
+
+    // Energy
+    const Real z0 = k5 * sin_phi0;
+    const Real z1 = k5 * cos_phi0;
+    const Real z2 = z0 * cos_phi - z1 * sin_phi;
+    const Real z3 = phi_dot * phi_dot;
+    const Real z4 = k6 * z3;
+    const Real z5 = k7 * z0 * z0 + k7 * z1 * z1;
+    const Real z6 = k0 * phi_dot * z2 - (z4 + z5);
+    const Real T = -z6;
+    const Real z7 = k3 * cos_phi - k8 * a * sin_phi0;
+    const Real V = -z7;
+    const Real E = -z7 - z6;
+    const Real z8 = z1 * k5 * gamma * sin_phi0;
+    const Real z9 = m * (z8 - z0 * k5 * gamma * cos_phi0);
+    const Real z10 = (z1 * cos_phi + z0 * sin_phi) * z3;
+    const Real z11 = k8 * z1 - k0 * (phi_ddot * z2 - z10);
+    const Real P = z11 - z9;
+    const Real h = z4 - z7 - z5;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = P;
+    jacobi[0] = h;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real& t, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &phi = state[0];
+    const Real &l = par[1], &a = par[2], &gamma = par[3];
+
+    // Trigonometry
+    const Real phi0 = gamma * t;
+    const auto trig0 = sincos(phi0, phi);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        cos_phi = trig0.cosine[1];
+
+    // Outputs
+    const Real z0 = l * cos_phi - a * sin_phi0;
+    const Real z1 = l * sin_phi + a * cos_phi0;
+    const Real reach = sqrt(z0 * z0 + z1 * z1);
+
+    // Result
+    out[0] = reach;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,164 +310,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &a = par[2], &gamma = par[3], &g = par[4];
-
-    // Constants
-    const Real M00 = m * l * l;
-    const Real k0 = m * l;
-    const Real k1 = a * k0;
-    const Real k2 = gamma * gamma;
-    const Real k3 = m * l * g;
-    const Real k4 = Real(1) / M00;
-    const Real k5 = a * gamma;
-    const Real k6 = Real(0.5) * M00;
-    const Real k7 = Real(0.5) * m;
-    const Real k8 = m * g;
-
-    // Result
-    par[5] = M00;
-    par[6] = k0;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-    par[11] = k5;
-    par[12] = k6;
-    par[13] = k7;
-    par[14] = k8;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[0], &phi_dot = state[1];
-    const Real &gamma = par[3], &M00 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10];
-
-    // Trigonometry
-    const Real phi0 = gamma * t;
-    const auto trig0 = sincos(phi0, phi);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
-        cos_phi = trig0.cosine[1];
-
-    // Forcing f
-    const Real z0 = (k3 - k1 * k2 * sin_phi0) * sin_phi;
-    const Real f0 = k1 * k2 * cos_phi0 * cos_phi - z0;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real phi_ddot = k4 * f0;
-
-    // Result
-    rate[0] = phi_dot;
-    rate[1] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &phi = state[0];
-    const Real &gamma = par[3], &M00 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9];
-
-    // Trigonometry
-    const Real phi0 = gamma * t;
-    const auto trig0 = sincos(phi0, phi);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
-        cos_phi = trig0.cosine[1];
-
-    // Forcing f
-    const Real z0 = (k3 - k1 * k2 * sin_phi0) * sin_phi;
-    const Real f0 = k1 * k2 * cos_phi0 * cos_phi - z0;
-
-    // Result
-    mass[0] = M00;
-    forcing[0] = f0;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &phi = state[0], &phi_dot = state[1];
-    const Real &phi_ddot = rate[1];
-    const Real &m = par[0], &a = par[2], &gamma = par[3], &k0 = par[6], &k3 = par[9], &k5 = par[11];
-    const Real &k6 = par[12], &k7 = par[13], &k8 = par[14];
-
-    // Trigonometry
-    const Real phi0 = gamma * t;
-    const auto trig0 = sincos(phi0, phi);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
-        cos_phi = trig0.cosine[1];
-
-    // Energy
-    const Real z0 = k5 * sin_phi0;
-    const Real z1 = k5 * cos_phi0;
-    const Real z2 = z0 * cos_phi - z1 * sin_phi;
-    const Real z3 = phi_dot * phi_dot;
-    const Real z4 = k6 * z3;
-    const Real z5 = k7 * z0 * z0 + k7 * z1 * z1;
-    const Real z6 = k0 * phi_dot * z2 - (z4 + z5);
-    const Real T = -z6;
-    const Real z7 = k3 * cos_phi - k8 * a * sin_phi0;
-    const Real V = -z7;
-    const Real E = -z7 - z6;
-    const Real z8 = z1 * k5 * gamma * sin_phi0;
-    const Real z9 = m * (z8 - z0 * k5 * gamma * cos_phi0);
-    const Real z10 = (z1 * cos_phi + z0 * sin_phi) * z3;
-    const Real z11 = k8 * z1 - k0 * (phi_ddot * z2 - z10);
-    const Real P = z11 - z9;
-    const Real h = z4 - z7 - z5;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = P;
-    jacobi[0] = h;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &phi = state[0];
-    const Real &l = par[1], &a = par[2], &gamma = par[3];
-
-    // Trigonometry
-    const Real phi0 = gamma * t;
-    const auto trig0 = sincos(phi0, phi);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
-        cos_phi = trig0.cosine[1];
-
-    // Outputs
-    const Real z0 = l * cos_phi - a * sin_phi0;
-    const Real z1 = l * sin_phi + a * cos_phi0;
-    const Real reach = sqrt(z0 * z0 + z1 * z1);
-
-    // Result
-    out[0] = reach;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -391,13 +362,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

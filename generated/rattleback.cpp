@@ -4,30 +4,13 @@
 //   state  x [m], y [m], e0, e1, e2, e3, then w1 [rad/s], w2 [rad/s], w3 [rad/s]
 //   par    m [kg], g [m/s^2], a [m], b [m], c [m], h [m], A [kg m^2], B [kg m^2], C [kg m^2],
 //          D [kg m^2]
-//   cost   1026 operations a right-hand side: 346 additions, 673 multiplications, 6 divisions, 1 functions
+//   cost   1026 operations a right-hand side: 346 additions, 673 multiplications, 6 divisions, 1 function
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
 inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -57,8 +40,6 @@ void prepare(Real* par) {
     const Real k18 = Real(2) * D;
     const Real k19 = Real(2) * B;
     const Real k20 = Real(0.5) * C;
-    const Real k21 = Real(0.5) * A;
-    const Real k22 = Real(0.5) * B;
 
     // Result
     par[10] = k0;
@@ -82,13 +63,11 @@ void prepare(Real* par) {
     par[28] = k18;
     par[29] = k19;
     par[30] = k20;
-    par[31] = k21;
-    par[32] = k22;
 }
 
 /// rate = (q', u') at t and state = (q, u).
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
     const Real &m = par[0], &h = par[5], &A = par[6], &B = par[7], &C = par[8], &D = par[9], &k0 = par[10];
@@ -96,7 +75,8 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real &k7 = par[17], &k8 = par[18], &k9 = par[19], &k10 = par[20], &k11 = par[21], &k12 = par[22];
     const Real &k13 = par[23], &k14 = par[24], &k15 = par[25];
 
-    // All else, in the order in which it is ready
+    // All else, each value soon after those that it is made of
+    // M20 = -Real(0.5) * z280, M21 = -Real(0.5) * z198
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
     const Real z2 = e2 * e2;
@@ -413,23 +393,23 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
     const Real z303 = e3 * z285;
     const Real z304 = z299 + e3 * z288 - e1 * z287 - e0 * z285;
     const Real z305 = z171 * z289 + Real(0.5) * z172 * z290 + Real(0.5) * z173 * z291;
-    const Real z306 = z300 - (w2 * z293 - w1 * z292) + Real(0.5) * z301;
-    const Real z307 = z303 - e1 * z286 - e2 * z287 + e0 * z288;
-    const Real z308 = z267 * z289 - Real(0.5) * z269 * z290 - Real(0.5) * z268 * z291;
+    const Real f2 = (w2 * z293 - w1 * z292) - z300 - Real(0.5) * z301;
+    const Real z306 = z303 - e1 * z286 - e2 * z287 + e0 * z288;
+    const Real z307 = z267 * z289 - Real(0.5) * z269 * z290 - Real(0.5) * z268 * z291;
     const Real f1 = z304 - (w3 * z293 - w1 * z297) + z305;
-    const Real z309 = Real(1) / ((M00 - Real(0.25) * z280 * z294) - z295 * z302);
-    const Real z310 = z307 - (w3 * z292 - w2 * z297) - z308;
-    const Real z311 = f1 - Real(0.5) * z244 * z306;
+    const Real z308 = Real(1) / ((M00 - Real(0.25) * z280 * z294) - z295 * z302);
+    const Real f0 = (w3 * z292 - w2 * z297) - z306 + z307;
+    const Real z309 = f1 + Real(0.5) * z244 * f2;
     const Real e0_dot = -Real(0.5) * z20;
     const Real e1_dot = Real(0.5) * z17;
     const Real x_dot = Real(0.5) * (w2 * z172 - w1 * z269 + w3 * z141);
     const Real e2_dot = Real(0.5) * z18;
     const Real e3_dot = Real(0.5) * z16;
     const Real y_dot = -Real(0.5) * (w2 * z173 - w3 * z142 - w1 * z268);
-    const Real z312 = ((z310 + Real(0.5) * z294 * z306) + z311 * z302) * z309;
-    const Real w1_dot = -z312;
-    const Real w2_dot = z311 * z296 + z302 * z312;
-    const Real w3_dot = -z213 * z306 - Real(0.5) * z294 * z312 + Real(0.5) * z244 * w2_dot;
+    const Real z310 = ((-f0 - Real(0.5) * z294 * f2) + z309 * z302) * z308;
+    const Real w1_dot = -z310;
+    const Real w2_dot = z309 * z296 + z302 * z310;
+    const Real w3_dot = z213 * f2 - Real(0.5) * z294 * z310 + Real(0.5) * z244 * w2_dot;
 
     // Result
     rate[0] = x_dot;
@@ -445,7 +425,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (s by s, row-major) and f of M u' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
     const Real &m = par[0], &h = par[5], &A = par[6], &B = par[7], &C = par[8], &D = par[9], &k0 = par[10];
@@ -453,7 +433,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
     const Real &k7 = par[17], &k8 = par[18], &k9 = par[19], &k10 = par[20], &k11 = par[21], &k12 = par[22];
     const Real &k13 = par[23], &k14 = par[24], &k15 = par[25];
 
-    // All else, in the order in which it is ready
+    // All else, each value soon after those that it is made of
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
     const Real z2 = e2 * e2;
@@ -784,14 +764,14 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
-    const Real &m = par[0], &h = par[5], &D = par[9], &k1 = par[11], &k3 = par[13], &k4 = par[14], &k7 = par[17];
-    const Real &k8 = par[18], &k9 = par[19], &k12 = par[22], &k14 = par[24], &k17 = par[27], &k18 = par[28];
-    const Real &k19 = par[29], &k20 = par[30], &k21 = par[31], &k22 = par[32];
+    const Real &m = par[0], &h = par[5], &A = par[6], &B = par[7], &C = par[8], &D = par[9], &k1 = par[11];
+    const Real &k3 = par[13], &k4 = par[14], &k5 = par[15], &k6 = par[16], &k7 = par[17], &k8 = par[18];
+    const Real &k9 = par[19], &k10 = par[20], &k11 = par[21], &k12 = par[22];
 
-    // All else, in the order in which it is ready
+    // All else, each value soon after those that it is made of
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
     const Real z2 = e2 * e2;
@@ -804,139 +784,91 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real z9 = z0 - z1;
     const Real z10 = z2 + z3;
     const Real z11 = z2 - z3;
-    const Real z12 = z4 - z5;
-    const Real z13 = z6 + z7;
-    const Real z14 = z9 - z11;
-    const Real z15 = Real(1) / (z8 + z10);
-    const Real z16 = e0 * w3 + e1 * w2 - e2 * w1;
-    const Real z17 = e0 * w1 + e2 * w3 - e3 * w2;
-    const Real z18 = e0 * w2 - e1 * w3 + e3 * w1;
-    const Real z19 = e0 * e3;
-    const Real z20 = e1 * w1 + e2 * w2 + e3 * w3;
-    const Real z21 = e1 * z16;
-    const Real z22 = e3 * z17;
-    const Real z23 = e0 * z18;
-    const Real z24 = e2 * z20;
-    const Real z25 = e0 * z17;
-    const Real z26 = e1 * z20;
-    const Real z27 = e1 * z17 + e2 * z18;
-    const Real z28 = e3 * z18;
-    const Real z29 = e2 * z16;
-    const Real z30 = e0 * z20 - e3 * z16;
-    const Real z31 = z12 * z15;
-    const Real z32 = z13 * z15;
-    const Real z33 = z14 * z15;
-    const Real z34 = z15 * z15;
-    const Real z35 = k1 * z31;
-    const Real z36 = k3 * z32;
-    const Real z37 = k4 * z33;
-    const Real z38 = e1 * e2;
-    const Real z39 = (z27 - z30) * z34;
-    const Real z40 = ((z21 + z22) - (z23 - z24)) * z15;
-    const Real z41 = ((z25 - z26) + (z28 + z29)) * z15;
-    const Real z42 = k8 * z32;
-    const Real z43 = z31 * z35 + z32 * z36 + z33 * z37;
-    const Real z44 = k9 * z31;
-    const Real z45 = (z27 + z30) * z15 + z14 * z39;
-    const Real z46 = sqrt(z43);
-    const Real z47 = z35 * (z40 + Real(2) * z12 * z39);
-    const Real z48 = z36 * (z41 - Real(2) * z13 * z39);
-    const Real z49 = (z19 - z38) * z15;
-    const Real z50 = (z8 - z10) * z15;
-    const Real z51 = (z4 + z5) * z15;
-    const Real z52 = (z19 + z38) * z15;
-    const Real z53 = (z9 + z11) * z15;
-    const Real z54 = (z6 - z7) * z15;
-    const Real z55 = e2 * z17 + e3 * z20;
-    const Real z56 = z15 * (z28 - z29 + z25 + z26);
-    const Real z57 = z15 * (z21 + z23 - z22 + z24);
-    const Real z58 = (z55 - (e1 * z18 - e0 * z16)) * z15;
-    const Real z59 = k20 * z58;
-    const Real z60 = z15 * (k17 * z56 + k18 * z57);
-    const Real z61 = z15 * (k19 * z57 + k18 * z56);
-    const Real z62 = z56 * (k21 * z56 + D * z57);
-    const Real z63 = z15 * z59;
-    const Real z64 = Real(1) / z46;
-    const Real z65 = z46 / z43;
-    const Real z66 = (k14 * z33 * z45 + z47 - z48) * z65;
-    const Real V = k12 * (z46 - h * z33);
-    const Real z67 = Real(0.5) * z66 - h * z45;
-    const Real z68 = m * z67;
-    const Real z69 = z42 * z64;
-    const Real z70 = z44 * z64;
-    const Real z71 = z65 * z68;
-    const Real z72 = h - z37 * z64;
-    const Real z73 = z42 * z71;
-    const Real z74 = z44 * z71;
-    const Real z75 = h * z68 - z37 * z71;
-    const Real z76 = z50 * z70 + Real(2) * z49 * z69 + Real(2) * z51 * z72;
-    const Real z77 = Real(2) * z31 * z70 - z33 * z72 + Real(2) * z32 * z69;
-    const Real z78 = Real(2) * z52 * z70 - z53 * z69 - Real(2) * z54 * z72;
-    const Real z79 = z15 * z73;
-    const Real z80 = z15 * (z32 * z76 - z49 * z77);
-    const Real z81 = z15 * (Real(4) * z31 * z76 - Real(2) * z50 * z77);
-    const Real z82 = z15 * (Real(4) * z51 * z77 + Real(2) * z33 * z76);
-    const Real z83 = z15 * (z31 * z78 - z52 * z77);
-    const Real z84 = z15 * (Real(4) * z32 * z78 + Real(2) * z53 * z77);
-    const Real z85 = Real(2) * z12 * z74 - z14 * z75 + Real(2) * z13 * z73;
-    const Real z86 = z15 * (Real(4) * z54 * z77 - Real(2) * z33 * z78);
-    const Real z87 = Real(4) * e1 * z80 + e2 * z81 + e0 * z82;
-    const Real z88 = Real(4) * e3 * z80 + e0 * z81 - e2 * z82;
-    const Real z89 = Real(4) * e2 * z80 + e3 * z82 - e1 * z81;
-    const Real z90 = Real(4) * e0 * z80 - e1 * z82 - e3 * z81;
-    const Real z91 = Real(4) * e2 * z83 + e1 * z84 - e0 * z86;
-    const Real z92 = Real(4) * e0 * z83 + e2 * z86 + e3 * z84;
-    const Real z93 = Real(4) * e3 * z83 - e0 * z84 - e1 * z86;
-    const Real z94 = Real(4) * e1 * z83 - e2 * z84 + e3 * z86;
-    const Real z95 = e2 * z87;
-    const Real z96 = e2 * z91;
-    const Real z97 = e3 * z92;
-    const Real z98 = e0 * z90;
-    const Real z99 = e1 * z93;
-    const Real z100 = e1 * z90;
-    const Real z101 = z95 + e0 * z88 - e1 * z89 - e3 * z90;
-    const Real z102 = z96 + e0 * z92 + e3 * z93 + e1 * z94;
-    const Real z103 = z97 + e1 * z91 - e0 * z93 - e2 * z94;
-    const Real z104 = z98 + e1 * z87 + e2 * z89 + e3 * z88;
-    const Real z105 = z99 - e2 * z92 + e0 * z91 - e3 * z94;
-    const Real z106 = z100 - e3 * z89 + e2 * z88 - e0 * z87;
-    const Real z107 = z15 * z74;
-    const Real z108 = z15 * z75;
-    const Real z109 = z34 * z85;
-    const Real z110 = Real(2) * z79 - z60;
-    const Real z111 = Real(2) * z107 - z61;
-    const Real z112 = z60 + Real(2) * z79;
-    const Real z113 = z108 + z109;
-    const Real z114 = w2 * z103 - w1 * z102 + w3 * z105;
-    const Real z115 = z108 - z109;
-    const Real z116 = w2 * z104 - w3 * z106 - w1 * z101;
-    const Real z117 = z61 + Real(2) * z107;
-    const Real z118 = (Real(4) * e2 * z63 + e3 * z111) - Real(2) * e1 * z115;
-    const Real z119 = (Real(4) * e1 * z63 + e3 * z110) + Real(2) * e2 * z115;
-    const Real z120 = (Real(4) * e3 * z63 + e1 * z112) + e2 * z117;
-    const Real z121 = (Real(4) * e0 * z63 + Real(2) * e3 * z113) + e1 * z117;
-    const Real z122 = m * (z67 * z67 + Real(0.25) * z114 * z114 + Real(0.25) * z116 * z116);
-    const Real T = ((z58 * z59 + k22 * z57 * z57) + z62) + Real(0.5) * z122;
-    const Real z123 = z17 * (e0 * z110 - z118);
-    const Real z124 = z114 * k7 * z114;
-    const Real z125 = z18 * (z119 + e0 * z111);
-    const Real z126 = z20 * (z120 - Real(2) * e0 * z113);
-    const Real z127 = z16 * (e2 * z112 - z121);
+    const Real z12 = e0 * e3;
+    const Real z13 = e1 * e2;
+    const Real z14 = Real(1) / (z8 + z10);
+    const Real z15 = (z4 - z5) * z14;
+    const Real z16 = (z6 + z7) * z14;
+    const Real z17 = (z9 - z11) * z14;
+    const Real z18 = (z12 - z13) * z14;
+    const Real z19 = (z8 - z10) * z14;
+    const Real z20 = (z4 + z5) * z14;
+    const Real z21 = (z12 + z13) * z14;
+    const Real z22 = (z9 + z11) * z14;
+    const Real z23 = k4 * z17;
+    const Real z24 = (z6 - z7) * z14;
+    const Real z25 = z15 * k1 * z15;
+    const Real z26 = z25 + z16 * k3 * z16 + z17 * z23;
+    const Real z27 = sqrt(z26);
+    const Real z28 = Real(1) / z27;
+    const Real z29 = z27 / z26;
+    const Real z30 = z15 * k11 * z16 * z29;
+    const Real V = k12 * (z27 - h * z17);
+    const Real z31 = k6 * z15 + Real(0.5) * z15 * k10 * z17 * z29;
+    const Real z32 = k6 * z16 + Real(0.5) * z16 * k5 * z17 * z29;
+    const Real z33 = m * z30;
+    const Real z34 = m * z31;
+    const Real z35 = k8 * z16 * z28;
+    const Real z36 = k9 * z15 * z28;
+    const Real z37 = z32 * m * z32;
+    const Real z38 = h - z23 * z28;
+    const Real z39 = z19 * z36 + Real(2) * z18 * z35 + Real(2) * z20 * z38;
+    const Real z40 = Real(2) * z15 * z36 - z17 * z38 + Real(2) * z16 * z35;
+    const Real z41 = Real(2) * z21 * z36 - z22 * z35 - Real(2) * z24 * z38;
+    const Real z42 = z14 * (z16 * z39 - z18 * z40);
+    const Real z43 = z14 * (Real(4) * z15 * z39 - Real(2) * z19 * z40);
+    const Real z44 = z14 * (Real(4) * z20 * z40 + Real(2) * z17 * z39);
+    const Real z45 = z14 * (z15 * z41 - z21 * z40);
+    const Real z46 = z14 * (Real(4) * z16 * z41 + Real(2) * z22 * z40);
+    const Real z47 = z14 * (Real(4) * z24 * z40 - Real(2) * z17 * z41);
+    const Real z48 = Real(4) * e1 * z42 + e2 * z43 + e0 * z44;
+    const Real z49 = Real(4) * e3 * z42 + e0 * z43 - e2 * z44;
+    const Real z50 = Real(4) * e2 * z42 + e3 * z44 - e1 * z43;
+    const Real z51 = Real(4) * e0 * z42 - e1 * z44 - e3 * z43;
+    const Real z52 = Real(4) * e2 * z45 + e1 * z46 - e0 * z47;
+    const Real z53 = Real(4) * e0 * z45 + e2 * z47 + e3 * z46;
+    const Real z54 = Real(4) * e3 * z45 - e0 * z46 - e1 * z47;
+    const Real z55 = Real(4) * e1 * z45 - e2 * z46 + e3 * z47;
+    const Real z56 = e0 * z51;
+    const Real z57 = e3 * z53;
+    const Real z58 = e2 * z48;
+    const Real z59 = e2 * z52;
+    const Real z60 = z57 + e1 * z52 - e0 * z54 - e2 * z55;
+    const Real z61 = z56 + e1 * z48 + e2 * z50 + e3 * z49;
+    const Real z62 = e1 * z54;
+    const Real z63 = e1 * z51;
+    const Real z64 = z58 + e0 * z49 - e1 * z50 - e3 * z51;
+    const Real z65 = z59 + e0 * z53 + e3 * z54 + e1 * z55;
+    const Real z66 = k7 * z60;
+    const Real z67 = k7 * z61;
+    const Real z68 = z62 - e2 * z53 + e0 * z52 - e3 * z55;
+    const Real z69 = z63 - e3 * z50 + e2 * z49 - e0 * z48;
+    const Real z70 = k7 * z68;
+    const Real z71 = k7 * z69;
+    const Real z72 = z32 * z34 - Real(0.5) * z65 * z66 - Real(0.5) * z64 * z67;
+    const Real z73 = z31 * z34 + Real(0.5) * z61 * z67 + Real(0.5) * z60 * z66;
+    const Real z74 = z64 * k7 * z64;
+    const Real z75 = Real(0.25) * z30 * z33 + Real(0.5) * z68 * z70 + Real(0.5) * z69 * z71;
+    const Real z76 = z33 * z32 + z65 * z70 - z64 * z71;
+    const Real z77 = z33 * z31 - z60 * z70 + z61 * z71;
+    const Real z78 = A + (z37 + Real(0.5) * z74 + Real(0.5) * z65 * k7 * z65);
+    const Real z79 = w3 * (C + z75);
+    const Real z80 = w1 * (D + z72) + Real(0.5) * w2 * (B + z73);
+    const Real z81 = w3 * (-w2 * z77 - w1 * z76 + z79);
+    const Real T = (Real(0.5) * w1 * w1 * z78 + w2 * z80) + Real(0.5) * z81;
     const Real E = V + T;
-    const Real z128 = z123 - z126 + z125 + z127 - z124 - z116 * k7 * z116;
-    const Real h_ = (V - T) - Real(0.5) * z128;
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h_;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
 
@@ -969,21 +901,14 @@ void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* sta
     out[3] = w3;
 }
 
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
 /// f(q,t) of holonomic constraints, A q' + b of all, and A.
 template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
     const Real &h = par[5], &k1 = par[11], &k3 = par[13], &k4 = par[14], &k8 = par[18], &k9 = par[19];
 
-    // All else, in the order in which it is ready
+    // All else, each value soon after those that it is made of
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
     const Real z2 = e2 * e2;
@@ -1095,7 +1020,7 @@ void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// The multipliers lambda of M q'' = f + A^T lambda.
 template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
     const Real &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5], &w1 = state[6], &w2 = state[7];
     const Real &w3 = state[8];
     const Real &m = par[0], &h = par[5], &A = par[6], &B = par[7], &C = par[8], &D = par[9], &k0 = par[10];
@@ -1104,7 +1029,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
     const Real &k13 = par[23], &k14 = par[24], &k15 = par[25], &k16 = par[26], &k17 = par[27], &k18 = par[28];
     const Real &k19 = par[29], &k20 = par[30];
 
-    // All else, in the order in which it is ready
+    // All else, each value soon after those that it is made of
     const Real z0 = e0 * e0;
     const Real z1 = e1 * e1;
     const Real z2 = e2 * e2;
@@ -1598,7 +1523,7 @@ void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real*
 
 /// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
 template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
+void project(const Real&, const Real* state, const Real*, Real* out, Real* position, Real* pivots) {
     const Real &x = state[0], &y = state[1], &e0 = state[2], &e1 = state[3], &e2 = state[4], &e3 = state[5];
     const Real &w1 = state[6], &w2 = state[7], &w3 = state[8];
 
@@ -1664,7 +1589,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1, 9.81, 0.2, 0.03, 0.02, 0.01, 0.0002, 0.0016, 0.0017, -2e-05, 0};
 
 constexpr alembert_solver_table table{
-    4, 6, 3, 10, 23, 4, 0, 3, "rattleback", "kane, intermediate symbols",
+    4, 6, 3, 10, 21, 4, 0, 3, "rattleback", "kane, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -1677,9 +1602,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,194 @@
 //
 // M(q) u' = f(q, u, t), q' = h(q, u, t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &g = par[2], &beta = par[3];
+
+    // Trigonometry
+    const auto [sin_beta, cos_beta] = sincos(beta);
+
+    // Constants
+    const Real z0 = m * r * r;
+    const Real M00 = Real(0.25) * z0;
+    const Real M11 = Real(1.5) * z0;
+    const Real k0 = m * r * g * sin_beta;
+    const Real z1 = Real(1) / z0;
+    const Real k1 = (Real(2) / Real(3)) * z1 * k0;
+    const Real k2 = r * r;
+    const Real z2 = Real(1) / (k2 + Real(1));
+    const Real k3 = m * g * z2 * sin_beta;
+    const Real k4 = m * r * r * g * z2 * sin_beta;
+    const Real k5 = (Real(1) / Real(3)) * z1 * m * r * r * r * z2;
+    const Real k6 = m * z2;
+    const Real k7 = m * r * r * z2;
+    const Real k8 = m * r * g * cos_beta;
+    const Real k9 = m * g * sin_beta;
+
+    // Result
+    par[4] = M00;
+    par[5] = M11;
+    par[6] = k0;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+    par[15] = k9;
+}
+
+/// rate = (q', u') at t and state = (q, u).
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[2], &spin = state[4], &roll = state[5];
+    const Real &r = par[1], &k1 = par[7];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Kinematics q' = h(q, u, t)
+    const Real x_dot = roll * r * cos_phi;
+    const Real y_dot = roll * r * sin_phi;
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0
+
+    // Forcing f
+    // f0 = 0
+
+    // Solve M u' = f with M = L D L^T
+    const Real roll_dot = k1 * cos_phi;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = spin;
+    rate[3] = roll;
+    rate[4] = Real(0);
+    rate[5] = roll_dot;
+}
+
+/// M (s by s, row-major) and f of M u' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &phi = state[2];
+    const Real &M00 = par[4], &M11 = par[5], &k0 = par[6];
+
+    // Trigonometry
+    const Real cos_phi = cos(phi);
+
+    // Forcing f
+    const Real f1 = k0 * cos_phi;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = Real(0);
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &spin = state[4], &roll = state[5];
+    const Real &M00 = par[4], &M11 = par[5], &k8 = par[14], &k9 = par[15];
+
+    // Energy
+    const Real z0 = M00 * spin * spin + M11 * roll * roll;
+    const Real T = Real(0.5) * z0;
+    const Real V = k8 - k9 * x;
+    const Real E = Real(0.5) * z0 + V;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &spin = state[4], &roll = state[5];
+
+    // Result
+    out[0] = spin;
+    out[1] = roll;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &phi = state[2];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = Real(0);
+    velocity[1] = Real(0);
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = -r * cos_phi;
+    rows[4] = Real(0);
+    rows[5] = Real(1);
+    rows[6] = Real(0);
+    rows[7] = -r * sin_phi;
+    rows[8] = Real(0);
+    rows[9] = Real(0);
+    rows[10] = Real(0);
+    rows[11] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &phi = state[2], &spin = state[4], &roll = state[5];
+    const Real &r = par[1], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
+    const Real &k6 = par[12], &k7 = par[13];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Multipliers
+    const Real z0 = k1 * cos_phi;
+    const Real z1 = sin_phi * sin_phi;
+    const Real z2 = k4 * z1;
+    const Real z3 = k5 * k0 * cos_phi;
+    const Real z4 = r * roll;
+    const Real z5 = z0 * r * cos_phi - z4 * spin * sin_phi;
+    const Real z6 = k6 * z5 * (k2 * z1 + Real(1));
+    const Real z7 = sin_phi * cos_phi;
+    const Real z8 = k7 * z7;
+    const Real z9 = z0 * r * sin_phi + z4 * spin * cos_phi;
+    const Real lambda_along_x = z6 - k3 - z2 - z3 * cos_phi - z8 * z9;
+    const Real z10 = k6 * z9 * (k2 * cos_phi * cos_phi + Real(1));
+    const Real lambda_along_y = k4 * z7 - z3 * sin_phi + z10 - z8 * z5;
+
+    // Result
+    lambda[0] = lambda_along_x;
+    lambda[1] = lambda_along_y;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,195 +350,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &r = par[1], &g = par[2], &beta = par[3];
-
-    // Trigonometry
-    const auto [sin_beta, cos_beta] = sincos(beta);
-
-    // Constants
-    const Real z0 = m * r * r;
-    const Real M00 = Real(0.25) * z0;
-    const Real M11 = Real(1.5) * z0;
-    const Real k0 = m * r * g * sin_beta;
-    const Real z1 = Real(1) / z0;
-    const Real k1 = (Real(2) / Real(3)) * z1 * k0;
-    const Real k2 = r * r;
-    const Real z2 = Real(1) / (k2 + Real(1));
-    const Real k3 = m * g * z2 * sin_beta;
-    const Real k4 = m * r * r * g * z2 * sin_beta;
-    const Real k5 = (Real(1) / Real(3)) * z1 * m * r * r * r * z2;
-    const Real k6 = m * z2;
-    const Real k7 = m * r * r * z2;
-    const Real k8 = Real(0.125) * z0;
-    const Real k9 = Real(0.5) * m;
-    const Real k10 = m * r * g * cos_beta;
-    const Real k11 = m * g * sin_beta;
-
-    // Result
-    par[4] = M00;
-    par[5] = M11;
-    par[6] = k0;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-    par[11] = k5;
-    par[12] = k6;
-    par[13] = k7;
-    par[14] = k8;
-    par[15] = k9;
-    par[16] = k10;
-    par[17] = k11;
-}
-
-/// rate = (q', u') at t and state = (q, u).
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &k1 = par[7];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Kinematics q' = h(q, u, t)
-    const Real x_dot = roll * r * cos_phi;
-    const Real y_dot = roll * r * sin_phi;
-
-    // Solve M u' = f with M = L D L^T
-    const Real roll_dot = k1 * cos_phi;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = spin;
-    rate[3] = roll;
-    rate[4] = Real(0);
-    rate[5] = roll_dot;
-}
-
-/// M (s by s, row-major) and f of M u' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &phi = state[2];
-    const Real &M00 = par[4], &M11 = par[5], &k0 = par[6];
-
-    // Trigonometry
-    const Real cos_phi = cos(phi);
-
-    // Forcing f
-    const Real f1 = k0 * cos_phi;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = Real(0);
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &x = state[0], &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &M00 = par[4], &k8 = par[14], &k9 = par[15], &k10 = par[16], &k11 = par[17];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Energy
-    const Real z0 = roll * r * cos_phi;
-    const Real z1 = roll * r * sin_phi;
-    const Real z2 = k9 * (z1 * z1 + z0 * z0);
-    const Real T = k8 * spin * spin + M00 * roll * roll + z2;
-    const Real V = k10 - k11 * x;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &spin = state[4], &roll = state[5];
-
-    // Result
-    out[0] = spin;
-    out[1] = roll;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2];
-    const Real &r = par[1];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Result
-    position[0] = Real(0);
-    position[1] = Real(0);
-    velocity[0] = Real(0);
-    velocity[1] = Real(0);
-    rows[0] = Real(1);
-    rows[1] = Real(0);
-    rows[2] = Real(0);
-    rows[3] = -r * cos_phi;
-    rows[4] = Real(0);
-    rows[5] = Real(1);
-    rows[6] = Real(0);
-    rows[7] = -r * sin_phi;
-    rows[8] = Real(0);
-    rows[9] = Real(0);
-    rows[10] = Real(0);
-    rows[11] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &phi = state[2], &spin = state[4], &roll = state[5];
-    const Real &r = par[1], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k4 = par[10], &k5 = par[11];
-    const Real &k6 = par[12], &k7 = par[13];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Multipliers
-    const Real z0 = k1 * cos_phi;
-    const Real z1 = sin_phi * sin_phi;
-    const Real z2 = k4 * z1;
-    const Real z3 = k5 * k0 * cos_phi;
-    const Real z4 = r * roll;
-    const Real z5 = z0 * r * cos_phi - z4 * spin * sin_phi;
-    const Real z6 = k6 * z5 * (k2 * z1 + Real(1));
-    const Real z7 = sin_phi * cos_phi;
-    const Real z8 = k7 * z7;
-    const Real z9 = z0 * r * sin_phi + z4 * spin * cos_phi;
-    const Real lambda_along_x = z6 - k3 - z2 - z3 * cos_phi - z8 * z9;
-    const Real z10 = k6 * z9 * (k2 * cos_phi * cos_phi + Real(1));
-    const Real lambda_along_y = k4 * z7 - z3 * sin_phi + z10 - z8 * z5;
-
-    // Result
-    lambda[0] = lambda_along_x;
-    lambda[1] = lambda_along_y;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -409,7 +389,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.1, 0};
 
 constexpr alembert_solver_table table{
-    4, 4, 2, 4, 14, 2, 0, 2, "rolling_coin", "kane, textbook form",
+    4, 4, 2, 4, 12, 2, 0, 2, "rolling_coin", "kane, textbook form",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -422,9 +402,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,25 +7,154 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &g = par[2], &beta = par[3];
+
+    // Trigonometry
+    const Real sin_beta = sin(beta);
+
+    // Constants
+    const Real z0 = m * r * r;
+    const Real M11 = Real(0.5) * z0;
+    const Real f0 = m * g * sin_beta;
+    const Real k0 = Real(1) / m;
+    const Real z1 = k0 * f0;
+    const Real z2 = r / z0;
+    const Real k1 = k0 + Real(2) * r * z2;
+    const Real k2 = Real(1) / k1;
+    const Real k3 = z1 * k2;
+    const Real k4 = z1 - k0 * k3;
+    const Real k5 = Real(2) * z2 * k3;
+    const Real k6 = Real(2) * z2;
+    const Real k7 = Real(0.5) * m;
+    const Real k8 = Real(0.25) * z0;
+
+    // Result
+    par[4] = M11;
+    par[5] = f0;
+    par[6] = k0;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+    par[13] = k7;
+    par[14] = k8;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &x_dot = state[2], &phi_dot = state[3];
+    const Real &k4 = par[10], &k5 = par[11];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0
+
+    // Forcing f
+    // f1 = 0
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = phi_dot;
+    rate[2] = k4;
+    rate[3] = k5;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &M11 = par[4], &f0 = par[5];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x = state[0], &x_dot = state[2], &phi_dot = state[3];
+    const Real &f0 = par[5], &k7 = par[13], &k8 = par[14];
+
+    // Energy
+    const Real T = k7 * x_dot * x_dot + k8 * phi_dot * phi_dot;
+    const Real z0 = f0 * x;
+    const Real V = -z0;
+    const Real E = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &x_dot = state[2], &phi_dot = state[3];
+    const Real &r = par[1];
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = x_dot - r * phi_dot;
+    rows[0] = Real(1);
+    rows[1] = -r;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real*, const Real* par, Real* lambda) {
+    const Real &k3 = par[9];
+
+    // Result
+    lambda[0] = -k3;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
+    const Real &r = par[1], &k0 = par[6], &k1 = par[7], &k2 = par[8], &k6 = par[12];
+
+    // Projection
+    const Real z0 = k2 * (x_dot - r * phi_dot);
+
+    // Result
+    out[0] = x;
+    out[1] = phi;
+    out[2] = x_dot - k0 * z0;
+    out[3] = phi_dot + k6 * z0;
+    position[0] = Real(0);
+    pivots[0] = k1;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real*, const Real*, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,156 +310,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &r = par[1], &g = par[2], &beta = par[3];
-
-    // Trigonometry
-    const Real sin_beta = sin(beta);
-
-    // Constants
-    const Real k0 = m * r * r;
-    const Real M11 = Real(0.5) * k0;
-    const Real f0 = m * g * sin_beta;
-    const Real k1 = Real(1) / m;
-    const Real z0 = k1 * f0;
-    const Real z1 = r / k0;
-    const Real k2 = k1 + Real(2) * r * z1;
-    const Real k3 = Real(1) / k2;
-    const Real k4 = z0 * k3;
-    const Real k5 = z0 - k1 * k4;
-    const Real k6 = Real(2) * z1 * k4;
-    const Real k7 = Real(2) * z1;
-    const Real k8 = Real(0.5) * m;
-    const Real k9 = Real(0.25) * k0;
-
-    // Result
-    par[4] = k0;
-    par[5] = M11;
-    par[6] = f0;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-    par[11] = k5;
-    par[12] = k6;
-    par[13] = k7;
-    par[14] = k8;
-    par[15] = k9;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &f0 = par[6], &k5 = par[11], &k6 = par[12];
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = phi_dot;
-    rate[2] = k5;
-    rate[3] = k6;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &M11 = par[5], &f0 = par[6];
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &x = state[0], &x_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &k0 = par[4], &f0 = par[6], &k8 = par[14], &k9 = par[15];
-
-    // Energy
-    const Real T = k8 * x_dot * x_dot + k9 * phi_dot * phi_dot;
-    const Real z0 = f0 * x;
-    const Real V = -z0;
-    const Real E = T - z0;
-    const Real z1 = x_dot * m * x_dot + Real(0.5) * phi_dot * k0 * phi_dot;
-    const Real h = z1 - (z0 + T);
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = h;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &x_dot = state[2], &phi_dot = state[3];
-    const Real &r = par[1];
-
-    // Result
-    position[0] = Real(0);
-    velocity[0] = x_dot - r * phi_dot;
-    rows[0] = Real(1);
-    rows[1] = -r;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &k4 = par[10];
-
-    // Result
-    lambda[0] = -k4;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &phi = state[1], &x_dot = state[2], &phi_dot = state[3];
-    const Real &r = par[1], &k1 = par[7], &k2 = par[8], &k3 = par[9], &k7 = par[13];
-
-    // Projection
-    const Real z0 = k3 * (x_dot - r * phi_dot);
-
-    // Result
-    out[0] = x;
-    out[1] = phi;
-    out[2] = x_dot - k1 * z0;
-    out[3] = phi_dot + k7 * z0;
-    position[0] = Real(0);
-    pivots[0] = k2;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-
-
-    // Result
-    out[0] = Real(0);
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -370,7 +349,7 @@ constexpr const char* event_names[] = { nullptr};
 constexpr double parameter_values[] = { 1.5, 0.3, 9.81, 0.4, 0};
 
 constexpr alembert_solver_table table{
-    4, 2, 2, 4, 12, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
+    4, 2, 2, 4, 11, 0, 0, 1, "rolling_disc", "routh, intermediate symbols",
     coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
     [](double* par) { prepare(par); },
     [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
@@ -380,12 +359,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

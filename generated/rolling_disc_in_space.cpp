@@ -7,25 +7,460 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &r = par[1], &g = par[2];
+
+    // Constants
+    const Real k0 = m * r;
+    const Real z0 = m * r * r;
+    const Real k1 = Real(0.25) * z0;
+    const Real M33 = Real(1.25) * z0;
+    const Real M44 = Real(0.5) * z0;
+    const Real k2 = Real(2) * k0;
+    const Real k3 = Real(2.5) * z0;
+    const Real k4 = m * r * g;
+    const Real z1 = Real(1) / z0;
+    const Real k5 = Real(0.8) * z1;
+    const Real k6 = Real(2) * z1;
+    const Real k7 = Real(0.625) * z0;
+    const Real k8 = Real(0.5) * m;
+    const Real k9 = Real(0.125) * z0;
+
+    // Result
+    par[3] = k0;
+    par[4] = k1;
+    par[5] = M33;
+    par[6] = M44;
+    par[7] = k2;
+    par[8] = k3;
+    par[9] = k4;
+    par[10] = k5;
+    par[11] = k6;
+    par[12] = k7;
+    par[13] = k8;
+    par[14] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
+    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Shared terms
+    const Real z0 = k0 * sin_theta;
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M32 = 0, M40 = 0, M41 = 0, M43 = 0
+    const Real M20 = z0 * cos_psi;
+    const Real M21 = z0 * sin_psi;
+    const Real M22 = k1 + M33 * sin_theta * sin_theta;
+    const Real z1 = k0 * cos_theta;
+    const Real M30 = z1 * sin_psi;
+    const Real M31 = -z1 * cos_psi;
+    const Real M42 = M44 * sin_theta;
+
+    // Forcing f
+    const Real z2 = psi_dot * cos_theta;
+    const Real z3 = theta_dot * z2;
+    const Real z4 = k2 * z3;
+    const Real z5 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real f0 = M21 * z5 - z4 * cos_psi;
+    const Real f1 = -z4 * sin_psi - M20 * z5;
+    const Real z6 = M44 * phi_dot;
+    const Real f2 = -theta_dot * (z6 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real z7 = (k4 + M33 * psi_dot * z2) * sin_theta;
+    const Real f3 = z6 * z2 + z7;
+    const Real f4 = -M44 * z3;
+
+    // Constraints A q'' = gamma
+    const Real z8 = r * cos_psi;
+    const Real z9 = psi_dot * phi_dot;
+    const Real gamma1 = z8 * z9;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z10 = r * sin_psi;
+    const Real z11 = k5 * M30;
+    const Real z12 = -k5 * M31;
+    const Real z13 = M30 * z12;
+    const Real z14 = Real(1) / (m + M31 * z12);
+    const Real z15 = z13 * z14;
+    const Real z16 = (m - M30 * z11) - z13 * z15;
+    const Real z17 = M21 * z14;
+    const Real z18 = M20 - z13 * z17;
+    const Real z19 = k6 * M42;
+    const Real z20 = Real(1) / ((M22 - M42 * z19) - M21 * z17);
+    const Real z21 = z18 * z20;
+    const Real z22 = Real(1) / (z16 - z18 * z21);
+    const Real z23 = -f1 - z12 * f3;
+    const Real z24 = (z11 * f3 - f0) - z15 * z23;
+    const Real z25 = (f4 * z19 - f2) - z17 * z23;
+    const Real z26 = z24 - z21 * z25;
+    const Real z27 = k6 * z8;
+    const Real z28 = M42 * z27;
+    const Real z29 = z28 * z20;
+    const Real z30 = z18 * z29 - Real(1);
+    const Real z31 = z30 * z22;
+    const Real z32 = (z27 * z8 + z28 * z29) + z30 * z31;
+    const Real z33 = k6 * z10;
+    const Real z34 = M42 * z33 - z17;
+    const Real z35 = z34 * z20;
+    const Real z36 = z15 + z18 * z35;
+    const Real z37 = z36 * z22;
+    const Real z38 = (z33 * z8 + z28 * z35) + z30 * z37;
+    const Real z39 = (z33 * z10 + z14) + z34 * z35;
+    const Real z40 = Real(1) / (z39 + z36 * z37);
+    const Real z41 = z38 * z40;
+    const Real z42 = (z10 * z9 - z27 * f4) - z29 * z25;
+    const Real z43 = z14 * z23;
+    const Real z44 = ((-z33 * f4 - gamma1) - z43) - z35 * z25;
+    const Real z45 = z44 + z26 * z37;
+    const Real z46 = (z42 + z31 * z26) - z45 * z41;
+    const Real z47 = z46 / (z32 - z38 * z41);
+    const Real z48 = z40 * z45 - z41 * z47;
+    const Real z49 = z22 * z26 - z31 * z47 - z37 * z48;
+    const Real x_ddot = -z49;
+    const Real z50 = z20 * z25;
+    const Real z51 = z50 + z29 * z47 + z35 * z48 - z21 * z49;
+    const Real z52 = z43 + z14 * z48 - z15 * z49 - z17 * z51;
+    const Real y_ddot = -z52;
+    const Real psi_ddot = -z51;
+    const Real theta_ddot = k5 * f3 + z11 * z49 - z12 * z52;
+    const Real z53 = -k6 * f4;
+    const Real z54 = z53 - z27 * z47 - z33 * z48 - z19 * z51;
+    const Real phi_ddot = -z54;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = psi_dot;
+    rate[3] = theta_dot;
+    rate[4] = phi_dot;
+    rate[5] = x_ddot;
+    rate[6] = y_ddot;
+    rate[7] = psi_ddot;
+    rate[8] = theta_ddot;
+    rate[9] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7], &k3 = par[8];
+    const Real &k4 = par[9];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Mass matrix M(q), lower triangle
+    const Real z0 = k0 * sin_theta;
+    const Real M20 = z0 * cos_psi;
+    const Real M21 = z0 * sin_psi;
+    const Real M22 = k1 + M33 * sin_theta * sin_theta;
+    const Real z1 = k0 * cos_theta;
+    const Real M30 = z1 * sin_psi;
+    const Real M31 = -z1 * cos_psi;
+    const Real M42 = M44 * sin_theta;
+
+    // Forcing f
+    const Real z2 = psi_dot * cos_theta;
+    const Real z3 = theta_dot * z2;
+    const Real z4 = k2 * z3;
+    const Real z5 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real f0 = M21 * z5 - z4 * cos_psi;
+    const Real f1 = -z4 * sin_psi - M20 * z5;
+    const Real z6 = M44 * phi_dot;
+    const Real z7 = theta_dot * (z6 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real f2 = -z7;
+    const Real z8 = (k4 + M33 * psi_dot * z2) * sin_theta;
+    const Real f3 = z6 * z2 + z8;
+    const Real f4 = -M44 * z3;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[5] = Real(0);
+    mass[6] = m;
+    mass[2] = mass[10] = M20;
+    mass[7] = mass[11] = M21;
+    mass[12] = M22;
+    mass[3] = mass[15] = M30;
+    mass[8] = mass[16] = M31;
+    mass[13] = mass[17] = Real(0);
+    mass[18] = M33;
+    mass[4] = mass[20] = Real(0);
+    mass[9] = mass[21] = Real(0);
+    mass[14] = mass[22] = M42;
+    mass[19] = mass[23] = Real(0);
+    mass[24] = M44;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = f2;
+    forcing[3] = f3;
+    forcing[4] = f4;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
+    const Real &theta_dot = state[8], &phi_dot = state[9];
+    const Real &k0 = par[3], &k1 = par[4], &M44 = par[6], &k4 = par[9], &k7 = par[12], &k8 = par[13];
+    const Real &k9 = par[14];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Energy
+    const Real z0 = theta_dot * cos_theta;
+    const Real z1 = (x_dot * cos_psi + y_dot * sin_psi) * psi_dot * sin_theta;
+    const Real z2 = y_dot * cos_psi * z0 - (x_dot * sin_psi * z0 + z1);
+    const Real z3 = k8 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z4 = k1 * phi_dot * phi_dot + k7 * theta_dot * theta_dot + z3;
+    const Real z5 = k9 * psi_dot * (Real(5) * sin_theta * sin_theta + Real(1));
+    const Real z6 = z4 + psi_dot * (M44 * phi_dot * sin_theta + z5);
+    const Real z7 = k0 * z2 - z6;
+    const Real T = -z7;
+    const Real V = k4 * cos_theta;
+    const Real E = V - z7;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &psi = state[2], &x_dot = state[5], &y_dot = state[6], &phi_dot = state[9];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Constraints
+    const Real z0 = r * cos_psi;
+    const Real z1 = r * sin_psi;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = x_dot - phi_dot * z0;
+    velocity[1] = y_dot - phi_dot * z1;
+    rows[0] = Real(1);
+    rows[1] = Real(0);
+    rows[2] = Real(0);
+    rows[3] = Real(0);
+    rows[4] = -z0;
+    rows[5] = Real(0);
+    rows[6] = Real(1);
+    rows[7] = Real(0);
+    rows[8] = Real(0);
+    rows[9] = -z1;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
+    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Multipliers
+    const Real z0 = k0 * sin_theta;
+    const Real z1 = z0 * cos_psi;
+    const Real z2 = z0 * sin_psi;
+    const Real z3 = k0 * cos_theta;
+    const Real z4 = z3 * sin_psi;
+    const Real z5 = z3 * cos_psi;
+    const Real z6 = M44 * sin_theta;
+    const Real z7 = psi_dot * cos_theta;
+    const Real z8 = theta_dot * z7;
+    const Real z9 = k2 * z8;
+    const Real z10 = psi_dot * psi_dot + theta_dot * theta_dot;
+    const Real z11 = M44 * phi_dot;
+    const Real z12 = theta_dot * (z11 + k3 * psi_dot * sin_theta) * cos_theta;
+    const Real z13 = (k4 + M33 * psi_dot * z7) * sin_theta;
+    const Real z14 = z11 * z7 + z13;
+    const Real z15 = M44 * z8;
+    const Real z16 = r * cos_psi;
+    const Real z17 = r * sin_psi;
+    const Real z18 = psi_dot * phi_dot;
+    const Real z19 = k5 * z4;
+    const Real z20 = k5 * z5;
+    const Real z21 = z4 * z20;
+    const Real z22 = Real(1) / (m - z5 * z20);
+    const Real z23 = z21 * z22;
+    const Real z24 = (m - z4 * z19) - z21 * z23;
+    const Real z25 = z2 * z22;
+    const Real z26 = z1 - z21 * z25;
+    const Real z27 = k6 * z6;
+    const Real z28 = (k1 + M33 * sin_theta * sin_theta) - z6 * z27;
+    const Real z29 = Real(1) / (z28 - z2 * z25);
+    const Real z30 = z26 * z29;
+    const Real z31 = Real(1) / (z24 - z26 * z30);
+    const Real z32 = (z9 * cos_psi - z2 * z10) + z19 * z14;
+    const Real z33 = (z9 * sin_psi + z1 * z10) - z20 * z14;
+    const Real z34 = (z12 - z15 * z27) - z25 * z33;
+    const Real z35 = (z32 - z23 * z33) - z30 * z34;
+    const Real z36 = k6 * z16;
+    const Real z37 = z6 * z36;
+    const Real z38 = z37 * z29;
+    const Real z39 = z26 * z38 - Real(1);
+    const Real z40 = z39 * z31;
+    const Real z41 = (z36 * z16 + z37 * z38) + z39 * z40;
+    const Real z42 = k6 * z17;
+    const Real z43 = z6 * z42 - z25;
+    const Real z44 = z43 * z29;
+    const Real z45 = z23 + z26 * z44;
+    const Real z46 = z45 * z31;
+    const Real z47 = (z42 * z16 + z37 * z44) + z39 * z46;
+    const Real z48 = (z42 * z17 + z22) + z43 * z44;
+    const Real z49 = Real(1) / (z48 + z45 * z46);
+    const Real z50 = z47 * z49;
+    const Real z51 = (z36 * z15 + z17 * z18) - z38 * z34;
+    const Real z52 = (z42 * z15 - z16 * z18) - z22 * z33;
+    const Real z53 = (z52 - z44 * z34) + z35 * z46;
+    const Real z54 = (z51 + z40 * z35) - z53 * z50;
+    const Real z55 = z54 / (z41 - z47 * z50);
+    const Real lambda_rim_x = -z55;
+    const Real lambda_rim_y = z50 * z55 - z49 * z53;
+
+    // Result
+    lambda[0] = lambda_rim_x;
+    lambda[1] = lambda_rim_y;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k5 = par[10];
+    const Real &k6 = par[11];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, psi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
+        cos_psi = trig0.cosine[1];
+
+    // Projection
+    const Real z0 = k0 * sin_theta;
+    const Real z1 = z0 * sin_psi;
+    const Real z2 = k0 * cos_theta;
+    const Real z3 = z2 * sin_psi;
+    const Real z4 = z2 * cos_psi;
+    const Real z5 = M44 * sin_theta;
+    const Real z6 = r * cos_psi;
+    const Real z7 = r * sin_psi;
+    const Real z8 = y_dot - phi_dot * z7;
+    const Real z9 = k5 * z3;
+    const Real z10 = k5 * z4;
+    const Real z11 = z3 * z10;
+    const Real z12 = Real(1) / (m - z4 * z10);
+    const Real z13 = z11 * z12;
+    const Real z14 = (m - z3 * z9) - z11 * z13;
+    const Real z15 = z1 * z12;
+    const Real z16 = z0 * cos_psi - z11 * z15;
+    const Real z17 = k6 * z5;
+    const Real z18 = (k1 + M33 * sin_theta * sin_theta) - z5 * z17;
+    const Real z19 = Real(1) / (z18 - z1 * z15);
+    const Real z20 = z16 * z19;
+    const Real z21 = Real(1) / (z14 - z16 * z20);
+    const Real z22 = k6 * z6;
+    const Real z23 = z5 * z22;
+    const Real z24 = z23 * z19;
+    const Real z25 = z16 * z24 - Real(1);
+    const Real z26 = z25 * z21;
+    const Real z27 = (z22 * z6 + z23 * z24) + z25 * z26;
+    const Real z28 = k6 * z7;
+    const Real z29 = z5 * z28 - z15;
+    const Real z30 = z29 * z19;
+    const Real z31 = z13 + z16 * z30;
+    const Real z32 = z31 * z21;
+    const Real z33 = (z28 * z6 + z23 * z30) + z25 * z32;
+    const Real z34 = (z28 * z7 + z12) + z29 * z30;
+    const Real z35 = z34 + z31 * z32;
+    const Real z36 = Real(1) / z35;
+    const Real z37 = z33 * z36;
+    const Real z38 = z27 - z33 * z37;
+    const Real z39 = z37 * z8 - (x_dot - phi_dot * z6);
+    const Real z40 = z39 / z38;
+    const Real z41 = z36 * z8 + z37 * z40;
+    const Real z42 = z26 * z40 - z32 * z41;
+    const Real z43 = z24 * z40 - z30 * z41 + z20 * z42;
+    const Real z44 = z12 * z41 - z13 * z42 + z15 * z43;
+    const Real z45 = z22 * z40 - z28 * z41 + z17 * z43;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = psi;
+    out[3] = theta;
+    out[4] = phi;
+    out[5] = x_dot - z42;
+    out[6] = y_dot - z44;
+    out[7] = psi_dot + z43;
+    out[8] = theta_dot + (z9 * z42 - z10 * z44);
+    out[9] = phi_dot - z45;
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z38;
+    pivots[1] = z35;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &psi = state[2], &psi_dot = state[7], &phi_dot = state[9];
+    const Real &r = par[1];
+
+    // Trigonometry
+    const auto [sin_psi, cos_psi] = sincos(psi);
+
+    // Constraints
+    const Real z0 = psi_dot * phi_dot;
+    const Real gamma0 = -r * sin_psi * z0;
+    const Real gamma1 = r * cos_psi * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,460 +616,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &r = par[1], &g = par[2];
-
-    // Constants
-    const Real k0 = m * r;
-    const Real z0 = m * r * r;
-    const Real k1 = Real(0.25) * z0;
-    const Real M33 = Real(1.25) * z0;
-    const Real M44 = Real(0.5) * z0;
-    const Real k2 = Real(2) * k0;
-    const Real k3 = Real(2.5) * z0;
-    const Real k4 = m * r * g;
-    const Real z1 = Real(1) / z0;
-    const Real k5 = Real(0.8) * z1;
-    const Real k6 = Real(2) * z1;
-    const Real k7 = Real(0.625) * z0;
-    const Real k8 = Real(0.5) * m;
-    const Real k9 = Real(0.125) * z0;
-
-    // Result
-    par[3] = k0;
-    par[4] = k1;
-    par[5] = M33;
-    par[6] = M44;
-    par[7] = k2;
-    par[8] = k3;
-    par[9] = k4;
-    par[10] = k5;
-    par[11] = k6;
-    par[12] = k7;
-    par[13] = k8;
-    par[14] = k9;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
-    const Real &theta_dot = state[8], &phi_dot = state[9];
-    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
-    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, psi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
-        cos_psi = trig0.cosine[1];
-
-    // Mass matrix M(q), lower triangle
-    const Real z0 = k0 * sin_theta;
-    const Real M20 = z0 * cos_psi;
-    const Real M21 = z0 * sin_psi;
-    const Real M22 = k1 + M33 * sin_theta * sin_theta;
-    const Real z1 = k0 * cos_theta;
-    const Real M30 = z1 * sin_psi;
-    const Real M42 = M44 * sin_theta;
-
-    // Forcing f
-    const Real z2 = psi_dot * cos_theta;
-    const Real z3 = M44 * phi_dot;
-    const Real z4 = (k4 + M33 * psi_dot * z2) * sin_theta;
-    const Real f3 = z3 * z2 + z4;
-
-    // Constraints A q'' = gamma
-    const Real z5 = r * cos_psi;
-    const Real z6 = psi_dot * phi_dot;
-    const Real gamma1 = z5 * z6;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z7 = z1 * cos_psi;
-    const Real z8 = theta_dot * z2;
-    const Real z9 = k2 * z8;
-    const Real z10 = psi_dot * psi_dot + theta_dot * theta_dot;
-    const Real z11 = theta_dot * (z3 + k3 * psi_dot * sin_theta) * cos_theta;
-    const Real z12 = M44 * z8;
-    const Real z13 = r * sin_psi;
-    const Real z14 = k5 * M30;
-    const Real z15 = k5 * z7;
-    const Real z16 = M30 * z15;
-    const Real z17 = Real(1) / (m - z7 * z15);
-    const Real z18 = z16 * z17;
-    const Real z19 = (m - M30 * z14) - z16 * z18;
-    const Real z20 = M21 * z17;
-    const Real z21 = M20 - z16 * z20;
-    const Real z22 = k6 * M42;
-    const Real z23 = Real(1) / ((M22 - M42 * z22) - M21 * z20);
-    const Real z24 = z21 * z23;
-    const Real z25 = Real(1) / (z19 - z21 * z24);
-    const Real z26 = (z9 * cos_psi - M21 * z10) + z14 * f3;
-    const Real z27 = (z9 * sin_psi + M20 * z10) - z15 * f3;
-    const Real z28 = (z11 - z12 * z22) - z20 * z27;
-    const Real z29 = (z26 - z18 * z27) - z24 * z28;
-    const Real z30 = k6 * z5;
-    const Real z31 = M42 * z30;
-    const Real z32 = z31 * z23;
-    const Real z33 = z21 * z32 - Real(1);
-    const Real z34 = z33 * z25;
-    const Real z35 = (z30 * z5 + z31 * z32) + z33 * z34;
-    const Real z36 = k6 * z13;
-    const Real z37 = M42 * z36 - z20;
-    const Real z38 = z37 * z23;
-    const Real z39 = z18 + z21 * z38;
-    const Real z40 = z39 * z25;
-    const Real z41 = (z36 * z5 + z31 * z38) + z33 * z40;
-    const Real z42 = (z36 * z13 + z17) + z37 * z38;
-    const Real z43 = Real(1) / (z42 + z39 * z40);
-    const Real z44 = z41 * z43;
-    const Real z45 = (z30 * z12 + z13 * z6) - z32 * z28;
-    const Real z46 = z17 * z27;
-    const Real z47 = ((z36 * z12 - gamma1) - z46) - z38 * z28;
-    const Real z48 = z47 + z29 * z40;
-    const Real z49 = (z45 + z34 * z29) - z48 * z44;
-    const Real z50 = z49 / (z35 - z41 * z44);
-    const Real z51 = z43 * z48 - z44 * z50;
-    const Real z52 = z25 * z29 - z34 * z50 - z40 * z51;
-    const Real x_ddot = -z52;
-    const Real z53 = z23 * z28;
-    const Real z54 = z53 + z32 * z50 + z38 * z51 - z24 * z52;
-    const Real z55 = z46 + z17 * z51 - z18 * z52 - z20 * z54;
-    const Real y_ddot = -z55;
-    const Real psi_ddot = -z54;
-    const Real theta_ddot = k5 * f3 + z14 * z52 - z15 * z55;
-    const Real z56 = k6 * z12;
-    const Real z57 = z56 - z30 * z50 - z36 * z51 - z22 * z54;
-    const Real phi_ddot = -z57;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = psi_dot;
-    rate[3] = theta_dot;
-    rate[4] = phi_dot;
-    rate[5] = x_ddot;
-    rate[6] = y_ddot;
-    rate[7] = psi_ddot;
-    rate[8] = theta_ddot;
-    rate[9] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
-    const Real &phi_dot = state[9];
-    const Real &m = par[0], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7], &k3 = par[8];
-    const Real &k4 = par[9];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, psi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
-        cos_psi = trig0.cosine[1];
-
-    // Mass matrix M(q), lower triangle
-    const Real z0 = k0 * sin_theta;
-    const Real M20 = z0 * cos_psi;
-    const Real M21 = z0 * sin_psi;
-    const Real M22 = k1 + M33 * sin_theta * sin_theta;
-    const Real z1 = k0 * cos_theta;
-    const Real M30 = z1 * sin_psi;
-    const Real M31 = -z1 * cos_psi;
-    const Real M42 = M44 * sin_theta;
-
-    // Forcing f
-    const Real z2 = psi_dot * cos_theta;
-    const Real z3 = theta_dot * z2;
-    const Real z4 = k2 * z3;
-    const Real z5 = psi_dot * psi_dot + theta_dot * theta_dot;
-    const Real f0 = M21 * z5 - z4 * cos_psi;
-    const Real f1 = -z4 * sin_psi - M20 * z5;
-    const Real z6 = M44 * phi_dot;
-    const Real z7 = theta_dot * (z6 + k3 * psi_dot * sin_theta) * cos_theta;
-    const Real f2 = -z7;
-    const Real z8 = (k4 + M33 * psi_dot * z2) * sin_theta;
-    const Real f3 = z6 * z2 + z8;
-    const Real f4 = -M44 * z3;
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[5] = Real(0);
-    mass[6] = m;
-    mass[2] = mass[10] = M20;
-    mass[7] = mass[11] = M21;
-    mass[12] = M22;
-    mass[3] = mass[15] = M30;
-    mass[8] = mass[16] = M31;
-    mass[13] = mass[17] = Real(0);
-    mass[18] = M33;
-    mass[4] = mass[20] = Real(0);
-    mass[9] = mass[21] = Real(0);
-    mass[14] = mass[22] = M42;
-    mass[19] = mass[23] = Real(0);
-    mass[24] = M44;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = f2;
-    forcing[3] = f3;
-    forcing[4] = f4;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &psi = state[2], &theta = state[3], &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7];
-    const Real &theta_dot = state[8], &phi_dot = state[9];
-    const Real &k0 = par[3], &k1 = par[4], &M44 = par[6], &k4 = par[9], &k7 = par[12], &k8 = par[13];
-    const Real &k9 = par[14];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, psi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
-        cos_psi = trig0.cosine[1];
-
-    // Energy
-    const Real z0 = theta_dot * cos_theta;
-    const Real z1 = (x_dot * cos_psi + y_dot * sin_psi) * psi_dot * sin_theta;
-    const Real z2 = y_dot * cos_psi * z0 - (x_dot * sin_psi * z0 + z1);
-    const Real z3 = k8 * (x_dot * x_dot + y_dot * y_dot);
-    const Real z4 = k1 * phi_dot * phi_dot + k7 * theta_dot * theta_dot + z3;
-    const Real z5 = k9 * psi_dot * (Real(5) * sin_theta * sin_theta + Real(1));
-    const Real z6 = z4 + psi_dot * (M44 * phi_dot * sin_theta + z5);
-    const Real z7 = k0 * z2 - z6;
-    const Real T = -z7;
-    const Real V = k4 * cos_theta;
-    const Real E = V - z7;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &psi = state[2], &x_dot = state[5], &y_dot = state[6], &phi_dot = state[9];
-    const Real &r = par[1];
-
-    // Trigonometry
-    const auto [sin_psi, cos_psi] = sincos(psi);
-
-    // Constraints
-    const Real z0 = r * cos_psi;
-    const Real z1 = r * sin_psi;
-
-    // Result
-    position[0] = Real(0);
-    position[1] = Real(0);
-    velocity[0] = x_dot - phi_dot * z0;
-    velocity[1] = y_dot - phi_dot * z1;
-    rows[0] = Real(1);
-    rows[1] = Real(0);
-    rows[2] = Real(0);
-    rows[3] = Real(0);
-    rows[4] = -z0;
-    rows[5] = Real(0);
-    rows[6] = Real(1);
-    rows[7] = Real(0);
-    rows[8] = Real(0);
-    rows[9] = -z1;
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &psi = state[2], &theta = state[3], &psi_dot = state[7], &theta_dot = state[8];
-    const Real &phi_dot = state[9];
-    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k2 = par[7];
-    const Real &k3 = par[8], &k4 = par[9], &k5 = par[10], &k6 = par[11];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, psi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
-        cos_psi = trig0.cosine[1];
-
-    // Multipliers
-    const Real z0 = k0 * sin_theta;
-    const Real z1 = z0 * cos_psi;
-    const Real z2 = z0 * sin_psi;
-    const Real z3 = k0 * cos_theta;
-    const Real z4 = z3 * sin_psi;
-    const Real z5 = z3 * cos_psi;
-    const Real z6 = M44 * sin_theta;
-    const Real z7 = psi_dot * cos_theta;
-    const Real z8 = theta_dot * z7;
-    const Real z9 = k2 * z8;
-    const Real z10 = psi_dot * psi_dot + theta_dot * theta_dot;
-    const Real z11 = M44 * phi_dot;
-    const Real z12 = theta_dot * (z11 + k3 * psi_dot * sin_theta) * cos_theta;
-    const Real z13 = (k4 + M33 * psi_dot * z7) * sin_theta;
-    const Real z14 = z11 * z7 + z13;
-    const Real z15 = M44 * z8;
-    const Real z16 = r * cos_psi;
-    const Real z17 = r * sin_psi;
-    const Real z18 = psi_dot * phi_dot;
-    const Real z19 = k5 * z4;
-    const Real z20 = k5 * z5;
-    const Real z21 = z4 * z20;
-    const Real z22 = Real(1) / (m - z5 * z20);
-    const Real z23 = z21 * z22;
-    const Real z24 = (m - z4 * z19) - z21 * z23;
-    const Real z25 = z2 * z22;
-    const Real z26 = z1 - z21 * z25;
-    const Real z27 = k6 * z6;
-    const Real z28 = (k1 + M33 * sin_theta * sin_theta) - z6 * z27;
-    const Real z29 = Real(1) / (z28 - z2 * z25);
-    const Real z30 = z26 * z29;
-    const Real z31 = Real(1) / (z24 - z26 * z30);
-    const Real z32 = (z9 * cos_psi - z2 * z10) + z19 * z14;
-    const Real z33 = (z9 * sin_psi + z1 * z10) - z20 * z14;
-    const Real z34 = (z12 - z15 * z27) - z25 * z33;
-    const Real z35 = (z32 - z23 * z33) - z30 * z34;
-    const Real z36 = k6 * z16;
-    const Real z37 = z6 * z36;
-    const Real z38 = z37 * z29;
-    const Real z39 = z26 * z38 - Real(1);
-    const Real z40 = z39 * z31;
-    const Real z41 = (z36 * z16 + z37 * z38) + z39 * z40;
-    const Real z42 = k6 * z17;
-    const Real z43 = z6 * z42 - z25;
-    const Real z44 = z43 * z29;
-    const Real z45 = z23 + z26 * z44;
-    const Real z46 = z45 * z31;
-    const Real z47 = (z42 * z16 + z37 * z44) + z39 * z46;
-    const Real z48 = (z42 * z17 + z22) + z43 * z44;
-    const Real z49 = Real(1) / (z48 + z45 * z46);
-    const Real z50 = z47 * z49;
-    const Real z51 = (z36 * z15 + z17 * z18) - z38 * z34;
-    const Real z52 = (z42 * z15 - z16 * z18) - z22 * z33;
-    const Real z53 = (z52 - z44 * z34) + z35 * z46;
-    const Real z54 = (z51 + z40 * z35) - z53 * z50;
-    const Real z55 = z54 / (z41 - z47 * z50);
-    const Real lambda_rim_x = -z55;
-    const Real lambda_rim_y = z50 * z55 - z49 * z53;
-
-    // Result
-    lambda[0] = lambda_rim_x;
-    lambda[1] = lambda_rim_y;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &y = state[1], &psi = state[2], &theta = state[3], &phi = state[4];
-    const Real &x_dot = state[5], &y_dot = state[6], &psi_dot = state[7], &theta_dot = state[8];
-    const Real &phi_dot = state[9];
-    const Real &m = par[0], &r = par[1], &k0 = par[3], &k1 = par[4], &M33 = par[5], &M44 = par[6], &k5 = par[10];
-    const Real &k6 = par[11];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, psi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_psi = trig0.sine[1],
-        cos_psi = trig0.cosine[1];
-
-    // Projection
-    const Real z0 = k0 * sin_theta;
-    const Real z1 = z0 * sin_psi;
-    const Real z2 = k0 * cos_theta;
-    const Real z3 = z2 * sin_psi;
-    const Real z4 = z2 * cos_psi;
-    const Real z5 = M44 * sin_theta;
-    const Real z6 = r * cos_psi;
-    const Real z7 = r * sin_psi;
-    const Real z8 = y_dot - phi_dot * z7;
-    const Real z9 = k5 * z3;
-    const Real z10 = k5 * z4;
-    const Real z11 = z3 * z10;
-    const Real z12 = Real(1) / (m - z4 * z10);
-    const Real z13 = z11 * z12;
-    const Real z14 = (m - z3 * z9) - z11 * z13;
-    const Real z15 = z1 * z12;
-    const Real z16 = z0 * cos_psi - z11 * z15;
-    const Real z17 = k6 * z5;
-    const Real z18 = (k1 + M33 * sin_theta * sin_theta) - z5 * z17;
-    const Real z19 = Real(1) / (z18 - z1 * z15);
-    const Real z20 = z16 * z19;
-    const Real z21 = Real(1) / (z14 - z16 * z20);
-    const Real z22 = k6 * z6;
-    const Real z23 = z5 * z22;
-    const Real z24 = z23 * z19;
-    const Real z25 = z16 * z24 - Real(1);
-    const Real z26 = z25 * z21;
-    const Real z27 = (z22 * z6 + z23 * z24) + z25 * z26;
-    const Real z28 = k6 * z7;
-    const Real z29 = z5 * z28 - z15;
-    const Real z30 = z29 * z19;
-    const Real z31 = z13 + z16 * z30;
-    const Real z32 = z31 * z21;
-    const Real z33 = (z28 * z6 + z23 * z30) + z25 * z32;
-    const Real z34 = (z28 * z7 + z12) + z29 * z30;
-    const Real z35 = z34 + z31 * z32;
-    const Real z36 = Real(1) / z35;
-    const Real z37 = z33 * z36;
-    const Real z38 = z27 - z33 * z37;
-    const Real z39 = z37 * z8 - (x_dot - phi_dot * z6);
-    const Real z40 = z39 / z38;
-    const Real z41 = z36 * z8 + z37 * z40;
-    const Real z42 = z26 * z40 - z32 * z41;
-    const Real z43 = z24 * z40 - z30 * z41 + z20 * z42;
-    const Real z44 = z12 * z41 - z13 * z42 + z15 * z43;
-    const Real z45 = z22 * z40 - z28 * z41 + z17 * z43;
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-    out[2] = psi;
-    out[3] = theta;
-    out[4] = phi;
-    out[5] = x_dot - z42;
-    out[6] = y_dot - z44;
-    out[7] = psi_dot + z43;
-    out[8] = theta_dot + (z9 * z42 - z10 * z44);
-    out[9] = phi_dot - z45;
-    position[0] = Real(0);
-    position[1] = Real(0);
-    pivots[0] = z38;
-    pivots[1] = z35;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &psi = state[2], &psi_dot = state[7], &phi_dot = state[9];
-    const Real &r = par[1];
-
-    // Trigonometry
-    const auto [sin_psi, cos_psi] = sincos(psi);
-
-    // Constraints
-    const Real z0 = psi_dot * phi_dot;
-    const Real gamma0 = -r * sin_psi * z0;
-    const Real gamma1 = r * cos_psi * z0;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -684,12 +665,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

@@ -7,26 +7,7 @@
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
-
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
-
+namespace {  // seen in this file alone
 
 /// What depends on parameters alone, after the parameters.
 template <typename Real>
@@ -44,9 +25,15 @@ void prepare(Real* par) {
 
 /// rate = (q', q'') at t and state = (q, q').
 template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
     const Real &x_dot = state[2], &y_dot = state[3];
-    const Real &m = par[0], &k1 = par[4];
+    const Real &k1 = par[4];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m
+
+    // Forcing f
+    // f0 = 0, f1 = -k0
 
     // Result
     rate[0] = x_dot;
@@ -57,7 +44,7 @@ void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] con
 
 /// M (n by n, row-major) and f of M q'' = f.
 template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
     const Real &m = par[0], &k0 = par[3];
 
     // Result
@@ -70,7 +57,7 @@ void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* s
 
 /// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
 template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
     const Real &y = state[1], &x_dot = state[2], &y_dot = state[3];
     const Real &m = par[0], &k0 = par[3];
 
@@ -79,45 +66,22 @@ void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, 
     const Real T = Real(0.5) * z0;
     const Real V = k0 * y;
     const Real E = V + Real(0.5) * z0;
-    const Real z1 = y_dot * m * y_dot + x_dot * m * x_dot;
-    const Real h = z1 + (V - Real(0.5) * z0);
 
     // Result
     energy[0] = T;
     energy[1] = V;
     energy[2] = E;
     energy[3] = Real(0);
-    jacobi[0] = h;
+    jacobi[0] = E;
 }
 
 /// The scene's outputs.
 template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
+void outputs_at(const Real&, const Real*, const Real*, const Real*, Real* out) {
 
 
     // Result
     out[0] = Real(0);
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
 }
 
 // What the runtime loads (alembert/abi.hpp).
@@ -172,13 +136,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

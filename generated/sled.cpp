@@ -3,29 +3,185 @@
 //
 //   state  xC [m], yC [m], phi [rad], then their rates
 //   par    m [kg], J [kg*m^2]
-//   cost   12 operations a right-hand side: 2 additions, 8 multiplications, 1 divisions, 1 functions
+//   cost   12 operations a right-hand side: 2 additions, 8 multiplications, 1 division, 1 function
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
 inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &J = par[1];
+
+    // Constants
+    const Real k0 = Real(1) / m;
+    const Real k1 = Real(0.5) * m;
+    const Real k2 = Real(0.5) * J;
+
+    // Result
+    par[2] = k0;
+    par[3] = k1;
+    par[4] = k2;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
+    const Real &k0 = par[2];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M20 = 0, M21 = 0, M22 = J
+
+    // Forcing f
+    // f0 = 0, f1 = 0, f2 = 0
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = tan(phi);
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z0 = xC_dot * phi_dot * (A0_0 * A0_0 + Real(1));
+    const Real z1 = k0 * A0_0;
+    const Real z2 = z0 / (k0 + z1 * A0_0);
+    const Real xC_ddot = -z1 * z2;
+    const Real yC_ddot = k0 * z2;
+
+    // Result
+    rate[0] = xC_dot;
+    rate[1] = yC_dot;
+    rate[2] = phi_dot;
+    rate[3] = xC_ddot;
+    rate[4] = yC_ddot;
+    rate[5] = Real(0);
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &J = par[1];
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[3] = Real(0);
+    mass[4] = m;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = J;
+    forcing[0] = Real(0);
+    forcing[1] = Real(0);
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
+    const Real &k1 = par[3], &k2 = par[4];
+
+    // Energy
+    const Real T = k1 * (xC_dot * xC_dot + yC_dot * yC_dot) + k2 * phi_dot * phi_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = Real(0);
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real*, Real* out) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real v = xC_dot * cos_phi + yC_dot * sin_phi;
+
+    // Result
+    out[0] = v;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real*, Real* position, Real* velocity, Real* rows) {
+    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+
+    // Constraints
+    const Real z0 = tan(phi);
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = xC_dot * z0 - yC_dot;
+    rows[0] = z0;
+    rows[1] = Real(-1);
+    rows[2] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
+    const Real &k0 = par[2];
+
+    // Multipliers
+    const Real z0 = tan(phi);
+    const Real z1 = Real(1) / (k0 + k0 * z0 * z0);
+    const Real lambda1 = -z1 * xC_dot * phi_dot * (z0 * z0 + Real(1));
+
+    // Result
+    lambda[0] = lambda1;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &xC = state[0], &yC = state[1], &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
+    const Real &phi_dot = state[5];
+    const Real &k0 = par[2];
+
+    // Projection
+    const Real z0 = tan(phi);
+    const Real z1 = k0 * z0;
+    const Real z2 = k0 + z1 * z0;
+    const Real z3 = (yC_dot - xC_dot * z0) / z2;
+
+    // Result
+    out[0] = xC;
+    out[1] = yC;
+    out[2] = phi;
+    out[3] = xC_dot + z1 * z3;
+    out[4] = yC_dot - k0 * z3;
+    out[5] = phi_dot;
+    position[0] = Real(0);
+    pivots[0] = z2;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real*, Real* out) {
+    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
+
+    // Constraints
+    const Real z0 = tan(phi);
+    const Real gamma0 = -xC_dot * phi_dot * (z0 * z0 + Real(1));
+
+    // Result
+    out[0] = gamma0;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,171 +337,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &J = par[1];
-
-    // Constants
-    const Real k0 = Real(1) / m;
-    const Real k1 = Real(0.5) * m;
-    const Real k2 = Real(0.5) * J;
-
-    // Result
-    par[2] = k0;
-    par[3] = k1;
-    par[4] = k2;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
-    const Real &m = par[0], &k0 = par[2];
-
-    // Constraints A q'' = gamma
-    const Real A0_0 = tan(phi);
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z0 = xC_dot * phi_dot * (A0_0 * A0_0 + Real(1));
-    const Real z1 = k0 * A0_0;
-    const Real z2 = z0 / (k0 + z1 * A0_0);
-    const Real xC_ddot = -z1 * z2;
-    const Real yC_ddot = k0 * z2;
-
-    // Result
-    rate[0] = xC_dot;
-    rate[1] = yC_dot;
-    rate[2] = phi_dot;
-    rate[3] = xC_ddot;
-    rate[4] = yC_ddot;
-    rate[5] = Real(0);
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &J = par[1];
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[3] = Real(0);
-    mass[4] = m;
-    mass[2] = mass[6] = Real(0);
-    mass[5] = mass[7] = Real(0);
-    mass[8] = J;
-    forcing[0] = Real(0);
-    forcing[1] = Real(0);
-    forcing[2] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &xC_dot = state[3], &yC_dot = state[4], &phi_dot = state[5];
-    const Real &k1 = par[3], &k2 = par[4];
-
-    // Energy
-    const Real T = k1 * (xC_dot * xC_dot + yC_dot * yC_dot) + k2 * phi_dot * phi_dot;
-
-    // Result
-    energy[0] = T;
-    energy[1] = Real(0);
-    energy[2] = T;
-    energy[3] = Real(0);
-    jacobi[0] = T;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Outputs
-    const Real v = xC_dot * cos_phi + yC_dot * sin_phi;
-
-    // Result
-    out[0] = v;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
-
-    // Constraints
-    const Real z0 = tan(phi);
-
-    // Result
-    position[0] = Real(0);
-    velocity[0] = xC_dot * z0 - yC_dot;
-    rows[0] = z0;
-    rows[1] = Real(-1);
-    rows[2] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
-    const Real &k0 = par[2];
-
-    // Multipliers
-    const Real z0 = tan(phi);
-    const Real z1 = Real(1) / (k0 + k0 * z0 * z0);
-    const Real lambda1 = -z1 * xC_dot * phi_dot * (z0 * z0 + Real(1));
-
-    // Result
-    lambda[0] = lambda1;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &xC = state[0], &yC = state[1], &phi = state[2], &xC_dot = state[3], &yC_dot = state[4];
-    const Real &phi_dot = state[5];
-    const Real &k0 = par[2];
-
-    // Projection
-    const Real z0 = tan(phi);
-    const Real z1 = k0 * z0;
-    const Real z2 = k0 + z1 * z0;
-    const Real z3 = (yC_dot - xC_dot * z0) / z2;
-
-    // Result
-    out[0] = xC;
-    out[1] = yC;
-    out[2] = phi;
-    out[3] = xC_dot + z1 * z3;
-    out[4] = yC_dot - k0 * z3;
-    out[5] = phi_dot;
-    position[0] = Real(0);
-    pivots[0] = z2;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &phi = state[2], &xC_dot = state[3], &phi_dot = state[5];
-
-    // Constraints
-    const Real z0 = tan(phi);
-    const Real gamma0 = -xC_dot * phi_dot * (z0 * z0 + Real(1));
-
-    // Result
-    out[0] = gamma0;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -398,9 +389,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

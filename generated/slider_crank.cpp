@@ -7,25 +7,343 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &r = par[3], &l = par[4], &g = par[5];
+
+    // Constants
+    const Real z0 = r * r * (m1 + Real(3) * m2);
+    const Real M00 = (Real(1) / Real(3)) * z0;
+    const Real k0 = Real(0.5) * m2 * r * l;
+    const Real z1 = m2 * l * l;
+    const Real M11 = (Real(1) / Real(3)) * z1;
+    const Real k1 = Real(0.5) * r * g * (m1 + Real(2) * m2);
+    const Real k2 = Real(0.5) * m2 * l * g;
+    const Real k3 = Real(3) * Real(1) / z1;
+    const Real k4 = Real(1) / m3;
+    const Real k5 = (Real(1) / Real(6)) * z0;
+    const Real k6 = (Real(1) / Real(6)) * z1;
+    const Real k7 = Real(0.5) * m3;
+
+    // Result
+    par[6] = M00;
+    par[7] = k0;
+    par[8] = M11;
+    par[9] = k1;
+    par[10] = k2;
+    par[11] = k3;
+    par[12] = k4;
+    par[13] = k5;
+    par[14] = k6;
+    par[15] = k7;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k3 = par[11];
+    const Real &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+
+    // Shared terms
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+
+    // Mass matrix M(q), lower triangle
+    // M20 = 0, M21 = 0, M22 = m3
+    const Real M10 = -k0 * cos_phi0;
+
+    // Forcing f
+    // f2 = 0
+    const Real z2 = k0 * sin_phi0;
+    const Real f0 = -k1 * cos_alpha - z2 * z0;
+    const Real f1 = k2 * cos_beta - z2 * z1;
+
+    // Constraints A q'' = gamma
+    const Real A0_0 = r * sin_alpha;
+    const Real A0_1 = l * sin_beta;
+    const Real A1_0 = r * cos_alpha;
+    const Real gamma1 = A0_0 * z1 - A0_1 * z0;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z3 = l * cos_beta;
+    const Real z4 = -k3 * M10;
+    const Real z5 = Real(1) / (M00 + M10 * z4);
+    const Real z6 = -f0 - z4 * f1;
+    const Real z7 = k3 * A0_1;
+    const Real z8 = A0_0 - z7 * M10;
+    const Real z9 = z5 * z8;
+    const Real z10 = z9 * z8 + (k4 + z7 * A0_1);
+    const Real z11 = k3 * z3;
+    const Real z12 = -M10 * z11 - A1_0;
+    const Real z13 = z5 * z12;
+    const Real z14 = z13 * z8 + z11 * A0_1;
+    const Real z15 = Real(1) / (z13 * z12 + z11 * z3);
+    const Real z16 = z14 * z15;
+    const Real z17 = z7 * f1 + (A1_0 * z1 + z3 * z0);
+    const Real z18 = z13 * z6 - (z11 * f1 + gamma1);
+    const Real z19 = (z9 * z6 - z17) - z18 * z16;
+    const Real z20 = z19 / (z10 - z14 * z16);
+    const Real z21 = z15 * z18 - z16 * z20;
+    const Real z22 = z5 * z6 - z9 * z20 - z13 * z21;
+    const Real alpha_ddot = -z22;
+    const Real z23 = z20 * z7;
+    const Real beta_ddot = z23 + z21 * z11 - z22 * z4 + k3 * f1;
+    const Real x_ddot = k4 * z20;
+
+    // Result
+    rate[0] = alpha_dot;
+    rate[1] = beta_dot;
+    rate[2] = x_dot;
+    rate[3] = alpha_ddot;
+    rate[4] = beta_ddot;
+    rate[5] = x_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &m3 = par[2], &M00 = par[6], &k0 = par[7], &M11 = par[8], &k1 = par[9], &k2 = par[10];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_alpha = trig0.cosine[1],
+        cos_beta = trig0.cosine[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = -k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -k1 * cos_alpha - z0 * beta_dot * beta_dot;
+    const Real f1 = k2 * cos_beta - z0 * alpha_dot * alpha_dot;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[3] = M10;
+    mass[4] = M11;
+    mass[2] = mass[6] = Real(0);
+    mass[5] = mass[7] = Real(0);
+    mass[8] = m3;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &k0 = par[7], &k1 = par[9], &k2 = par[10], &k5 = par[13], &k6 = par[14], &k7 = par[15];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], sin_beta = trig0.sine[2];
+
+    // Energy
+    const Real z0 = k5 * alpha_dot * alpha_dot;
+    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
+    const Real T = z0 + k6 * beta_dot * beta_dot - z1 + k7 * x_dot * x_dot;
+    const Real V = k1 * sin_alpha - k2 * sin_beta;
+    const Real E = V + T;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &r = par[3], &l = par[4];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = r * sin_alpha;
+    const Real z1 = l * sin_beta;
+    const Real z2 = r * cos_alpha;
+    const Real z3 = l * cos_beta;
+
+    // Result
+    position[0] = x - z2 - z3;
+    position[1] = z0 - z1;
+    velocity[0] = x_dot + alpha_dot * z0 + beta_dot * z1;
+    velocity[1] = alpha_dot * z2 - beta_dot * z3;
+    rows[0] = z0;
+    rows[1] = z1;
+    rows[2] = Real(1);
+    rows[3] = z2;
+    rows[4] = -z3;
+    rows[5] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real* state, const Real* par, Real* lambda) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k3 = par[11];
+    const Real &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
+        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+
+    // Multipliers
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = k0 * sin_phi0;
+    const Real z2 = beta_dot * beta_dot;
+    const Real z3 = alpha_dot * alpha_dot;
+    const Real z4 = k2 * cos_beta - z1 * z3;
+    const Real z5 = r * sin_alpha;
+    const Real z6 = l * sin_beta;
+    const Real z7 = r * cos_alpha;
+    const Real z8 = l * cos_beta;
+    const Real z9 = k3 * z0;
+    const Real z10 = Real(1) / (M00 - z0 * z9);
+    const Real z11 = (k1 * cos_alpha + z1 * z2) - z9 * z4;
+    const Real z12 = k3 * z6;
+    const Real z13 = z12 * z0 + z5;
+    const Real z14 = z10 * z13;
+    const Real z15 = z14 * z13 + (k4 + z12 * z6);
+    const Real z16 = k3 * z8;
+    const Real z17 = z0 * z16 - z7;
+    const Real z18 = z10 * z17;
+    const Real z19 = z18 * z13 + z16 * z6;
+    const Real z20 = Real(1) / (z18 * z17 + z16 * z8);
+    const Real z21 = z19 * z20;
+    const Real z22 = z12 * z4 + (z7 * z3 + z8 * z2);
+    const Real z23 = z16 * z4 + (z5 * z3 - z6 * z2);
+    const Real z24 = z18 * z11 - z23;
+    const Real z25 = (z14 * z11 - z22) - z24 * z21;
+    const Real lambda1 = z25 / (z15 - z19 * z21);
+    const Real lambda2 = z21 * lambda1 - z20 * z24;
+
+    // Result
+    lambda[0] = lambda1;
+    lambda[1] = lambda2;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &x_dot = state[5];
+    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k3 = par[11], &k4 = par[12];
+
+    // Trigonometry
+    const Real phi0 = alpha + beta;
+    const auto trig0 = sincos(phi0, alpha, beta);
+    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
+        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
+    const Real z0 = k0 * cos_phi0;
+    const Real z1 = r * sin_alpha;
+    const Real z2 = l * sin_beta;
+    const Real z3 = r * cos_alpha;
+    const Real z4 = l * cos_beta;
+    const Real z5 = x - z3 - z4;
+    const Real z6 = z1 - z2;
+    const Real z7 = k3 * z0;
+    const Real z8 = Real(1) / (M00 - z0 * z7);
+    const Real z9 = k3 * z2;
+    const Real z10 = z9 * z0 + z1;
+    const Real z11 = z8 * z10;
+    const Real z12 = z11 * z10 + (k4 + z9 * z2);
+    const Real z13 = k3 * z4;
+    const Real z14 = z0 * z13 - z3;
+    const Real z15 = z8 * z14;
+    const Real z16 = z15 * z10 + z13 * z2;
+    const Real z17 = z15 * z14 + z13 * z4;
+    const Real z18 = Real(1) / z17;
+    const Real z19 = z16 * z18;
+    const Real z20 = z12 - z16 * z19;
+    const Real z21 = Real(1) / z20;
+    const Real z22 = (z19 * z6 + z5) * z21;
+    const Real z23 = z18 * z6 + z19 * z22;
+    const Real z24 = z11 * z22 - z15 * z23;
+    const Real phi1 = alpha - z24;
+    const Real z25 = z22 * z9 - z23 * z13 + z24 * z7;
+    const Real phi2 = beta - z25;
+    const auto trig1 = sincos(phi1, phi2);
+    const Real sin_phi1 = trig1.sine[0], cos_phi1 = trig1.cosine[0], sin_phi2 = trig1.sine[1],
+        cos_phi2 = trig1.cosine[1];
+
+    // Projection
+    const Real z26 = alpha_dot * r * sin_phi1;
+    const Real z27 = x_dot + z26 + beta_dot * l * sin_phi2;
+    const Real z28 = alpha_dot * r * cos_phi1 - beta_dot * l * cos_phi2;
+    const Real z29 = z21 * (z27 + z19 * z28);
+    const Real z30 = z18 * z28 + z19 * z29;
+    const Real z31 = z11 * z29 - z15 * z30;
+    const Real z32 = z29 * z9 - z30 * z13 + z31 * z7;
+
+    // Result
+    out[0] = phi1;
+    out[1] = phi2;
+    out[2] = x - k4 * z22;
+    out[3] = alpha_dot - z31;
+    out[4] = beta_dot - z32;
+    out[5] = x_dot - k4 * z29;
+    position[0] = z5;
+    position[1] = z6;
+    pivots[0] = z20;
+    pivots[1] = z17;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
+    const Real &r = par[3], &l = par[4];
+
+    // Trigonometry
+    const auto trig0 = sincos(alpha, beta);
+    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
+        cos_beta = trig0.cosine[1];
+
+    // Constraints
+    const Real z0 = beta_dot * beta_dot;
+    const Real z1 = alpha_dot * alpha_dot;
+    const Real z2 = r * cos_alpha * z1 + l * cos_beta * z0;
+    const Real gamma0 = -z2;
+    const Real gamma1 = r * sin_alpha * z1 - l * sin_beta * z0;
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,343 +499,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1], &m3 = par[2], &r = par[3], &l = par[4], &g = par[5];
-
-    // Constants
-    const Real z0 = r * r * (m1 + Real(3) * m2);
-    const Real M00 = (Real(1) / Real(3)) * z0;
-    const Real k0 = Real(0.5) * m2 * r * l;
-    const Real z1 = m2 * l * l;
-    const Real M11 = (Real(1) / Real(3)) * z1;
-    const Real k1 = Real(0.5) * r * g * (m1 + Real(2) * m2);
-    const Real k2 = Real(0.5) * m2 * l * g;
-    const Real k3 = Real(3) * Real(1) / z1;
-    const Real k4 = Real(1) / m3;
-    const Real k5 = (Real(1) / Real(6)) * z0;
-    const Real k6 = (Real(1) / Real(6)) * z1;
-    const Real k7 = Real(0.5) * m3;
-
-    // Result
-    par[6] = M00;
-    par[7] = k0;
-    par[8] = M11;
-    par[9] = k1;
-    par[10] = k2;
-    par[11] = k3;
-    par[12] = k4;
-    par[13] = k5;
-    par[14] = k6;
-    par[15] = k7;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &x_dot = state[5];
-    const Real &m3 = par[2], &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10];
-    const Real &k3 = par[11], &k4 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha + beta;
-    const auto trig0 = sincos(phi0, alpha, beta);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
-        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
-
-    // Shared terms
-    const Real z0 = alpha_dot * alpha_dot;
-
-    // Forcing f
-    const Real z1 = k0 * sin_phi0;
-    const Real f1 = k2 * cos_beta - z1 * z0;
-
-    // Constraints A q'' = gamma
-    const Real z2 = beta_dot * beta_dot;
-    const Real A0_0 = r * sin_alpha;
-    const Real A0_1 = l * sin_beta;
-    const Real A1_0 = r * cos_alpha;
-    const Real gamma1 = A0_0 * z0 - A0_1 * z2;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z3 = k0 * cos_phi0;
-    const Real z4 = l * cos_beta;
-    const Real z5 = k3 * z3;
-    const Real z6 = Real(1) / (M00 - z3 * z5);
-    const Real z7 = (k1 * cos_alpha + z1 * z2) - z5 * f1;
-    const Real z8 = k3 * A0_1;
-    const Real z9 = z8 * z3 + A0_0;
-    const Real z10 = z6 * z9;
-    const Real z11 = z10 * z9 + (k4 + z8 * A0_1);
-    const Real z12 = k3 * z4;
-    const Real z13 = z3 * z12 - A1_0;
-    const Real z14 = z6 * z13;
-    const Real z15 = z14 * z9 + z12 * A0_1;
-    const Real z16 = Real(1) / (z14 * z13 + z12 * z4);
-    const Real z17 = z15 * z16;
-    const Real z18 = z8 * f1 + (A1_0 * z0 + z4 * z2);
-    const Real z19 = z14 * z7 - (z12 * f1 + gamma1);
-    const Real z20 = (z10 * z7 - z18) - z19 * z17;
-    const Real z21 = z20 / (z11 - z15 * z17);
-    const Real z22 = z16 * z19 - z17 * z21;
-    const Real z23 = z6 * z7 - z10 * z21 - z14 * z22;
-    const Real alpha_ddot = -z23;
-    const Real z24 = z21 * z8;
-    const Real beta_ddot = z24 + z22 * z12 - z23 * z5 + k3 * f1;
-    const Real x_ddot = k4 * z21;
-
-    // Result
-    rate[0] = alpha_dot;
-    rate[1] = beta_dot;
-    rate[2] = x_dot;
-    rate[3] = alpha_ddot;
-    rate[4] = beta_ddot;
-    rate[5] = x_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &m3 = par[2], &M00 = par[6], &k0 = par[7], &M11 = par[8], &k1 = par[9], &k2 = par[10];
-
-    // Trigonometry
-    const Real phi0 = alpha + beta;
-    const auto trig0 = sincos(phi0, alpha, beta);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_alpha = trig0.cosine[1],
-        cos_beta = trig0.cosine[2];
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = -k0 * cos_phi0;
-
-    // Forcing f
-    const Real z0 = k0 * sin_phi0;
-    const Real f0 = -k1 * cos_alpha - z0 * beta_dot * beta_dot;
-    const Real f1 = k2 * cos_beta - z0 * alpha_dot * alpha_dot;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[3] = M10;
-    mass[4] = M11;
-    mass[2] = mass[6] = Real(0);
-    mass[5] = mass[7] = Real(0);
-    mass[8] = m3;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &x_dot = state[5];
-    const Real &k0 = par[7], &k1 = par[9], &k2 = par[10], &k5 = par[13], &k6 = par[14], &k7 = par[15];
-
-    // Trigonometry
-    const Real phi0 = alpha + beta;
-    const auto trig0 = sincos(phi0, alpha, beta);
-    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], sin_beta = trig0.sine[2];
-
-    // Energy
-    const Real z0 = k5 * alpha_dot * alpha_dot;
-    const Real z1 = alpha_dot * beta_dot * k0 * cos_phi0;
-    const Real T = z0 + k6 * beta_dot * beta_dot - z1 + k7 * x_dot * x_dot;
-    const Real V = k1 * sin_alpha - k2 * sin_beta;
-    const Real E = V + T;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &x_dot = state[5];
-    const Real &r = par[3], &l = par[4];
-
-    // Trigonometry
-    const auto trig0 = sincos(alpha, beta);
-    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
-        cos_beta = trig0.cosine[1];
-
-    // Constraints
-    const Real z0 = r * sin_alpha;
-    const Real z1 = l * sin_beta;
-    const Real z2 = r * cos_alpha;
-    const Real z3 = l * cos_beta;
-
-    // Result
-    position[0] = x - z2 - z3;
-    position[1] = z0 - z1;
-    velocity[0] = x_dot + alpha_dot * z0 + beta_dot * z1;
-    velocity[1] = alpha_dot * z2 - beta_dot * z3;
-    rows[0] = z0;
-    rows[1] = z1;
-    rows[2] = Real(1);
-    rows[3] = z2;
-    rows[4] = -z3;
-    rows[5] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k1 = par[9], &k2 = par[10], &k3 = par[11];
-    const Real &k4 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha + beta;
-    const auto trig0 = sincos(phi0, alpha, beta);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1],
-        cos_alpha = trig0.cosine[1], sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
-
-    // Multipliers
-    const Real z0 = k0 * cos_phi0;
-    const Real z1 = k0 * sin_phi0;
-    const Real z2 = beta_dot * beta_dot;
-    const Real z3 = alpha_dot * alpha_dot;
-    const Real z4 = k2 * cos_beta - z1 * z3;
-    const Real z5 = r * sin_alpha;
-    const Real z6 = l * sin_beta;
-    const Real z7 = r * cos_alpha;
-    const Real z8 = l * cos_beta;
-    const Real z9 = k3 * z0;
-    const Real z10 = Real(1) / (M00 - z0 * z9);
-    const Real z11 = (k1 * cos_alpha + z1 * z2) - z9 * z4;
-    const Real z12 = k3 * z6;
-    const Real z13 = z12 * z0 + z5;
-    const Real z14 = z10 * z13;
-    const Real z15 = z14 * z13 + (k4 + z12 * z6);
-    const Real z16 = k3 * z8;
-    const Real z17 = z0 * z16 - z7;
-    const Real z18 = z10 * z17;
-    const Real z19 = z18 * z13 + z16 * z6;
-    const Real z20 = Real(1) / (z18 * z17 + z16 * z8);
-    const Real z21 = z19 * z20;
-    const Real z22 = z12 * z4 + (z7 * z3 + z8 * z2);
-    const Real z23 = z16 * z4 + (z5 * z3 - z6 * z2);
-    const Real z24 = z18 * z11 - z23;
-    const Real z25 = (z14 * z11 - z22) - z24 * z21;
-    const Real lambda1 = z25 / (z15 - z19 * z21);
-    const Real lambda2 = z21 * lambda1 - z20 * z24;
-
-    // Result
-    lambda[0] = lambda1;
-    lambda[1] = lambda2;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &alpha = state[0], &beta = state[1], &x = state[2], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &x_dot = state[5];
-    const Real &r = par[3], &l = par[4], &M00 = par[6], &k0 = par[7], &k3 = par[11], &k4 = par[12];
-
-    // Trigonometry
-    const Real phi0 = alpha + beta;
-    const auto trig0 = sincos(phi0, alpha, beta);
-    const Real cos_phi0 = trig0.cosine[0], sin_alpha = trig0.sine[1], cos_alpha = trig0.cosine[1],
-        sin_beta = trig0.sine[2], cos_beta = trig0.cosine[2];
-    const Real z0 = k0 * cos_phi0;
-    const Real z1 = r * sin_alpha;
-    const Real z2 = l * sin_beta;
-    const Real z3 = r * cos_alpha;
-    const Real z4 = l * cos_beta;
-    const Real z5 = x - z3 - z4;
-    const Real z6 = z1 - z2;
-    const Real z7 = k3 * z0;
-    const Real z8 = Real(1) / (M00 - z0 * z7);
-    const Real z9 = k3 * z2;
-    const Real z10 = z9 * z0 + z1;
-    const Real z11 = z8 * z10;
-    const Real z12 = z11 * z10 + (k4 + z9 * z2);
-    const Real z13 = k3 * z4;
-    const Real z14 = z0 * z13 - z3;
-    const Real z15 = z8 * z14;
-    const Real z16 = z15 * z10 + z13 * z2;
-    const Real z17 = z15 * z14 + z13 * z4;
-    const Real z18 = Real(1) / z17;
-    const Real z19 = z16 * z18;
-    const Real z20 = z12 - z16 * z19;
-    const Real z21 = Real(1) / z20;
-    const Real z22 = (z19 * z6 + z5) * z21;
-    const Real z23 = z18 * z6 + z19 * z22;
-    const Real z24 = z11 * z22 - z15 * z23;
-    const Real phi1 = alpha - z24;
-    const Real z25 = z22 * z9 - z23 * z13 + z24 * z7;
-    const Real phi2 = beta - z25;
-    const auto trig1 = sincos(phi1, phi2);
-    const Real sin_phi1 = trig1.sine[0], cos_phi1 = trig1.cosine[0], sin_phi2 = trig1.sine[1],
-        cos_phi2 = trig1.cosine[1];
-
-    // Projection
-    const Real z26 = alpha_dot * r * sin_phi1;
-    const Real z27 = x_dot + z26 + beta_dot * l * sin_phi2;
-    const Real z28 = alpha_dot * r * cos_phi1 - beta_dot * l * cos_phi2;
-    const Real z29 = z21 * (z27 + z19 * z28);
-    const Real z30 = z18 * z28 + z19 * z29;
-    const Real z31 = z11 * z29 - z15 * z30;
-    const Real z32 = z29 * z9 - z30 * z13 + z31 * z7;
-
-    // Result
-    out[0] = phi1;
-    out[1] = phi2;
-    out[2] = x - k4 * z22;
-    out[3] = alpha_dot - z31;
-    out[4] = beta_dot - z32;
-    out[5] = x_dot - k4 * z29;
-    position[0] = z5;
-    position[1] = z6;
-    pivots[0] = z20;
-    pivots[1] = z17;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &alpha = state[0], &beta = state[1], &alpha_dot = state[3], &beta_dot = state[4];
-    const Real &r = par[3], &l = par[4];
-
-    // Trigonometry
-    const auto trig0 = sincos(alpha, beta);
-    const Real sin_alpha = trig0.sine[0], cos_alpha = trig0.cosine[0], sin_beta = trig0.sine[1],
-        cos_beta = trig0.cosine[1];
-
-    // Constraints
-    const Real z0 = beta_dot * beta_dot;
-    const Real z1 = alpha_dot * alpha_dot;
-    const Real z2 = r * cos_alpha * z1 + l * cos_beta * z0;
-    const Real gamma0 = -z2;
-    const Real gamma1 = r * sin_alpha * z1 - l * sin_beta * z0;
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -567,12 +548,8 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

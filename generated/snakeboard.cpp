@@ -7,25 +7,359 @@
 //
 // M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &J = par[2], &Jr = par[3], &Jw = par[4], &A = par[5], &B = par[6];
+    const Real &w = par[7];
+
+    // Constants
+    const Real M22 = J + Jr + Real(2) * Jw;
+    const Real M44 = Real(2) * Jw;
+    const Real k0 = Jr * A * w * w;
+    const Real k1 = Jw * B * w * w;
+    const Real k2 = Real(1) / m;
+    const Real k3 = Real(1) / (J + Real(2) * Jw);
+    const Real k4 = Real(1) / Jr;
+    const Real k5 = k1 / Jw;
+    const Real k6 = Real(0.5) * m;
+    const Real k7 = Real(0.5) * Jr;
+    const Real k8 = Real(0.5) * M22;
+    const Real k9 = m * l;
+
+    // Result
+    par[8] = M22;
+    par[9] = M44;
+    par[10] = k0;
+    par[11] = k1;
+    par[12] = k2;
+    par[13] = k3;
+    par[14] = k4;
+    par[15] = k5;
+    par[16] = k6;
+    par[17] = k7;
+    par[18] = k8;
+    par[19] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real& t, const Real* state, const Real* par, Real* rate) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &psi_dot = state[8], &phi_dot = state[9];
+    const Real &l = par[1], &w = par[7], &k0 = par[10], &k2 = par[12], &k3 = par[13], &k4 = par[14];
+    const Real &k5 = par[15];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real phi1 = theta + phi;
+    const Real phi2 = theta - phi;
+    const auto trig0 = sincos(phi0, phi1, phi, phi2);
+    const Real sin_phi0 = trig0.sine[0], sin_phi1 = trig0.sine[1], cos_phi1 = trig0.cosine[1],
+        sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2], sin_phi2 = trig0.sine[3], cos_phi2 = trig0.cosine[3];
+
+    // Mass matrix M(q), lower triangle
+    // M00 = m, M10 = 0, M11 = m, M20 = 0, M21 = 0, M30 = 0, M31 = 0, M32 = Jr, M33 = Jr, M40 = 0, M41 = 0, M42 = 0
+    // M43 = 0
+
+    // Forcing f
+    // f0 = 0, f1 = 0, f2 = 0
+    const Real f3 = -k0 * sin_phi0;
+
+    // Constraints A q'' = gamma
+    const Real A0_2 = l * cos_phi;
+    const Real z0 = l * theta_dot * phi_dot * sin_phi;
+    const Real z1 = theta_dot + phi_dot;
+    const Real z2 = z0 + cos_phi1 * x_dot * z1;
+    const Real gamma0 = z2 + sin_phi1 * y_dot * z1;
+
+    // Solve M q'' = f + A^T lambda, A q'' = gamma
+    const Real z3 = y_dot * sin_phi2 + x_dot * cos_phi2;
+    const Real z4 = k2 * sin_phi1;
+    const Real z5 = k2 * cos_phi1;
+    const Real z6 = k3 * A0_2;
+    const Real z7 = A0_2 * z6;
+    const Real z8 = z4 * sin_phi1 + (z5 * cos_phi1 + z7);
+    const Real z9 = k2 * sin_phi2;
+    const Real z10 = k2 * cos_phi2;
+    const Real z11 = z9 * sin_phi1 + (z10 * cos_phi1 - z7);
+    const Real z12 = Real(1) / (z9 * sin_phi2 + (z10 * cos_phi2 + z7));
+    const Real z13 = z11 * z12;
+    const Real z14 = -z6 * f3;
+    const Real z15 = z14 - ((z0 + phi_dot * z3) - theta_dot * z3);
+    const Real z16 = z13 * z15 + (z14 - gamma0);
+    const Real z17 = z16 / (z8 - z11 * z13);
+    const Real z18 = z12 * z15 + z13 * z17;
+    const Real x_ddot = z4 * z17 - z9 * z18;
+    const Real y_ddot = z10 * z18 - z5 * z17;
+    const Real z19 = (z17 + z18) * z6 + k3 * f3;
+    const Real theta_ddot = -z19;
+    const Real psi_ddot = z19 + k4 * f3;
+    const Real phi_ddot = -k5 * sin_phi0;
+
+    // Result
+    rate[0] = x_dot;
+    rate[1] = y_dot;
+    rate[2] = theta_dot;
+    rate[3] = psi_dot;
+    rate[4] = phi_dot;
+    rate[5] = x_ddot;
+    rate[6] = y_ddot;
+    rate[7] = theta_ddot;
+    rate[8] = psi_ddot;
+    rate[9] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real& t, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &m = par[0], &Jr = par[3], &w = par[7], &M22 = par[8], &M44 = par[9], &k0 = par[10], &k1 = par[11];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+
+    // Forcing f
+    const Real f3 = -k0 * sin_phi0;
+    const Real f4 = -Real(2) * k1 * sin_phi0;
+
+    // Result
+    mass[0] = m;
+    mass[1] = mass[5] = Real(0);
+    mass[6] = m;
+    mass[2] = mass[10] = Real(0);
+    mass[7] = mass[11] = Real(0);
+    mass[12] = M22;
+    mass[3] = mass[15] = Real(0);
+    mass[8] = mass[16] = Real(0);
+    mass[13] = mass[17] = Jr;
+    mass[18] = Jr;
+    mass[4] = mass[20] = Real(0);
+    mass[9] = mass[21] = Real(0);
+    mass[14] = mass[22] = Real(0);
+    mass[19] = mass[23] = Real(0);
+    mass[24] = M44;
+    forcing[0] = Real(0);
+    forcing[1] = Real(0);
+    forcing[2] = Real(0);
+    forcing[3] = f3;
+    forcing[4] = f4;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real& t, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &Jr = par[3], &Jw = par[4], &w = par[7], &k0 = par[10], &k1 = par[11], &k6 = par[16];
+    const Real &k7 = par[17], &k8 = par[18];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real sin_phi0 = sin(phi0);
+
+    // Energy
+    const Real z0 = k6 * (x_dot * x_dot + y_dot * y_dot);
+    const Real z1 = theta_dot * (k8 * theta_dot + Jr * psi_dot);
+    const Real T = (z0 + k7 * psi_dot * psi_dot + Jw * phi_dot * phi_dot) + z1;
+    const Real z2 = psi_dot * k0 * sin_phi0 + Real(2) * phi_dot * k1 * sin_phi0;
+    const Real P = -z2;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = P;
+    jacobi[0] = T;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &psi_dot = state[8];
+    const Real &Jr = par[3], &M22 = par[8], &k9 = par[19];
+
+    // Trigonometry
+    const auto trig0 = sincos(phi, theta);
+    const Real sin_phi = trig0.sine[0], cos_phi = trig0.cosine[0], sin_theta = trig0.sine[1],
+        cos_theta = trig0.cosine[1];
+
+    // Outputs
+    const Real v = x_dot * cos_theta + y_dot * sin_theta;
+    const Real z0 = (M22 * theta_dot + Jr * psi_dot) * sin_phi;
+    const Real p = k9 * v * cos_phi + z0;
+
+    // Result
+    out[0] = v;
+    out[1] = p;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const Real phi1 = theta - phi;
+    const auto trig0 = sincos(phi0, phi, phi1);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_phi = trig0.cosine[1],
+        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = l * cos_phi;
+    const Real z1 = theta_dot * z0;
+
+    // Result
+    position[0] = Real(0);
+    position[1] = Real(0);
+    velocity[0] = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
+    velocity[1] = y_dot * cos_phi1 - z1 - x_dot * sin_phi1;
+    rows[0] = -sin_phi0;
+    rows[1] = cos_phi0;
+    rows[2] = z0;
+    rows[3] = Real(0);
+    rows[4] = Real(0);
+    rows[5] = -sin_phi1;
+    rows[6] = cos_phi1;
+    rows[7] = -z0;
+    rows[8] = Real(0);
+    rows[9] = Real(0);
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real& t, const Real* state, const Real* par, Real* lambda) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1], &w = par[7], &k0 = par[10], &k2 = par[12], &k3 = par[13];
+
+    // Trigonometry
+    const Real phi0 = w * t;
+    const Real phi1 = theta + phi;
+    const Real phi2 = theta - phi;
+    const auto trig0 = sincos(phi0, phi1, phi, phi2);
+    const Real sin_phi0 = trig0.sine[0], sin_phi1 = trig0.sine[1], cos_phi1 = trig0.cosine[1],
+        sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2], sin_phi2 = trig0.sine[3], cos_phi2 = trig0.cosine[3];
+
+    // Multipliers
+    const Real z0 = l * cos_phi;
+    const Real z1 = l * theta_dot * phi_dot * sin_phi;
+    const Real z2 = theta_dot + phi_dot;
+    const Real z3 = z1 + cos_phi1 * x_dot * z2;
+    const Real z4 = y_dot * sin_phi2 + x_dot * cos_phi2;
+    const Real z5 = k3 * z0;
+    const Real z6 = z0 * z5;
+    const Real z7 = k2 * cos_phi1 * cos_phi1 + z6;
+    const Real z8 = k2 * sin_phi2;
+    const Real z9 = k2 * cos_phi2;
+    const Real z10 = z8 * sin_phi1 + (z9 * cos_phi1 - z6);
+    const Real z11 = Real(1) / (z8 * sin_phi2 + (z9 * cos_phi2 + z6));
+    const Real z12 = z10 * z11;
+    const Real z13 = (k2 * sin_phi1 * sin_phi1 + z7) - z10 * z12;
+    const Real z14 = z5 * k0 * sin_phi0;
+    const Real z15 = z14 - ((z1 + phi_dot * z4) - theta_dot * z4);
+    const Real z16 = z14 - (z3 + sin_phi1 * y_dot * z2);
+    const Real z17 = (z12 * z15 + z16) / z13;
+    const Real lambda_front = -z17;
+    const Real lambda_rear = z11 * z15 + z12 * z17;
+
+    // Result
+    lambda[0] = lambda_front;
+    lambda[1] = lambda_rear;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &x = state[0], &y = state[1], &theta = state[2], &psi = state[3], &phi = state[4];
+    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1], &k2 = par[12], &k3 = par[13];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const Real phi1 = theta - phi;
+    const auto trig0 = sincos(phi0, phi, phi1);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_phi = trig0.cosine[1],
+        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
+
+    // Projection
+    const Real z0 = l * cos_phi;
+    const Real z1 = theta_dot * z0;
+    const Real z2 = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
+    const Real z3 = z1 - y_dot * cos_phi1 + x_dot * sin_phi1;
+    const Real z4 = k2 * sin_phi0;
+    const Real z5 = k2 * cos_phi0;
+    const Real z6 = k3 * z0;
+    const Real z7 = z0 * z6;
+    const Real z8 = z4 * sin_phi0 + (z5 * cos_phi0 + z7);
+    const Real z9 = k2 * sin_phi1;
+    const Real z10 = k2 * cos_phi1;
+    const Real z11 = z9 * sin_phi0 + (z10 * cos_phi0 - z7);
+    const Real z12 = z9 * sin_phi1 + (z10 * cos_phi1 + z7);
+    const Real z13 = Real(1) / z12;
+    const Real z14 = z11 * z13;
+    const Real z15 = z8 - z11 * z14;
+    const Real z16 = (z14 * z3 + z2) / z15;
+    const Real z17 = z13 * z3 + z14 * z16;
+    const Real z18 = (z16 + z17) * z6;
+
+    // Result
+    out[0] = x;
+    out[1] = y;
+    out[2] = theta;
+    out[3] = psi;
+    out[4] = phi;
+    out[5] = x_dot + (z4 * z16 - z9 * z17);
+    out[6] = y_dot - (z5 * z16 - z10 * z17);
+    out[7] = theta_dot - z18;
+    out[8] = psi_dot + z18;
+    out[9] = phi_dot;
+    position[0] = Real(0);
+    position[1] = Real(0);
+    pivots[0] = z15;
+    pivots[1] = z12;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real* state, const Real* par, Real* out) {
+    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
+    const Real &phi_dot = state[9];
+    const Real &l = par[1];
+
+    // Trigonometry
+    const Real phi0 = theta + phi;
+    const Real phi1 = theta - phi;
+    const auto trig0 = sincos(phi0, phi, phi1);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
+        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
+
+    // Constraints
+    const Real z0 = l * theta_dot * phi_dot * sin_phi;
+    const Real z1 = theta_dot + phi_dot;
+    const Real z2 = z0 + cos_phi0 * x_dot * z1;
+    const Real gamma0 = z2 + sin_phi0 * y_dot * z1;
+    const Real z3 = y_dot * sin_phi1 + x_dot * cos_phi1;
+    const Real gamma1 = theta_dot * z3 - (z0 + phi_dot * z3);
+
+    // Result
+    out[0] = gamma0;
+    out[1] = gamma1;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,349 +515,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &J = par[2], &Jr = par[3], &Jw = par[4], &A = par[5], &B = par[6];
-    const Real &w = par[7];
-
-    // Constants
-    const Real M22 = J + Jr + Real(2) * Jw;
-    const Real M44 = Real(2) * Jw;
-    const Real k0 = Jr * A * w * w;
-    const Real k1 = Jw * B * w * w;
-    const Real k2 = Real(1) / m;
-    const Real k3 = Real(1) / (Jr - M22);
-    const Real k4 = Real(1) / Jr;
-    const Real k5 = k1 / Jw;
-    const Real k6 = Real(0.5) * m;
-    const Real k7 = Real(0.5) * Jr;
-    const Real k8 = Real(0.5) * M22;
-    const Real k9 = m * l;
-
-    // Result
-    par[8] = M22;
-    par[9] = M44;
-    par[10] = k0;
-    par[11] = k1;
-    par[12] = k2;
-    par[13] = k3;
-    par[14] = k4;
-    par[15] = k5;
-    par[16] = k6;
-    par[17] = k7;
-    par[18] = k8;
-    par[19] = k9;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
-    const Real &psi_dot = state[8], &phi_dot = state[9];
-    const Real &m = par[0], &l = par[1], &Jr = par[3], &w = par[7], &M22 = par[8], &k0 = par[10], &k2 = par[12];
-    const Real &k3 = par[13], &k4 = par[14], &k5 = par[15];
-
-    // Trigonometry
-    const Real phi0 = w * t;
-    const Real phi1 = theta + phi;
-    const Real phi2 = theta - phi;
-    const auto trig0 = sincos(phi0, phi1, phi, phi2);
-    const Real sin_phi0 = trig0.sine[0], sin_phi1 = trig0.sine[1], cos_phi1 = trig0.cosine[1],
-        sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2], sin_phi2 = trig0.sine[3], cos_phi2 = trig0.cosine[3];
-
-    // Constraints A q'' = gamma
-    const Real A0_2 = l * cos_phi;
-    const Real z0 = l * theta_dot * phi_dot * sin_phi;
-    const Real z1 = theta_dot + phi_dot;
-    const Real z2 = z0 + cos_phi1 * x_dot * z1;
-    const Real gamma0 = z2 + sin_phi1 * y_dot * z1;
-
-    // Solve M q'' = f + A^T lambda, A q'' = gamma
-    const Real z3 = k0 * sin_phi0;
-    const Real z4 = y_dot * sin_phi2 + x_dot * cos_phi2;
-    const Real z5 = k2 * sin_phi1;
-    const Real z6 = k2 * cos_phi1;
-    const Real z7 = k3 * A0_2;
-    const Real z8 = A0_2 * z7;
-    const Real z9 = z5 * sin_phi1 + (z6 * cos_phi1 - z8);
-    const Real z10 = k2 * sin_phi2;
-    const Real z11 = k2 * cos_phi2;
-    const Real z12 = z10 * sin_phi1 + (z11 * cos_phi1 + z8);
-    const Real z13 = Real(1) / (z10 * sin_phi2 + (z11 * cos_phi2 - z8));
-    const Real z14 = z12 * z13;
-    const Real z15 = z7 * z3;
-    const Real z16 = z15 + ((z0 + phi_dot * z4) - theta_dot * z4);
-    const Real z17 = z14 * z16 + (z15 + gamma0);
-    const Real z18 = z17 / (z9 - z12 * z14);
-    const Real z19 = z13 * z16 + z14 * z18;
-    const Real x_ddot = z10 * z19 - z5 * z18;
-    const Real y_ddot = z6 * z18 - z11 * z19;
-    const Real z20 = (z18 + z19) * z7 + k3 * z3;
-    const Real theta_ddot = -z20;
-    const Real psi_ddot = z20 - k4 * z3;
-    const Real phi_ddot = -k5 * sin_phi0;
-
-    // Result
-    rate[0] = x_dot;
-    rate[1] = y_dot;
-    rate[2] = theta_dot;
-    rate[3] = psi_dot;
-    rate[4] = phi_dot;
-    rate[5] = x_ddot;
-    rate[6] = y_ddot;
-    rate[7] = theta_ddot;
-    rate[8] = psi_ddot;
-    rate[9] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &m = par[0], &Jr = par[3], &w = par[7], &M22 = par[8], &M44 = par[9], &k0 = par[10], &k1 = par[11];
-
-    // Trigonometry
-    const Real phi0 = w * t;
-    const Real sin_phi0 = sin(phi0);
-
-    // Forcing f
-    const Real f3 = -k0 * sin_phi0;
-    const Real f4 = -Real(2) * k1 * sin_phi0;
-
-    // Result
-    mass[0] = m;
-    mass[1] = mass[5] = Real(0);
-    mass[6] = m;
-    mass[2] = mass[10] = Real(0);
-    mass[7] = mass[11] = Real(0);
-    mass[12] = M22;
-    mass[3] = mass[15] = Real(0);
-    mass[8] = mass[16] = Real(0);
-    mass[13] = mass[17] = Jr;
-    mass[18] = Jr;
-    mass[4] = mass[20] = Real(0);
-    mass[9] = mass[21] = Real(0);
-    mass[14] = mass[22] = Real(0);
-    mass[19] = mass[23] = Real(0);
-    mass[24] = M44;
-    forcing[0] = Real(0);
-    forcing[1] = Real(0);
-    forcing[2] = Real(0);
-    forcing[3] = f3;
-    forcing[4] = f4;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
-    const Real &phi_dot = state[9];
-    const Real &Jr = par[3], &Jw = par[4], &w = par[7], &k0 = par[10], &k1 = par[11], &k6 = par[16];
-    const Real &k7 = par[17], &k8 = par[18];
-
-    // Trigonometry
-    const Real phi0 = w * t;
-    const Real sin_phi0 = sin(phi0);
-
-    // Energy
-    const Real z0 = k6 * (x_dot * x_dot + y_dot * y_dot);
-    const Real z1 = theta_dot * (k8 * theta_dot + Jr * psi_dot);
-    const Real T = (z0 + k7 * psi_dot * psi_dot + Jw * phi_dot * phi_dot) + z1;
-    const Real z2 = psi_dot * k0 * sin_phi0 + Real(2) * phi_dot * k1 * sin_phi0;
-    const Real P = -z2;
-
-    // Result
-    energy[0] = T;
-    energy[1] = Real(0);
-    energy[2] = T;
-    energy[3] = P;
-    jacobi[0] = T;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
-    const Real &psi_dot = state[8];
-    const Real &Jr = par[3], &M22 = par[8], &k9 = par[19];
-
-    // Trigonometry
-    const auto trig0 = sincos(phi, theta);
-    const Real sin_phi = trig0.sine[0], cos_phi = trig0.cosine[0], sin_theta = trig0.sine[1],
-        cos_theta = trig0.cosine[1];
-
-    // Outputs
-    const Real v = x_dot * cos_theta + y_dot * sin_theta;
-    const Real z0 = (M22 * theta_dot + Jr * psi_dot) * sin_phi;
-    const Real p = k9 * v * cos_phi + z0;
-
-    // Result
-    out[0] = v;
-    out[1] = p;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
-    const Real &l = par[1];
-
-    // Trigonometry
-    const Real phi0 = theta + phi;
-    const Real phi1 = theta - phi;
-    const auto trig0 = sincos(phi0, phi, phi1);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_phi = trig0.cosine[1],
-        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
-
-    // Constraints
-    const Real z0 = l * cos_phi;
-    const Real z1 = theta_dot * z0;
-
-    // Result
-    position[0] = Real(0);
-    position[1] = Real(0);
-    velocity[0] = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
-    velocity[1] = y_dot * cos_phi1 - z1 - x_dot * sin_phi1;
-    rows[0] = -sin_phi0;
-    rows[1] = cos_phi0;
-    rows[2] = z0;
-    rows[3] = Real(0);
-    rows[4] = Real(0);
-    rows[5] = -sin_phi1;
-    rows[6] = cos_phi1;
-    rows[7] = -z0;
-    rows[8] = Real(0);
-    rows[9] = Real(0);
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
-    const Real &phi_dot = state[9];
-    const Real &l = par[1], &w = par[7], &k0 = par[10], &k2 = par[12], &k3 = par[13];
-
-    // Trigonometry
-    const Real phi0 = w * t;
-    const Real phi1 = theta + phi;
-    const Real phi2 = theta - phi;
-    const auto trig0 = sincos(phi0, phi1, phi, phi2);
-    const Real sin_phi0 = trig0.sine[0], sin_phi1 = trig0.sine[1], cos_phi1 = trig0.cosine[1],
-        sin_phi = trig0.sine[2], cos_phi = trig0.cosine[2], sin_phi2 = trig0.sine[3], cos_phi2 = trig0.cosine[3];
-
-    // Multipliers
-    const Real z0 = l * cos_phi;
-    const Real z1 = l * theta_dot * phi_dot * sin_phi;
-    const Real z2 = theta_dot + phi_dot;
-    const Real z3 = z1 + cos_phi1 * x_dot * z2;
-    const Real z4 = y_dot * sin_phi2 + x_dot * cos_phi2;
-    const Real z5 = k3 * z0;
-    const Real z6 = z0 * z5;
-    const Real z7 = k2 * cos_phi1 * cos_phi1 - z6;
-    const Real z8 = k2 * sin_phi2;
-    const Real z9 = k2 * cos_phi2;
-    const Real z10 = z8 * sin_phi1 + (z9 * cos_phi1 + z6);
-    const Real z11 = Real(1) / (z8 * sin_phi2 + (z9 * cos_phi2 - z6));
-    const Real z12 = z10 * z11;
-    const Real z13 = (k2 * sin_phi1 * sin_phi1 + z7) - z10 * z12;
-    const Real z14 = z5 * k0 * sin_phi0;
-    const Real z15 = z14 + ((z1 + phi_dot * z4) - theta_dot * z4);
-    const Real z16 = z14 + (z3 + sin_phi1 * y_dot * z2);
-    const Real lambda_front = (z12 * z15 + z16) / z13;
-    const Real lambda_rear = -z11 * z15 - z12 * lambda_front;
-
-    // Result
-    lambda[0] = lambda_front;
-    lambda[1] = lambda_rear;
-}
-
-/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
-template <typename Real>
-void project([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* out, Real* position, [[maybe_unused]] Real* pivots) {
-    const Real &x = state[0], &y = state[1], &theta = state[2], &psi = state[3], &phi = state[4];
-    const Real &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7], &psi_dot = state[8];
-    const Real &phi_dot = state[9];
-    const Real &l = par[1], &k2 = par[12], &k3 = par[13];
-
-    // Trigonometry
-    const Real phi0 = theta + phi;
-    const Real phi1 = theta - phi;
-    const auto trig0 = sincos(phi0, phi, phi1);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], cos_phi = trig0.cosine[1],
-        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
-
-    // Projection
-    const Real z0 = l * cos_phi;
-    const Real z1 = theta_dot * z0;
-    const Real z2 = z1 + y_dot * cos_phi0 - x_dot * sin_phi0;
-    const Real z3 = z1 - y_dot * cos_phi1 + x_dot * sin_phi1;
-    const Real z4 = k2 * sin_phi0;
-    const Real z5 = k2 * cos_phi0;
-    const Real z6 = k3 * z0;
-    const Real z7 = z0 * z6;
-    const Real z8 = z4 * sin_phi0 + (z5 * cos_phi0 - z7);
-    const Real z9 = k2 * sin_phi1;
-    const Real z10 = k2 * cos_phi1;
-    const Real z11 = z9 * sin_phi0 + (z10 * cos_phi0 + z7);
-    const Real z12 = z9 * sin_phi1 + (z10 * cos_phi1 - z7);
-    const Real z13 = Real(1) / z12;
-    const Real z14 = z11 * z13;
-    const Real z15 = z8 - z11 * z14;
-    const Real z16 = (z14 * z3 + z2) / z15;
-    const Real z17 = z13 * z3 + z14 * z16;
-    const Real z18 = (z16 + z17) * z6;
-
-    // Result
-    out[0] = x;
-    out[1] = y;
-    out[2] = theta;
-    out[3] = psi;
-    out[4] = phi;
-    out[5] = x_dot + (z4 * z16 - z9 * z17);
-    out[6] = y_dot - (z5 * z16 - z10 * z17);
-    out[7] = theta_dot + z18;
-    out[8] = psi_dot - z18;
-    out[9] = phi_dot;
-    position[0] = Real(0);
-    position[1] = Real(0);
-    pivots[0] = z15;
-    pivots[1] = z12;
-}
-
-/// gamma of A q'' = gamma.
-template <typename Real>
-void gamma_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* out) {
-    const Real &theta = state[2], &phi = state[4], &x_dot = state[5], &y_dot = state[6], &theta_dot = state[7];
-    const Real &phi_dot = state[9];
-    const Real &l = par[1];
-
-    // Trigonometry
-    const Real phi0 = theta + phi;
-    const Real phi1 = theta - phi;
-    const auto trig0 = sincos(phi0, phi, phi1);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_phi = trig0.sine[1],
-        sin_phi1 = trig0.sine[2], cos_phi1 = trig0.cosine[2];
-
-    // Constraints
-    const Real z0 = l * theta_dot * phi_dot * sin_phi;
-    const Real z1 = theta_dot + phi_dot;
-    const Real z2 = z0 + cos_phi0 * x_dot * z1;
-    const Real gamma0 = z2 + sin_phi0 * y_dot * z1;
-    const Real z3 = y_dot * sin_phi1 + x_dot * cos_phi1;
-    const Real gamma1 = theta_dot * z3 - (z0 + phi_dot * z3);
-
-    // Result
-    out[0] = gamma0;
-    out[1] = gamma1;
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -576,9 +567,7 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
+    [](double, const double*, const double*, const double*, double*) {},
     [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
         constraints_at(t, state, par, position, velocity, rows);
     },

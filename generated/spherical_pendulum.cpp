@@ -3,29 +3,138 @@
 //
 //   state  theta [rad], phi [rad], then their rates
 //   par    m [kg], l [m], g [m/s^2]
-//   cost   16 operations a right-hand side: 1 additions, 12 multiplications, 1 divisions, 2 functions
+//   cost   16 operations a right-hand side: 1 addition, 12 multiplications, 1 division, 2 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &g = par[2];
+
+    // Constants
+    const Real M00 = m * l * l;
+    const Real k0 = m * l * g;
+    const Real k1 = Real(2) * M00;
+    const Real k2 = Real(1) / M00;
+    const Real k3 = Real(0.5) * M00;
+
+    // Result
+    par[3] = M00;
+    par[4] = k0;
+    par[5] = k1;
+    par[6] = k2;
+    par[7] = k3;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
+    const Real &M00 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0
+    const Real M11 = M00 * sin_theta * sin_theta;
+
+    // Forcing f
+    const Real f0 = -(k0 - M00 * phi_dot * phi_dot * cos_theta) * sin_theta;
+    const Real f1 = -k1 * theta_dot * phi_dot * sin_theta * cos_theta;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real theta_ddot = k2 * f0;
+    const Real phi_ddot = f1 / M11;
+
+    // Result
+    rate[0] = theta_dot;
+    rate[1] = phi_dot;
+    rate[2] = theta_ddot;
+    rate[3] = phi_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
+    const Real &M00 = par[3], &k0 = par[4], &k1 = par[5];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Mass matrix M(q), lower triangle
+    const Real M11 = M00 * sin_theta * sin_theta;
+
+    // Forcing f
+    const Real f0 = -(k0 - M00 * phi_dot * phi_dot * cos_theta) * sin_theta;
+    const Real f1 = -k1 * theta_dot * phi_dot * sin_theta * cos_theta;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
+    const Real &k0 = par[4], &k3 = par[7];
+
+    // Trigonometry
+    const auto [sin_theta, cos_theta] = sincos(theta);
+
+    // Energy
+    const Real T = k3 * (phi_dot * phi_dot * sin_theta * sin_theta + theta_dot * theta_dot);
+    const Real z0 = k0 * cos_theta;
+    const Real V = -z0;
+    const Real E = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &theta = state[0], &phi = state[1], &theta_dot = state[2], &phi_dot = state[3];
+    const Real &m = par[0], &l = par[1];
+
+    // Trigonometry
+    const auto trig0 = sincos(theta, phi);
+    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_phi = trig0.sine[1],
+        cos_phi = trig0.cosine[1];
+
+    // Outputs
+    const Real height = -l * cos_theta;
+    const Real z0 = theta_dot * cos_theta;
+    const Real z1 = l * (z0 * sin_phi + sin_theta * phi_dot * cos_phi);
+    const Real z2 = l * sin_theta * cos_phi * z1;
+    const Real z3 = l * (sin_theta * phi_dot * sin_phi - z0 * cos_phi);
+    const Real spin = m * (z2 + l * sin_theta * sin_phi * z3);
+
+    // Result
+    out[0] = height;
+    out[1] = spin;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,141 +290,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &g = par[2];
-
-    // Constants
-    const Real M00 = m * l * l;
-    const Real k0 = m * l * g;
-    const Real k1 = Real(2) * M00;
-    const Real k2 = Real(1) / M00;
-    const Real k3 = Real(0.5) * M00;
-
-    // Result
-    par[3] = M00;
-    par[4] = k0;
-    par[5] = k1;
-    par[6] = k2;
-    par[7] = k3;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &M00 = par[3], &k0 = par[4], &k1 = par[5], &k2 = par[6];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = M00 * sin_theta * sin_theta;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real theta_ddot = -k2 * (k0 - M00 * phi_dot * phi_dot * cos_theta) * sin_theta;
-    const Real phi_ddot = -k1 * theta_dot * phi_dot * sin_theta * cos_theta / M11;
-
-    // Result
-    rate[0] = theta_dot;
-    rate[1] = phi_dot;
-    rate[2] = theta_ddot;
-    rate[3] = phi_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &M00 = par[3], &k0 = par[4], &k1 = par[5];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = M00 * sin_theta * sin_theta;
-
-    // Forcing f
-    const Real f0 = -(k0 - M00 * phi_dot * phi_dot * cos_theta) * sin_theta;
-    const Real f1 = -k1 * theta_dot * phi_dot * sin_theta * cos_theta;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[2] = Real(0);
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &theta = state[0], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &k0 = par[4], &k3 = par[7];
-
-    // Trigonometry
-    const auto [sin_theta, cos_theta] = sincos(theta);
-
-    // Energy
-    const Real T = k3 * (phi_dot * phi_dot * sin_theta * sin_theta + theta_dot * theta_dot);
-    const Real z0 = k0 * cos_theta;
-    const Real V = -z0;
-    const Real E = T - z0;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &theta = state[0], &phi = state[1], &theta_dot = state[2], &phi_dot = state[3];
-    const Real &m = par[0], &l = par[1];
-
-    // Trigonometry
-    const auto trig0 = sincos(theta, phi);
-    const Real sin_theta = trig0.sine[0], cos_theta = trig0.cosine[0], sin_phi = trig0.sine[1],
-        cos_phi = trig0.cosine[1];
-
-    // Outputs
-    const Real height = -l * cos_theta;
-    const Real z0 = theta_dot * cos_theta;
-    const Real z1 = l * (z0 * sin_phi + sin_theta * phi_dot * cos_phi);
-    const Real z2 = l * sin_theta * cos_phi * z1;
-    const Real z3 = l * (sin_theta * phi_dot * sin_phi - z0 * cos_phi);
-    const Real spin = m * (z2 + l * sin_theta * sin_phi * z3);
-
-    // Result
-    out[0] = height;
-    out[1] = spin;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -368,13 +342,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

@@ -3,29 +3,135 @@
 //
 //   state  theta1 [rad], theta2 [rad], then their rates
 //   par    m [kg], l [m], S [N s], g [m/s^2]
-//   cost   25 operations a right-hand side: 6 additions, 14 multiplications, 1 divisions, 4 functions
+//   cost   25 operations a right-hand side: 6 additions, 14 multiplications, 1 division, 4 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m = par[0], &l = par[1], &g = par[3];
+
+    // Constants
+    const Real z0 = m * l * l;
+    const Real M00 = (Real(4) / Real(3)) * z0;
+    const Real k0 = Real(0.5) * z0;
+    const Real M11 = (Real(1) / Real(3)) * z0;
+    const Real z1 = m * l * g;
+    const Real k1 = Real(1.5) * z1;
+    const Real k2 = Real(0.5) * z1;
+    const Real k3 = Real(3) * Real(1) / z0;
+    const Real k4 = (Real(1) / Real(6)) * z0;
+    const Real k5 = (Real(2) / Real(3)) * z0;
+
+    // Result
+    par[4] = M00;
+    par[5] = k0;
+    par[6] = M11;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const auto trig0 = sincos(phi0, theta1, theta2);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
+        sin_theta2 = trig0.sine[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
+    const Real f1 = z0 * theta1_dot * theta1_dot - k2 * sin_theta2;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real z1 = k3 * M10;
+    const Real z2 = Real(1) / (M00 - M10 * z1);
+    const Real z3 = z2 * (z1 * f1 - f0);
+    const Real theta1_ddot = -z3;
+    const Real theta2_ddot = k3 * f1 + z1 * z3;
+
+    // Result
+    rate[0] = theta1_dot;
+    rate[1] = theta2_dot;
+    rate[2] = theta1_ddot;
+    rate[3] = theta2_ddot;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const auto trig0 = sincos(phi0, theta1, theta2);
+    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
+        sin_theta2 = trig0.sine[2];
+
+    // Mass matrix M(q), lower triangle
+    const Real M10 = k0 * cos_phi0;
+
+    // Forcing f
+    const Real z0 = k0 * sin_phi0;
+    const Real f0 = -k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
+    const Real f1 = z0 * theta1_dot * theta1_dot - k2 * sin_theta2;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = M10;
+    mass[3] = M11;
+    forcing[0] = f0;
+    forcing[1] = f1;
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
+    const Real &k0 = par[5], &k1 = par[7], &k2 = par[8], &k4 = par[10], &k5 = par[11];
+
+    // Trigonometry
+    const Real phi0 = theta1 - theta2;
+    const auto trig0 = sincos(phi0, theta2, theta1);
+    const Real cos_phi0 = trig0.cosine[0], cos_theta2 = trig0.cosine[1], cos_theta1 = trig0.cosine[2];
+
+    // Energy
+    const Real z0 = theta1_dot * theta2_dot * k0 * cos_phi0;
+    const Real T = k4 * theta2_dot * theta2_dot + k5 * theta1_dot * theta1_dot + z0;
+    const Real z1 = k2 * cos_theta2 + k1 * cos_theta1;
+    const Real V = -z1;
+    const Real E = T - z1;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,148 +287,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m = par[0], &l = par[1], &g = par[3];
-
-    // Constants
-    const Real z0 = m * l * l;
-    const Real M00 = (Real(4) / Real(3)) * z0;
-    const Real k0 = Real(0.5) * z0;
-    const Real M11 = (Real(1) / Real(3)) * z0;
-    const Real z1 = m * l * g;
-    const Real k1 = Real(1.5) * z1;
-    const Real k2 = Real(0.5) * z1;
-    const Real k3 = Real(3) * Real(1) / z0;
-    const Real k4 = (Real(1) / Real(6)) * z0;
-    const Real k5 = (Real(2) / Real(3)) * z0;
-
-    // Result
-    par[4] = M00;
-    par[5] = k0;
-    par[6] = M11;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-    par[11] = k5;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &k1 = par[7], &k2 = par[8], &k3 = par[9];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const auto trig0 = sincos(phi0, theta1, theta2);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
-        sin_theta2 = trig0.sine[2];
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z0 = k0 * sin_phi0;
-    const Real z1 = k1 * sin_theta1 + z0 * theta2_dot * theta2_dot;
-    const Real z2 = k2 * sin_theta2 - z0 * theta1_dot * theta1_dot;
-    const Real z3 = k3 * M10;
-    const Real z4 = Real(1) / (M00 - M10 * z3);
-    const Real z5 = z4 * (z1 - z3 * z2);
-    const Real theta1_ddot = -z5;
-    const Real theta2_ddot = z3 * z5 - k3 * z2;
-
-    // Result
-    rate[0] = theta1_dot;
-    rate[1] = theta2_dot;
-    rate[2] = theta1_ddot;
-    rate[3] = theta2_ddot;
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &M00 = par[4], &k0 = par[5], &M11 = par[6], &k1 = par[7], &k2 = par[8];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const auto trig0 = sincos(phi0, theta1, theta2);
-    const Real sin_phi0 = trig0.sine[0], cos_phi0 = trig0.cosine[0], sin_theta1 = trig0.sine[1],
-        sin_theta2 = trig0.sine[2];
-
-    // Mass matrix M(q), lower triangle
-    const Real M10 = k0 * cos_phi0;
-
-    // Forcing f
-    const Real z0 = k0 * sin_phi0;
-    const Real f0 = -k1 * sin_theta1 - z0 * theta2_dot * theta2_dot;
-    const Real f1 = z0 * theta1_dot * theta1_dot - k2 * sin_theta2;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[2] = M10;
-    mass[3] = M11;
-    forcing[0] = f0;
-    forcing[1] = f1;
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &theta1 = state[0], &theta2 = state[1], &theta1_dot = state[2], &theta2_dot = state[3];
-    const Real &k0 = par[5], &k1 = par[7], &k2 = par[8], &k4 = par[10], &k5 = par[11];
-
-    // Trigonometry
-    const Real phi0 = theta1 - theta2;
-    const auto trig0 = sincos(phi0, theta2, theta1);
-    const Real cos_phi0 = trig0.cosine[0], cos_theta2 = trig0.cosine[1], cos_theta1 = trig0.cosine[2];
-
-    // Energy
-    const Real z0 = theta1_dot * theta2_dot * k0 * cos_phi0;
-    const Real T = k4 * theta2_dot * theta2_dot + k5 * theta1_dot * theta1_dot + z0;
-    const Real z1 = k2 * cos_theta2 + k1 * cos_theta1;
-    const Real V = -z1;
-    const Real E = T - z1;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -372,16 +336,10 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
         energy(t, state, rate, par, e, jacobi);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        outputs_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

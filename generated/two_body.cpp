@@ -3,29 +3,161 @@
 //
 //   state  r [AU], phi [rad], X [AU], Y [AU], then their rates
 //   par    m1 [Msun], m2 [Msun], a [AU], ecc
-//   cost   14 operations a right-hand side: 1 additions, 11 multiplications, 2 divisions, 0 functions
+//   cost   14 operations a right-hand side: 1 addition, 11 multiplications, 2 divisions, 0 functions
 //
 // M(q) q'' = f(q, q', t). This file includes nothing and allocates nothing.
 
-namespace {
+namespace {  // seen in this file alone
 
-inline double tan(double x) { return __builtin_tan(x); }
-inline double asin(double x) { return __builtin_asin(x); }
-inline double acos(double x) { return __builtin_acos(x); }
-inline double atan(double x) { return __builtin_atan(x); }
-inline double sinh(double x) { return __builtin_sinh(x); }
-inline double cosh(double x) { return __builtin_cosh(x); }
-inline double tanh(double x) { return __builtin_tanh(x); }
-inline double exp(double x) { return __builtin_exp(x); }
-inline double log(double x) { return __builtin_log(x); }
-inline double sqrt(double x) { return __builtin_sqrt(x); }
-inline double abs(double x) { return __builtin_fabs(x); }
-inline double pow(double x, double y) { return __builtin_pow(x, y); }
-inline double atan2(double y, double x) { return __builtin_atan2(y, x); }
-// These pass a NaN on, whichever argument it is.
-template <typename Real> Real sign(const Real& x) { return x != x ? x : Real(x > Real(0)) - Real(x < Real(0)); }
-template <typename Real> Real min(const Real& x, const Real& y) { return y < x || y != y ? y : x; }
-template <typename Real> Real max(const Real& x, const Real& y) { return x < y || y != y ? y : x; }
+// Sines and cosines in pairs, of one angle or of several at once; at the end of this file.
+template <typename Real> struct pair;
+template <typename Real, unsigned count> struct sines;
+template <typename Real> pair<Real> sincos(const Real& x);
+template <typename Real, typename... Angle> sines<Real, 1 + sizeof...(Angle)> sincos(const Real& first, const Angle&... x);
+inline pair<double> sincos(double x);
+inline double sin(double x), cos(double x);
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1];
+
+    // Constants
+    const Real M22 = m1 + m2;
+    const Real z0 = Real(1) / M22;
+    const Real M00 = m1 * m2 * z0;
+    const Real k0 = Real(4) * m1 * m2 * Real(3.14159265358979323846264338327950288L)
+        * Real(3.14159265358979323846264338327950288L);
+    const Real k1 = Real(2) * M00;
+    const Real k2 = Real(1) / M00;
+    const Real k3 = Real(0.5) * M22;
+    const Real k4 = Real(0.5) * M00;
+    const Real k5 = m2 * z0;
+    const Real k6 = m1 * z0;
+
+    // Result
+    par[4] = M22;
+    par[5] = M00;
+    par[6] = k0;
+    par[7] = k1;
+    par[8] = k2;
+    par[9] = k3;
+    par[10] = k4;
+    par[11] = k5;
+    par[12] = k6;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
+    const Real &M00 = par[5], &k0 = par[6], &k1 = par[7], &k2 = par[8];
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0, M20 = 0, M21 = 0, M30 = 0, M31 = 0, M32 = 0, M33 = M22
+    const Real M11 = M00 * r * r;
+
+    // Forcing f
+    // f2 = 0, f3 = 0
+    const Real z0 = Real(1) / r;
+    const Real z1 = r * phi_dot;
+    const Real f0 = M00 * phi_dot * z1 - k0 * z0 * z0;
+    const Real f1 = -k1 * r_dot * z1;
+
+    // Solve M q'' = f with M = L D L^T
+    const Real r_ddot = k2 * f0;
+    const Real phi_ddot = f1 / M11;
+
+    // Result
+    rate[0] = r_dot;
+    rate[1] = phi_dot;
+    rate[2] = X_dot;
+    rate[3] = Y_dot;
+    rate[4] = r_ddot;
+    rate[5] = phi_ddot;
+    rate[6] = Real(0);
+    rate[7] = Real(0);
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real* state, const Real* par, Real* mass, Real* forcing) {
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5];
+    const Real &M22 = par[4], &M00 = par[5], &k0 = par[6], &k1 = par[7];
+
+    // Mass matrix M(q), lower triangle
+    const Real M11 = M00 * r * r;
+
+    // Forcing f
+    const Real z0 = Real(1) / r;
+    const Real z1 = r * phi_dot;
+    const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
+    const Real f0 = -z2;
+    const Real f1 = -k1 * r_dot * z1;
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[4] = Real(0);
+    mass[5] = M11;
+    mass[2] = mass[8] = Real(0);
+    mass[6] = mass[9] = Real(0);
+    mass[10] = M22;
+    mass[3] = mass[12] = Real(0);
+    mass[7] = mass[13] = Real(0);
+    mass[11] = mass[14] = Real(0);
+    mass[15] = M22;
+    forcing[0] = f0;
+    forcing[1] = f1;
+    forcing[2] = Real(0);
+    forcing[3] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
+    const Real &k0 = par[6], &k3 = par[9], &k4 = par[10];
+
+    // Energy
+    const Real z0 = k0 / r;
+    const Real z1 = r * phi_dot * r * phi_dot + r_dot * r_dot;
+    const Real T = k3 * (X_dot * X_dot + Y_dot * Y_dot) + k4 * z1;
+    const Real V = -z0;
+    const Real E = T - z0;
+
+    // Result
+    energy[0] = T;
+    energy[1] = V;
+    energy[2] = E;
+    energy[3] = Real(0);
+    jacobi[0] = E;
+}
+
+/// The scene's outputs.
+template <typename Real>
+void outputs_at(const Real&, const Real* state, const Real*, const Real* par, Real* out) {
+    const Real &r = state[0], &phi = state[1], &X = state[2], &Y = state[3], &phi_dot = state[5];
+    const Real &k5 = par[11], &k6 = par[12];
+
+    // Trigonometry
+    const auto [sin_phi, cos_phi] = sincos(phi);
+
+    // Outputs
+    const Real areal = Real(0.5) * r * r * phi_dot;
+    const Real z0 = k5 * r;
+    const Real x1 = X - z0 * cos_phi;
+    const Real y1 = Y - z0 * sin_phi;
+    const Real z1 = k6 * r;
+    const Real x2 = X + z1 * cos_phi;
+    const Real y2 = Y + z1 * sin_phi;
+
+    // Result
+    out[0] = areal;
+    out[1] = x1;
+    out[2] = y1;
+    out[3] = x2;
+    out[4] = y2;
+}
 
 // Sines and cosines of several angles at once, each within 2 ulp; lanes of a vector are angles.
 //
@@ -181,164 +313,6 @@ template <typename Real, typename... Angle>
         return sincos_in_two(first, x...);
 }
 
-/// What depends on parameters alone, after the parameters.
-template <typename Real>
-void prepare(Real* par) {
-    const Real &m1 = par[0], &m2 = par[1];
-
-    // Constants
-    const Real M22 = m1 + m2;
-    const Real z0 = Real(1) / M22;
-    const Real M00 = m1 * m2 * z0;
-    const Real k0 = Real(4) * m1 * m2 * Real(3.14159265358979323846264338327950288L)
-        * Real(3.14159265358979323846264338327950288L);
-    const Real k1 = Real(2) * M00;
-    const Real k2 = Real(1) / M00;
-    const Real k3 = Real(0.5) * M22;
-    const Real k4 = Real(0.5) * M00;
-    const Real k5 = m2 * z0;
-    const Real k6 = m1 * z0;
-
-    // Result
-    par[4] = M22;
-    par[5] = M00;
-    par[6] = k0;
-    par[7] = k1;
-    par[8] = k2;
-    par[9] = k3;
-    par[10] = k4;
-    par[11] = k5;
-    par[12] = k6;
-}
-
-/// rate = (q', q'') at t and state = (q, q').
-template <typename Real>
-void rhs([[maybe_unused]] const Real& t, const Real* state, [[maybe_unused]] const Real* par, Real* rate) {
-    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
-    const Real &M22 = par[4], &M00 = par[5], &k0 = par[6], &k1 = par[7], &k2 = par[8];
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = M00 * r * r;
-
-    // Solve M q'' = f with M = L D L^T
-    const Real z0 = Real(1) / r;
-    const Real z1 = r * phi_dot;
-    const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
-    const Real r_ddot = -k2 * z2;
-    const Real phi_ddot = -k1 * r_dot * z1 / M11;
-
-    // Result
-    rate[0] = r_dot;
-    rate[1] = phi_dot;
-    rate[2] = X_dot;
-    rate[3] = Y_dot;
-    rate[4] = r_ddot;
-    rate[5] = phi_ddot;
-    rate[6] = Real(0);
-    rate[7] = Real(0);
-}
-
-/// M (n by n, row-major) and f of M q'' = f.
-template <typename Real>
-void mass_forcing([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, Real* mass, Real* forcing) {
-    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5];
-    const Real &M22 = par[4], &M00 = par[5], &k0 = par[6], &k1 = par[7];
-
-    // Mass matrix M(q), lower triangle
-    const Real M11 = M00 * r * r;
-
-    // Forcing f
-    const Real z0 = Real(1) / r;
-    const Real z1 = r * phi_dot;
-    const Real z2 = k0 * z0 * z0 - M00 * phi_dot * z1;
-    const Real f0 = -z2;
-    const Real f1 = -k1 * r_dot * z1;
-
-    // Result
-    mass[0] = M00;
-    mass[1] = mass[4] = Real(0);
-    mass[5] = M11;
-    mass[2] = mass[8] = Real(0);
-    mass[6] = mass[9] = Real(0);
-    mass[10] = M22;
-    mass[3] = mass[12] = Real(0);
-    mass[7] = mass[13] = Real(0);
-    mass[11] = mass[14] = Real(0);
-    mass[15] = M22;
-    forcing[0] = f0;
-    forcing[1] = f1;
-    forcing[2] = Real(0);
-    forcing[3] = Real(0);
-}
-
-/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
-template <typename Real>
-void energy([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, Real* energy, Real* jacobi) {
-    const Real &r = state[0], &r_dot = state[4], &phi_dot = state[5], &X_dot = state[6], &Y_dot = state[7];
-    const Real &k0 = par[6], &k3 = par[9], &k4 = par[10];
-
-    // Energy
-    const Real z0 = k0 / r;
-    const Real z1 = r * phi_dot * r * phi_dot + r_dot * r_dot;
-    const Real T = k3 * (X_dot * X_dot + Y_dot * Y_dot) + k4 * z1;
-    const Real V = -z0;
-    const Real E = T - z0;
-
-    // Result
-    energy[0] = T;
-    energy[1] = V;
-    energy[2] = E;
-    energy[3] = Real(0);
-    jacobi[0] = E;
-}
-
-/// The scene's outputs.
-template <typename Real>
-void outputs_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-    const Real &r = state[0], &phi = state[1], &X = state[2], &Y = state[3], &phi_dot = state[5];
-    const Real &k5 = par[11], &k6 = par[12];
-
-    // Trigonometry
-    const auto [sin_phi, cos_phi] = sincos(phi);
-
-    // Outputs
-    const Real areal = Real(0.5) * r * r * phi_dot;
-    const Real z0 = k5 * r;
-    const Real x1 = X - z0 * cos_phi;
-    const Real y1 = Y - z0 * sin_phi;
-    const Real z1 = k6 * r;
-    const Real x2 = X + z1 * cos_phi;
-    const Real y2 = Y + z1 * sin_phi;
-
-    // Result
-    out[0] = areal;
-    out[1] = x1;
-    out[2] = y1;
-    out[3] = x2;
-    out[4] = y2;
-}
-
-/// The scene's event functions.
-template <typename Real>
-void events_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* rate, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* out) {
-
-
-}
-
-/// f(q,t) of holonomic constraints, A q' + b of all, and A.
-template <typename Real>
-void constraints_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* position, [[maybe_unused]] Real* velocity, [[maybe_unused]] Real* rows) {
-
-
-}
-
-/// The multipliers lambda of M q'' = f + A^T lambda.
-template <typename Real>
-void multipliers_at([[maybe_unused]] const Real& t, [[maybe_unused]] const Real* state, [[maybe_unused]] const Real* par, [[maybe_unused]] Real* lambda) {
-
-
-}
-
 // What the runtime loads (alembert/abi.hpp).
 
 struct alembert_solver_table {
@@ -391,13 +365,9 @@ constexpr alembert_solver_table table{
     [](double t, const double* state, const double* rate, const double* par, double* out) {
         outputs_at(t, state, rate, par, out);
     },
-    [](double t, const double* state, const double* rate, const double* par, double* out) {
-        events_at(t, state, rate, par, out);
-    },
-    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
-        constraints_at(t, state, par, position, velocity, rows);
-    },
-    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, double*, double*, double*) {},
+    [](double, const double*, const double*, double*) {},
 };
 
 }  // namespace

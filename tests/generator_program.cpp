@@ -7,6 +7,11 @@
 #include "program/interpret.hpp"
 #include "program/share.hpp"
 #include "program/solve.hpp"
+#include "emit/emit.hpp"
+#include "formalism/formalisms.hpp"
+#include "lower/choose.hpp"
+#include "program/constants.hpp"
+#include "scenes.hpp"
 
 using namespace alembert;
 
@@ -117,4 +122,45 @@ TEST_CASE("solve: sparse, dense, indefinite and singular matrices against Eigen"
     Program p;
     const int a = parameter(p, 0), zero = p.number(0);
     CHECK_FALSE(solve_symmetric(p, {a, zero, zero}, {a, a}));
+}
+
+TEST_CASE("constants: a sum of parameters has no terms that cancel, and a shared one without any stays") {
+    Program p;
+    const int A = p.variable({Variable::Kind::parameter, 0}), C = p.variable({Variable::Kind::parameter, 1});
+    const int m = p.variable({Variable::Kind::parameter, 2}), q = p.variable({Variable::Kind::coordinate, 0});
+    const int z = p.product(1, {{m, 2}}), rest = p.sum(0, {{1, A}, {-1, C}, {-1, z}});
+    p.roots = {{Group::output, "a", p.product(1, {{p.sum(0, {{1, z}, {1, rest}}), 1}, {q, 1}})},
+               {Group::output, "b", p.product(1, {{rest, 1}, {q, 2}})}};
+    const Program simple = with_simple_constants(p);
+    const Node& a = simple[simple.nodes_of(Group::output)[0]];
+    CHECK(std::any_of(a.args.begin(), a.args.end(), [&](int arg) { return simple[arg].op == Op::sum && simple[arg].args.size() == 2; }));
+    const State<double> s{.parameters = {1.7, 0.4, 1.3}, .t = 0, .q = {0.8}, .qdot = {}, .qddot = {}};
+    const std::vector<double> before = interpret(p, s), after = interpret(simple, s);
+    for (std::size_t k = 0; k < 2; ++k)
+        CHECK(after[simple.nodes_of(Group::output)[k]] == doctest::Approx(before[p.nodes_of(Group::output)[k]]).epsilon(1e-14));
+}
+
+TEST_CASE("emit: M and f are there by name, and functions with nothing to do are not") {
+    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml")));
+    const std::string text = emit(choose(m, formalism("kane").derive(m)).program).text;
+    for (const char* part : {"// M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C", "const Real f0 = ", "const Real f1 = ", "// f2 = 0"})
+        CHECK_MESSAGE(text.find(part) != std::string::npos, part);
+    for (const char* part : {"void events_at", "double tan(", "struct sines"})
+        CHECK_MESSAGE(text.find(part) == std::string::npos, part);
+}
+
+TEST_CASE("energy: where the speeds are body rates, T is half the sum of moments of inertia times their squares") {
+    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml")));
+    const Program p = choose(m, formalism("kane").derive(m)).program;
+    State<double> s = start_of(m).state();
+    s.q = {0.7, -0.2, 0.4, 0.5};
+    s.qdot = {0.3, -1.1, 2.4};
+    std::vector<double> inertia(2);  // A and C
+    for (std::size_t k = 0; k < p.parameters.size(); ++k)
+        if (p.parameters[k].name == "A" || p.parameters[k].name == "C") inertia[p.parameters[k].name == "C" ? 1 : 0] = s.parameters[k];
+    const double T = 0.5 * (inertia[0] * (0.3 * 0.3 + 1.1 * 1.1) + inertia[1] * 2.4 * 2.4);
+    const std::vector<int> kinetic = p.nodes_of(Group::kinetic);
+    CHECK(interpret(p, s)[kinetic[0]] == doctest::Approx(T).epsilon(1e-13));
+    CHECK(p.count(kinetic).total() < 12);  // no quaternion in it
+    CHECK(p.nodes_of(Group::jacobi) == p.nodes_of(Group::energy));
 }

@@ -2,6 +2,7 @@
 #include "agree/system.hpp"
 
 #include <algorithm>
+#include "program/reduce_rows.hpp"
 
 namespace alembert {
 

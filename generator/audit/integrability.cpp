@@ -12,6 +12,7 @@
 
 #include "exact/null_fields.hpp"
 #include "exact/variety.hpp"
+#include "program/reduce_rows.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

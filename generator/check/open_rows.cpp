@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "program/reduce_rows.hpp"
 
 namespace alembert {
 

@@ -8,22 +8,25 @@
 ///     emit(program, {.batch = true});   // with the same functions over eight systems at once
 ///
 /// Functions of the file: rhs, mass_forcing, energy, outputs_at, events_at, and prepare(par) for what depends on
-/// parameters alone; the tables at its end are those of lib/alembert/abi.hpp. Shape in templates/solver.cpp.mustache. A program
-/// that has been differentiated (program/differentiate.hpp) gets `jacobian` and a table of derivatives besides.
+/// parameters alone; the tables at its end are those of lib/alembert/abi.hpp. Shape in
+/// templates/solver.cpp.mustache. A program that has been differentiated (program/differentiate.hpp) gets
+/// `jacobian` and a table of derivatives besides.
 
+#include "program/processor.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
 struct Source {
     std::string file, text;
-    Operations operations;     ///< of one right-hand side
+    Operations operations;  ///< of one right-hand side
     std::string formulation;
 };
 
 struct EmitOptions {
     bool batch = false;  ///< alembert_pack too
-    std::size_t longest_function = 6000;  ///< statements; a longer one is written in parts (parts.hpp), and takes 17 % longer to run
+    std::size_t longest_function =
+        processor::longest_function;  ///< statements; a longer one is written in parts (parts.hpp)
 };
 
 /// Throws ModelError if the program has no accelerations (a singular system).

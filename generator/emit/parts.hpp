@@ -7,21 +7,21 @@
 ///     parts.list[1].lines;       // const Real& z7 = carried[3]; …; carried[9] = z12;
 ///     parts.carried;             // length of `carried`
 ///
-/// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute for 18 000,
-/// most of it for registers). What a part makes and a later one needs goes through the array `carried`, once.
-///
-/// A statement is a line: `const Real a = …;`, also with several names, `const auto [a, b] = …;`, `const auto a = …;`, whose members
-/// the next line takes, or an assignment to what is no name of the function's own.
+/// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute
+/// for 18 000, most of it for registers). What a part makes and a later one needs goes through the array
+/// `carried`, once.
 
 #include <set>
 #include <string>
 #include <vector>
 
+#include "emit/statement.hpp"
+
 namespace alembert {
 
 struct FunctionPart {
     std::vector<std::string> lines;
-    std::set<std::string> names;  ///< all that the lines mention
+    std::set<std::string> names;  ///< all that the statements use or declare
 };
 
 struct FunctionParts {
@@ -29,6 +29,7 @@ struct FunctionParts {
     int carried = 0;
 };
 
-FunctionParts in_parts(const std::vector<std::string>& statements, std::size_t length);
+/// Parts of `length` statements; the last may have fewer.
+FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length);
 
 }  // namespace alembert

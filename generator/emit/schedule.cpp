@@ -5,11 +5,13 @@
 #include <queue>
 #include <tuple>
 
+#include "program/processor.hpp"
+
 namespace alembert {
 
 namespace {
 
-constexpr int units = 2, step = 4, division = 14, function = 40;
+using processor::division, processor::function, processor::step, processor::units;
 
 int latency(const Node& node) {
     if (node.is_reciprocal()) return division;
@@ -18,14 +20,16 @@ int latency(const Node& node) {
 
 /// Instructions: a product that is added costs none of its own, as good as always.
 int instructions(const Node& node) {
-    if (node.op == Op::sum) return std::max(1, static_cast<int>(node.args.size()) - (cln::zerop(node.number) ? 1 : 0));
+    if (node.op == Op::sum)
+        return std::max(1, static_cast<int>(node.args.size()) - (cln::zerop(node.number) ? 1 : 0));
     if (node.op == Op::product) return std::max(1, static_cast<int>(node.args.size()) - 1);
     return 1;
 }
 
 }  // namespace
 
-std::vector<int> scheduled(const Program& program, const Readiness& ready, std::span<const int> roots, const std::function<bool(int)>& is_done) {
+std::vector<int> scheduled(const Program& program, const Readiness& ready, std::span<const int> roots,
+                           const std::function<bool(int)>& is_done) {
     std::vector<int> nodes;
     for (const int id : program.needed(roots))
         if (!is_done(id)) nodes.push_back(id);
@@ -47,7 +51,7 @@ std::vector<int> scheduled(const Program& program, const Readiness& ready, std::
             ++waits[*id];
         }
     }
-    using Waiting = std::tuple<int, int>;                                                  // when, node
+    using Waiting = std::tuple<int, int>;  // when, node
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> later;
     const auto less_urgent = [&](int a, int b) { return std::tie(tail[a], b) < std::tie(tail[b], a); };
     std::priority_queue<int, std::vector<int>, decltype(less_urgent)> now(less_urgent);

@@ -2,6 +2,13 @@
 #pragma once
 
 /// Writes one function's statements from a Program: what is used twice gets a name, the rest stays in place.
+///
+///     Writer writer(program, words.names(), words.leaves());
+///     writer.write({{"Forcing f", "f0", node}});      // passages of statements
+///     writer.assigned("forcing", "forcing[0]", node); // forcing[0] = f0;
+///
+/// writer.cpp decides which nodes get statements, and where; writer_trigonometry.cpp writes sines and cosines,
+/// writer_text.cpp all other values.
 
 #include <map>
 #include <optional>
@@ -9,29 +16,17 @@
 #include <vector>
 
 #include "emit/names.hpp"
+#include "emit/statement.hpp"
 #include "program/program.hpp"
 #include "program/readiness.hpp"
 
 namespace alembert {
 
-/// Statements in the order in which a lecturer would write them.
-struct Passage {
-    std::string title;
-    std::vector<std::string> lines;
-};
-
-/// One thing that a function computes: a node, and what its variable is to be called if it gets one.
-struct Goal {
-    std::string section, name;
-    int node;
-    bool own_name = false;  ///< `name` is taken by the caller, for this
-};
-
 class Writer {
 public:
     /// `leaves`: nodes that have names already (variables, constants that `prepare` made).
-    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations instead of 30, as good to
-    /// an ulp of 1, and further from the book.
+    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations
+    /// instead of 30, as good to an ulp of 1, and further from the book.
     Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false)
         : program_(program), names_(std::move(names)), named_(std::move(leaves)), adds_angles_(adds_angles) {}
 
@@ -39,25 +34,51 @@ public:
     /// goals' own sections in their order.
     std::vector<Passage> write(const std::vector<Goal>& goals);
 
+    /// After `write`: "to = value;" of a goal, where `to` is a place in `array`.
+    CodeStatement assigned(const std::string& array, const std::string& to, int node);
     /// After `write`: an expression for a goal's value, and the leaves that were used.
-    std::string value(int node) { return text(node, 0); }
+    std::string value(int node) { return text(node, additive); }
     const std::map<int, int>& uses() const { return uses_; }
 
 private:
     enum Precedence { additive = 0, multiplicative = 1, primary = 2 };
-    bool is_leaf(int node) const { return leaves_.contains(node); }
-    void count_uses(const std::vector<Goal>& goals);
-    void choose_statements(const std::vector<Goal>& goals);
-    std::string statement(int node);
     struct AngleSum {
         int argument, a, b;
         bool is_difference;
     };
-    std::vector<AngleSum> taken_out_sums(std::vector<int>& arguments, std::vector<int>& first) const;
+    struct Sections {
+        std::vector<std::string> titles;
+        std::map<int, std::size_t> place;  ///< of each node that the goals use
+        /// What stands below a leaf comes first, like sines.
+        std::size_t of(int node) const {
+            const auto found = place.find(node);
+            return found == place.end() ? 0 : found->second;
+        }
+    };
+
+    bool is_leaf(int node) const { return leaves_.contains(node); }
+    bool is_simple(int node) const;
+    void count_uses(const std::vector<Goal>& goals);
+    void choose_statements(const std::vector<Goal>& goals);
+    void shorten(int node, std::map<int, int>& length);
+    Sections sections_of(const std::vector<Goal>& goals) const;
+    std::vector<Passage> in_sections(const Sections& sections);
+    std::vector<Passage> in_order_of_time(const Sections& sections, const std::vector<int>& nodes);
+    void add_notes(std::vector<Passage>& passages, const std::vector<Goal>& goals);
     std::vector<int> in_registers(const std::vector<int>& nodes) const;
-    std::vector<std::string> trigonometry(const std::vector<int>& nodes);
+
+    std::vector<CodeStatement> trigonometry(const std::vector<int>& nodes);
+    CodeStatement sines_together(const std::vector<int>& arguments, const std::vector<AngleSum>& sums);
+    void add_angle_sum(std::vector<CodeStatement>& statements, const AngleSum& sum);
+    std::vector<AngleSum> taken_out_sums(std::vector<int>& arguments, std::vector<int>& first) const;
     std::string trigonometric_name(int argument);
+    CodeStatement trigonometric_statement(int node);
+
+    CodeStatement statement(int node);
+    CodeStatement finished(std::vector<std::string> names, std::string text);
     std::string text(int node, int precedence);
+    bool is_negative(int node) const;
+    std::string unsigned_text(int node, int precedence);
     std::string sum_text(int node, bool negated);
     std::string product_text(int node);
 
@@ -65,19 +86,19 @@ private:
     std::optional<Readiness> ready_;  // in `write`
     Names names_;
     std::map<int, std::string> named_;
+    std::map<int, std::string> negatives_;  // nodes whose negative has a name: that name
     std::map<int, std::string> leaves_;
-    std::map<int, int> uses_;             // how often a needed node is used
-    std::map<int, std::string> wanted_;   // nodes that get a statement, and the name they ask for ("" for any)
-    std::map<int, std::string> promised_; // names that are theirs already
+    std::map<int, int> uses_;              // how often a needed node is used
+    std::map<int, std::string> wanted_;    // nodes that get a statement, and the name they ask for ("" for any)
+    std::map<int, std::string> promised_;  // names that are theirs already
+    std::map<int, std::string>
+        wanted_negatives_;  // nodes that are written as their negative, and the name of that
     std::map<int, std::string> argument_names_, sine_names_, cosine_names_;  // of an argument
     bool adds_angles_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed
+
+    std::set<std::string> reading_;  // names in the statement at hand
+    int operations_ = 0;             // in it
 };
-
-/// A rational as C++: exactly, in as few characters as that takes.
-std::string number_text(const Rational& value);
-
-/// The shortest decimal that reads back as the same double.
-std::string shortest(double value);
 
 }  // namespace alembert

@@ -8,6 +8,7 @@
 
 #include "exact/common_zeros.hpp"
 #include "exact/angle_sum.hpp"
+#include "program/reduce_rows.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "program/constants.hpp"
 #include "program/flatten.hpp"
 #include "program/share.hpp"
 #include "notation/readable.hpp"
@@ -159,7 +160,8 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
         Candidate& c = candidates[k];
         const double least = times[k] * least_after / (c.program.is_textbook ? readability : 1);
-        if (c.program.singular || least <= best || times[k] <= second) programs.push_back(shared(c.is_recursion ? flattened(c.program) : std::move(c.program)));
+        if (c.program.singular || least <= best || times[k] <= second)
+            programs.push_back(with_simple_constants(shared(c.is_recursion ? flattened(c.program) : std::move(c.program))));
     }
     return programs;
 }

@@ -8,7 +8,7 @@
 #include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
-#include "lower/recursion.hpp"
+#include "lower/articulated_bodies.hpp"
 
 namespace alembert {
 

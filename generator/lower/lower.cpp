@@ -8,11 +8,11 @@
 #include <set>
 
 #include "formalism/kinematics.hpp"
+#include "lower/energy_roots.hpp"
+#include "lower/lowering.hpp"
 #include "lower/project.hpp"
-#include "lower/recursion.hpp"
-#include "program/interpret.hpp"
+#include "lower/articulated_bodies.hpp"
 #include "program/solve.hpp"
-#include "symbolic/functions.hpp"
 
 namespace alembert {
 
@@ -21,155 +21,6 @@ using GiNaC::ex_to;
 using GiNaC::is_a;
 
 namespace {
-
-const std::map<std::string, Op>& operations() {
-    static const std::map<std::string, Op> table = [] {
-        std::map<std::string, Op> made;
-        for (int op = static_cast<int>(Op::sin); op <= static_cast<int>(Op::max); ++op)
-            made[name_of(static_cast<Op>(op))] = static_cast<Op>(op);
-        return made;
-    }();
-    return table;
-}
-
-class Lowering {
-public:
-    Lowering(Program& program, const Mechanism& mechanism, bool fold)
-        : program_(program), m_(mechanism), fold_(fold) {}
-
-    int operator()(const ex& e) {
-        if (const auto found = known_.find(e); found != known_.end()) return found->second;
-        const int node = lowered(e);
-        known_.emplace(e, node);
-        return node;
-    }
-
-    /// The value of a symbol that is none of the scene's.
-    int define(const GiNaC::symbol& symbol, int node) {
-        known_[symbol] = node;
-        return node;
-    }
-
-    /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
-    void lower_definitions(const std::vector<ex>& roots) {
-        std::set<const Intermediates::Entry*> wanted;  // in the order of their making
-        std::vector<ex> stack = roots;
-        while (!stack.empty()) {
-            const ex top = stack.back();
-            stack.pop_back();
-            if (!is_a<GiNaC::symbol>(top)) {
-                for (const ex& part : top) stack.push_back(part);
-                continue;
-            }
-            const Intermediates::Entry* entry = m_.z->find(ex_to<GiNaC::symbol>(top));
-            if (entry == nullptr || known_.contains(top) || !wanted.insert(entry).second) continue;
-            for (const GiNaC::symbol& used : entry->uses) stack.push_back(used);
-        }
-        // Positions: the derivative of an input adds entries to the table, and moves it.
-        std::vector<std::ptrdiff_t> order;
-        for (const Intermediates::Entry* entry : wanted) order.push_back(entry - m_.z->entries().data());
-        for (const std::ptrdiff_t k : order) (*this)(m_.z->entries()[static_cast<std::size_t>(k)].symbol);
-    }
-
-private:
-    int lowered(const ex& e) {
-        if (is_a<GiNaC::numeric>(e)) return program_.number(rational(e));
-        if (is_a<GiNaC::constant>(e)) return program_.pi();
-        if (is_a<GiNaC::symbol>(e)) return symbol(ex_to<GiNaC::symbol>(e));
-        if (is_a<GiNaC::add>(e)) {
-            std::vector<Program::Term> terms;
-            for (const ex& term : e) terms.emplace_back(1, (*this)(term));
-            return program_.sum(0, terms);
-        }
-        if (is_a<GiNaC::mul>(e)) {
-            std::vector<Program::Factor> factors;
-            Rational coefficient = 1;
-            for (const ex& factor : e) {
-                if (is_a<GiNaC::numeric>(factor)) {
-                    coefficient = coefficient * rational(factor);
-                } else if (is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::integer)) {
-                    factors.emplace_back((*this)(factor.op(0)), ex_to<GiNaC::numeric>(factor.op(1)).to_int());
-                } else {
-                    factors.emplace_back((*this)(factor), 1);
-                }
-            }
-            return program_.product(coefficient, factors);
-        }
-        if (is_a<GiNaC::power>(e)) {
-            const int base = (*this)(e.op(0));
-            if (e.op(1).info(GiNaC::info_flags::rational)) return program_.power(base, rational(e.op(1)));
-            return program_.call(Op::pow, {base, (*this)(e.op(1))});
-        }
-        if (is_a<GiNaC::function>(e)) {
-            std::vector<int> args;
-            for (const ex& arg : e) args.push_back((*this)(arg));
-            return program_.call(operations().at(function_name(e)), std::move(args));
-        }
-        throw ModelError(fmt::format("an expression of kind '{}' cannot be turned into code",
-                                     ex_to<GiNaC::basic>(e).class_name()));
-    }
-
-    static Rational rational(const ex& e) {
-        const GiNaC::numeric& value = ex_to<GiNaC::numeric>(e);
-        if (!value.is_rational()) throw ModelError("a number that is not rational cannot be turned into exact code");
-        return cln::the<cln::cl_RA>(value.to_cl_N());
-    }
-
-    int symbol(const GiNaC::symbol& s) {
-        if (const Intermediates::Entry* entry = m_.z->find(s)) {
-            // A copy: the derivative of an input adds entries to the table, and moves it.
-            const ex definition = entry->definition;
-            const std::vector<int> former = program_.set_sources(entry->sources);
-            const int node = (*this)(definition);
-            program_.set_sources(former);
-            return node;
-        }
-        const SymbolInfo& info = m_.symbols->info(s);
-        switch (info.kind) {
-            case SymbolInfo::Kind::time: return program_.variable({Variable::Kind::time, 0});
-            case SymbolInfo::Kind::parameter: return parameter(info.index);
-            case SymbolInfo::Kind::input: return input(info.index, info.order);
-            case SymbolInfo::Kind::coordinate: {
-                const auto kind = info.order == 0   ? Variable::Kind::coordinate
-                                  : info.order == 1 ? Variable::Kind::rate
-                                                    : Variable::Kind::acceleration;
-                return program_.variable({kind, info.index});
-            }
-            default: break;
-        }
-        throw ModelError(fmt::format("'{}' has no value", info.text()));
-    }
-
-    int parameter(int index) {
-        const Mechanism::Parameter& p = m_.parameters[index];
-        if (!p.independent && fold_) return program_.number(folded(p.value));
-        if (!p.independent || fold_) return (*this)(p.value);
-        int position = 0;
-        for (int i = 0; i < index; ++i) position += m_.parameters[i].independent ? 1 : 0;
-        return program_.variable({Variable::Kind::parameter, position});
-    }
-
-    /// What an expression in parameters comes to at the scene's values, in double precision.
-    Rational folded(const ex& e) {
-        Program program;
-        const int node = Lowering(program, m_, false)(e);
-        State<double> state;
-        for (const Mechanism::Parameter& p : m_.parameters)
-            if (p.independent) state.parameters.push_back(ex_to<GiNaC::numeric>(p.value).to_double());
-        return cln::rational(cln::cl_DF(interpret(program, state)[node]));
-    }
-
-    int input(int index, int order) {
-        ex value = m_.inputs[index].value;
-        for (int i = 0; i < order; ++i) value = m_.explicit_time_derivative({value})[0];
-        return (*this)(value);
-    }
-
-    Program& program_;
-    const Mechanism& m_;
-    bool fold_;
-    std::map<ex, int, GiNaC::ex_is_less> known_;
-};
 
 /// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& udot) {
@@ -398,13 +249,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
     lowering.lower_definitions(wanted);
-    const int T = lowering(energy.kinetic), V = lowering(energy.potential);
-    const int E = m.given_lagrangian ? lowering(energy.energy) : program.sum(0, {{1, T}, {1, V}});
-    program.roots.push_back({Group::kinetic, "T", T});
-    program.roots.push_back({Group::potential, "V", V});
-    program.roots.push_back({Group::energy, "E", E});
-    program.roots.push_back({Group::power, "P", lowering(energy.power)});
-    program.roots.push_back({Group::jacobi, "h", energy.jacobi.is_equal(energy.energy) ? E : lowering(energy.jacobi)});
+    add_energy_roots(lowering, program, m, equations, energy, norms.empty() && has_matrix ? mass : std::vector<int>());
     for (const Mechanism::Definition& part : m.outputs) program.roots.push_back({Group::output, part.name, lowering(part.value)});
     for (const Mechanism::Definition& part : m.events) program.roots.push_back({Group::event, part.name, lowering(part.value)});
     return program.canonical();

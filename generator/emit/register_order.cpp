@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "emit/crowding.hpp"
+#include "emit/register_order.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
+#include "program/processor.hpp"
+
 namespace alembert {
 
 namespace {
 
-constexpr int registers = 30;
-constexpr double fused = 0.6;     // instructions an operation
-constexpr double units = 2;
-constexpr double patience = 12;   // cycles that a processor looks ahead for
-constexpr std::size_t most = 20000;
+using processor::registers;
+
+/// Cycles in which a statement keeps one of the units busy.
+double occupied(const Computation& statement) {
+    return std::max(1.0, processor::fused * statement.operations) / processor::units;
+}
 
 /// As depth first from the ends would take them, what takes longest first.
-std::vector<int> depth_first(const std::vector<Computation>& statements, const std::vector<std::vector<int>>& users) {
+std::vector<int> depth_first(const std::vector<Computation>& statements,
+                             const std::vector<std::vector<int>>& users) {
     std::vector<int> depth, place(statements.size(), -1);
     for (const Computation& s : statements) {
         int before = 0;
@@ -46,7 +50,7 @@ std::vector<int> depth_first(const std::vector<Computation>& statements, const s
 
 }  // namespace
 
-std::vector<int> uncrowded(const std::vector<Computation>& statements) {
+std::vector<int> register_order(const std::vector<Computation>& statements) {
     const auto count = statements.size();
     std::vector<int> order(count);
     std::iota(order.begin(), order.end(), 0);
@@ -58,9 +62,9 @@ std::vector<int> uncrowded(const std::vector<Computation>& statements) {
     for (std::size_t id = count; id-- > 0;) {
         for (const int user : users[id]) tail[id] = std::max(tail[id], tail[user] + statements[user].latency);
         chain = std::max(chain, static_cast<double>(tail[id] + statements[id].latency));
-        work += std::max(1.0, fused * statements[id].operations) / units;
+        work += occupied(statements[id]);
     }
-    if (work < chain || count > most) return order;
+    if (work < chain || count > processor::most_ordered) return order;
 
     const std::vector<int> place = depth_first(statements, users);
     std::vector<int> waits, uses, free;
@@ -73,14 +77,20 @@ std::vector<int> uncrowded(const std::vector<Computation>& statements) {
     order.clear();
     double cycle = 0;
     for (int live = 0; !free.empty();) {
-        const auto roomy = [&](int a, int b) { return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b); };
+        const auto roomy = [&](int a, int b) {
+            return std::make_tuple(at[a] > cycle, -tail[a], a) < std::make_tuple(at[b] > cycle, -tail[b], b);
+        };
         const auto frees = [&](int id) {
             const auto& needs = statements[id].needs;
-            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) || uses[id] == 0;
+            return std::any_of(needs.begin(), needs.end(), [&](int need) { return uses[need] == 1; }) ||
+                   uses[id] == 0;
         };
-        const auto key = [&](int id) { return std::make_tuple(!frees(id), at[id] > cycle + patience, place[id]); };
+        const auto key = [&](int id) {
+            return std::make_tuple(!frees(id), at[id] > cycle + processor::look_ahead, place[id]);
+        };
         const auto tight = [&](int a, int b) { return key(a) < key(b); };
-        auto best = live < registers ? std::min_element(free.begin(), free.end(), roomy) : std::min_element(free.begin(), free.end(), tight);
+        auto best = live < registers ? std::min_element(free.begin(), free.end(), roomy)
+                                     : std::min_element(free.begin(), free.end(), tight);
         if (live < registers && at[*best] > cycle) {
             cycle = at[*std::min_element(free.begin(), free.end(), [&](int a, int b) { return at[a] < at[b]; })];
             best = std::min_element(free.begin(), free.end(), roomy);
@@ -96,7 +106,7 @@ std::vector<int> uncrowded(const std::vector<Computation>& statements) {
             at[user] = std::max(at[user], start + statements[id].latency);
             if (--waits[user] == 0) free.push_back(user);
         }
-        cycle += std::max(1.0, fused * statements[id].operations) / units;
+        cycle += occupied(statements[id]);
     }
     return order;
 }

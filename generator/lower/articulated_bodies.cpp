@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lower/recursion.hpp"
+#include "lower/articulated_bodies.hpp"
 
 #include "formalism/planar_chain.hpp"
 #include "lower/link_frames.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "emit/crowding.hpp"
+#include "emit/register_order.hpp"
 
 using namespace alembert;
 
@@ -44,22 +44,22 @@ std::vector<int> as_given(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("crowding: 400 values that would wait for their partners fit in the registers") {
+TEST_CASE("register order: 400 values that would wait for their partners fit in the registers") {
     std::vector<Computation> statements(400);
     for (int k = 0; k < 200; ++k) statements.push_back({.needs = {k, 399 - k}});
     CHECK(most_live(statements, as_given(statements.size())) == 400);
-    const std::vector<int> order = uncrowded(statements);
+    const std::vector<int> order = register_order(statements);
     CHECK(is_in_order(statements, order));
     CHECK(most_live(statements, order) <= 32);
 }
 
-TEST_CASE("crowding: a chain, whose length is what counts, stays as it is") {
+TEST_CASE("register order: a chain, whose length is what counts, stays as it is") {
     std::vector<Computation> statements(1);
     for (int k = 0; k < 100; ++k) statements.push_back({.needs = {k}});
-    CHECK(uncrowded(statements) == as_given(statements.size()));
+    CHECK(register_order(statements) == as_given(statements.size()));
 }
 
-TEST_CASE("crowding: any order keeps what is needed first, and depends on nothing but the statements") {
+TEST_CASE("register order: any order keeps what is needed first, and depends on nothing but the statements") {
     std::mt19937 random(5);
     for (int round = 0; round < 50; ++round) {
         std::vector<Computation> statements;
@@ -72,8 +72,8 @@ TEST_CASE("crowding: any order keeps what is needed first, and depends on nothin
             statements.push_back(std::move(s));
         }
         CAPTURE(round);
-        const std::vector<int> order = uncrowded(statements);
+        const std::vector<int> order = register_order(statements);
         CHECK(is_in_order(statements, order));
-        CHECK(order == uncrowded(statements));
+        CHECK(order == register_order(statements));
     }
 }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <string_view>
+
+namespace alembert {
+
+namespace {
+
+constexpr std::string_view in_units = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789*/^-. ";
+
+std::string wrapped_line(const std::string& line) {
+    std::string result;
+    std::size_t start = 0;
+    while (line.size() - start > line_width) {
+        std::size_t cut = std::string::npos;
+        for (std::size_t at = line.find(' ', start); at != std::string::npos && at - start < line_width;
+             at = line.find(' ', at + 1))
+            if (at + 1 < line.size() &&
+                (std::string_view("+-*/").find(line[at + 1]) != std::string_view::npos || line[at - 1] == ','))
+                cut = at;
+        if (cut == std::string::npos) break;
+        result += line.substr(start, cut - start) + "\n        ";
+        start = cut + 1;
+    }
+    return result + line.substr(start);
+}
+
+}  // namespace
+
+std::string wrapped(const std::string& text) {
+    std::istringstream lines(text);
+    std::string result;
+    for (std::string line; std::getline(lines, line);)
+        result += (result.empty() ? "" : "\n    ") + wrapped_line(line);
+    return result;
+}
+
+std::string wrapped_list(const std::vector<std::string>& items) {
+    std::string result, line;
+    for (const std::string& item : items) {
+        if (line.size() + item.size() > line_width) {
+            result += line + "\n    ";
+            line.clear();
+        }
+        line += item + ", ";
+    }
+    return result + line;
+}
+
+std::string quoted(const std::vector<std::string>& names) {
+    std::string result;
+    for (const std::string& name : names) result += fmt::format("\"{}\", ", name);
+    return result;
+}
+
+std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities) {
+    std::string result, line;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        std::string unit;
+        for (const char c : quantities[i].unit)
+            if (in_units.find(c) != std::string_view::npos) unit += c;
+        const std::string item = names[i] + (unit.empty() ? "" : " [" + unit + "]");
+        if (line.size() + item.size() > line_width - 20) {
+            result += line + ",\n//          ";
+            line.clear();
+        }
+        line += (line.empty() ? "" : ", ") + item;
+    }
+    return result + line;
+}
+
+std::string counted(int count, const std::string& noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace alembert

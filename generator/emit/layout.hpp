@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// How text is set in an emitted file: the width of lines, lists, and what stands in its head.
+
+#include <string>
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+constexpr std::size_t line_width = 110;
+
+/// Long lines go on below, indented; a line is only broken before an operator or after a comma.
+std::string wrapped(const std::string& text);
+
+/// "a, b, " over several lines.
+std::string wrapped_list(const std::vector<std::string>& items);
+
+/// "\"a\", \"b\", "
+std::string quoted(const std::vector<std::string>& names);
+
+/// "l1 [m], l2 [m]" over several lines of a comment.
+std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities);
+
+/// "1 division", "2 divisions".
+std::string counted(int count, const std::string& noun);
+
+}  // namespace alembert

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/numbers.hpp"
+
+#include <cln/float.h>
+#include <cln/integer.h>
+#include <cln/integer_io.h>
+#include <cln/real.h>
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace alembert {
+
+namespace {
+
+std::string digits(const cln::cl_I& value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
+}  // namespace
+
+std::string shortest(double value) {
+    return fmt::format("{}", value);
+}
+
+std::string number_text(const Rational& value) {
+    const cln::cl_I numerator = cln::numerator(value), denominator = cln::denominator(value);
+    const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
+    if (denominator == 1 && cln::abs(numerator) <= largest) return fmt::format("Real({})", digits(numerator));
+    const double nearest = cln::double_approx(value);
+    // A decimal such as 9.81 is itself when its digits are; 1/3 is left to Real's own division.
+    cln::cl_I rest = denominator;
+    while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
+    while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);
+    if (rest != 1 && cln::abs(numerator) <= largest && denominator <= largest)
+        return fmt::format("(Real({}) / Real({}))", digits(numerator), digits(denominator));
+    return fmt::format("Real({})", shortest(nearest));
+}
+
+std::string exact_text(const Rational& value) {
+    const auto is_double = [](const Rational& r) {
+        return cln::zerop(r) || cln::equal(cln::rational(cln::cl_DF(cln::double_approx(r))), r);
+    };
+    const auto text = [](const Rational& r) { return fmt::format("Real({})", shortest(cln::double_approx(r))); };
+    if (is_double(value)) return text(value);
+    const Rational above = cln::numerator(value), below = cln::denominator(value);
+    if (is_double(above) && is_double(below)) return fmt::format("({} / {})", text(above), text(below));
+    std::string sum;
+    Rational rest = value;
+    for (int part = 0; part < 3 && !cln::zerop(rest); ++part) {
+        const Rational piece = cln::rational(cln::cl_DF(cln::double_approx(rest)));
+        sum += (part > 0 ? " + " : "") + text(piece);
+        rest = rest - piece;
+    }
+    return "(" + sum + ")";
+}
+
+}  // namespace alembert

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Numbers as C++.
+
+#include <string>
+
+#include "program/program.hpp"
+
+namespace alembert {
+
+/// The shortest decimal that reads back as the same double.
+std::string shortest(double value);
+
+/// A rational as a double or a quotient of two, in as few characters as that takes.
+std::string number_text(const Rational& value);
+
+/// A rational exactly in every Real of up to 34 digits: a double, a quotient of two, or a sum of three.
+std::string exact_text(const Rational& value);
+
+}  // namespace alembert

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The functions of a solver (lib/alembert/abi.hpp): what each computes, under which titles.
+
+#include "emit/function.hpp"
+
+namespace alembert {
+
+/// rate = (q', u'): kinematics, M, f, constraints, solve.
+FunctionTask right_hand_side(const Program& program, const Vocabulary& words);
+FunctionTask mass_forcing(const Program& program);
+FunctionTask energy(const Program& program);
+FunctionTask outputs_at(const Program& program);
+FunctionTask events_at(const Program& program);
+FunctionTask constraints_at(const Program& program);
+FunctionTask multipliers_at(const Program& program);
+/// One step to the constraints; without results where there is none.
+FunctionTask project(const Program& program);
+FunctionTask gamma_at(const Program& program);
+
+/// The entries of a Jacobian that are not zero.
+struct SparseTask {
+    FunctionTask task;
+    std::vector<std::string> rows, columns;
+};
+SparseTask jacobian(const Program& program);
+SparseTask parameter_jacobian(const Program& program);
+
+}  // namespace alembert

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/vocabulary.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace alembert {
+
+std::string ArrayInput::source() const {
+    constexpr const char* arrays[] = {"state", "rate", "par"};
+    return fmt::format("{}[{}]", arrays[static_cast<int>(array)], place);
+}
+
+Vocabulary::Vocabulary(const Program& program)
+    : p_(program),
+      n_(static_cast<int>(program.coordinates.size())),
+      s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())) {
+    for (const Quantity& q : p_.coordinates) {
+        q_.push_back(names_.fresh(q.name));
+        if (!p_.speeds.empty()) continue;
+        u_.push_back(names_.fresh(q_.back() + "_dot"));
+        a_.push_back(names_.fresh(q_.back() + "_ddot"));
+    }
+    for (const Quantity& u : p_.speeds) {
+        const std::string q = u.rate_of < 0 ? "" : p_.coordinates[static_cast<std::size_t>(u.rate_of)].name;
+        u_.push_back(names_.fresh(q.empty() ? u.name : q + "_dot"));
+        a_.push_back(names_.fresh(q.empty() ? u_.back() + "_dot" : q + "_ddot"));
+    }
+    for (const Quantity& par : p_.parameters) par_.push_back(names_.fresh(par.name));
+    find_constants();
+}
+
+/// Everything that depends on parameters alone and is wanted by something that does not.
+void Vocabulary::find_constants() {
+    std::vector<int> wanted;
+    for (const Root& root : p_.roots) wanted.push_back(root.node);
+    std::set<int> found;
+    const auto consider = [&](int id) {
+        const Node& node = p_[id];
+        if (!node.is_constant() || node.args.empty()) return;
+        const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
+        const int kept = negation ? node.args[0] : id;
+        if (!p_[kept].args.empty()) found.insert(kept);  // −p is read from p, which stands in `par` already
+    };
+    for (const int id : p_.needed(wanted))
+        if (!p_[id].is_constant())
+            for (const int arg : p_[id].args) consider(arg);
+    for (const Root& root : p_.roots) {
+        consider(root.node);
+        if (found.contains(root.node) && (root.group == Group::mass || root.group == Group::forcing))
+            constant_names_.emplace(root.node, root.name);
+    }
+    constants_.assign(found.begin(), found.end());
+    for (const int id : constants_) {
+        std::string& name = constant_names_[id];
+        name = name.empty() ? names_.numbered("k") : names_.fresh(name);
+    }
+}
+
+std::map<int, std::string> Vocabulary::variables() const {
+    std::map<int, std::string> leaves;
+    for (int id = 0; id < p_.size(); ++id) {
+        const Node& node = p_[id];
+        if (node.op != Op::variable) continue;
+        const auto i = static_cast<std::size_t>(node.variable.index);
+        switch (node.variable.kind) {
+            case Variable::Kind::parameter:
+                leaves[id] = par_[i];
+                break;
+            case Variable::Kind::time:
+                leaves[id] = "t";
+                break;
+            case Variable::Kind::coordinate:
+                leaves[id] = q_[i];
+                break;
+            case Variable::Kind::rate:
+                leaves[id] = u_[i];
+                break;
+            case Variable::Kind::acceleration:
+                leaves[id] = a_[i];
+                break;
+            case Variable::Kind::unknown:
+                break;
+        }
+    }
+    return leaves;
+}
+
+std::map<int, std::string> Vocabulary::leaves() const {
+    std::map<int, std::string> leaves = variables();
+    for (const int id : constants_) leaves[id] = constant_names_.at(id);
+    return leaves;
+}
+
+std::vector<ArrayInput> Vocabulary::inputs(const std::map<int, int>& uses, bool rates_needed) const {
+    std::vector<char> q(q_.size(), 0), u(u_.size(), rates_needed ? 1 : 0), a(a_.size(), 0), par(par_.size(), 0);
+    for (const auto& [id, count] : uses) {
+        const Node& node = p_[id];
+        if (node.op != Op::variable || constant_names_.contains(id)) continue;
+        const auto i = static_cast<std::size_t>(node.variable.index);
+        switch (node.variable.kind) {
+            case Variable::Kind::parameter:
+                par[i] = 1;
+                break;
+            case Variable::Kind::coordinate:
+                q[i] = 1;
+                break;
+            case Variable::Kind::rate:
+                u[i] = 1;
+                break;
+            case Variable::Kind::acceleration:
+                a[i] = 1;
+                break;
+            case Variable::Kind::time:
+            case Variable::Kind::unknown:
+                break;
+        }
+    }
+    std::vector<ArrayInput> items;
+    const auto add = [&](const std::vector<std::string>& names, const std::vector<char>& wanted,
+                         ArrayInput::Array array, int first) {
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (wanted[i] != 0) items.push_back({names[i], array, first + static_cast<int>(i)});
+    };
+    add(q_, q, ArrayInput::Array::state, 0);
+    add(u_, u, ArrayInput::Array::state, n_);
+    add(a_, a, ArrayInput::Array::rate, n_);
+    add(par_, par, ArrayInput::Array::par, 0);
+    for (std::size_t k = 0; k < constants_.size(); ++k)
+        if (uses.contains(constants_[k]))
+            items.push_back(
+                {constant_names_.at(constants_[k]), ArrayInput::Array::par, static_cast<int>(par_.size() + k)});
+    return items;
+}
+
+}  // namespace alembert

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What an emitted file calls the state, the parameters and the constants of a Program.
+///
+///     const Vocabulary words(program);
+///     words.leaves();                      // node → "theta", "l1", "k0"
+///     words.inputs(writer.uses(), false);  // {"theta", "state[0]"}, {"l1", "par[2]"} …
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "emit/names.hpp"
+#include "program/program.hpp"
+
+namespace alembert {
+
+/// A name that a function takes from one of its arrays.
+struct ArrayInput {
+    enum class Array { state, rate, par };  ///< declared apart
+    std::string name;
+    Array array;
+    int place;
+    std::string source() const;  ///< "state[0]"
+};
+
+class Vocabulary {
+public:
+    explicit Vocabulary(const Program& program);
+
+    /// Names of variables and constants, by node.
+    std::map<int, std::string> leaves() const;
+    /// Names of variables alone: for the function that makes the constants.
+    std::map<int, std::string> variables() const;
+    /// Those variables and constants that are among the nodes used; with `rates_needed` all speeds besides.
+    std::vector<ArrayInput> inputs(const std::map<int, int>& uses, bool rates_needed) const;
+
+    const Names& names() const { return names_; }  ///< with all of the following taken
+    const std::vector<std::string>& q() const { return q_; }
+    const std::vector<std::string>& u() const { return u_; }  ///< speeds
+    const std::vector<std::string>& a() const { return a_; }  ///< their rates
+    const std::vector<std::string>& par() const { return par_; }
+    const std::vector<int>& constants() const {
+        return constants_;
+    }  ///< nodes that depend on parameters alone, in the order of `par`
+    const std::string& constant(int node) const { return constant_names_.at(node); }
+
+private:
+    void find_constants();
+
+    const Program& p_;
+    int n_, s_;
+    Names names_;
+    std::vector<std::string> q_, u_, a_, par_;
+    std::vector<int> constants_;
+    std::map<int, std::string> constant_names_;
+};
+
+}  // namespace alembert
