@@ -10,7 +10,7 @@ namespace alembert {
 using GiNaC::ex;
 
 std::optional<std::string> not_canonical(const Derived& d) {
-    if (!d.equations.speeds_are_rates()) return "the equations are in generalized speeds (--by routh has them in rates)";
+    if (!d.equations.speeds_are_rates()) return "the equations are in generalized speeds (the formalism 'routh' has them in rates)";
     for (const Mechanism::Constraint& c : d.mechanism.constraints)
         if (!c.position) return fmt::format("the constraint '{}' is one of rates", c.name);
     return std::nullopt;

@@ -43,7 +43,7 @@ void need_foreign(const Derived& d, std::string_view method) {
     };
     if (!d.mechanism.unilateral.empty()) refuse("contacts ([[unilateral]])");
     if (!d.mechanism.events.empty()) refuse("events ([[event]])");
-    if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty()) refuse("constraints in generalized speeds (--by routh has them in rates)");
+    if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty()) refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");
 }
 
 Integrator foreign_integrator(std::string_view method, const Module& module, const std::vector<double>& parameters) {

@@ -1,31 +1,36 @@
 // SPDX-License-Identifier: MIT
-// The whole way from a scene to a motion with the installed libraries: prints the pendulum's period.
-#include <alembert/compile.hpp>
-#include <alembert/integrate.hpp>
+// The whole way from a scene to its equations and its motion with the installed library, in a program of somebody else: a ball
+// that bounces. Prints the equation of motion in LaTeX, the times of the first two impacts and the estimated error.
+#include <alembert/derive/derive.hpp>
+#include <alembert/notation/latex.hpp>
+#include <alembert/run/simulate.hpp>
 #include <cstdio>
-
-#include "emit/emit.hpp"
-#include "formalism/lagrange.hpp"
-#include "lower/choose.hpp"
-#include "lower/start.hpp"
 
 int main() {
     using namespace alembert;
     const Scene scene = parse_scene(R"toml(
+gravity = [0, "-g"]
+[parameters]
+m = 2
+g = 10
 [coordinates]
-theta = { initial = 1.0 }
-[energy]
-kinetic = "theta'^2/2"
-potential = "-cos(theta)"
-[[event]]
-name = "crossing"
-when = "theta"
-)toml", "pendulum.toml");
-    const Mechanism mechanism = build(scene);
-    const Program program = choose(mechanism, lagrange(mechanism)).program;
-    const Module module = load(compile(emit(program).text, "pendulum", {}).object);
-    const Trajectory motion = integrate(make_rhs(module), {1.0, 0.0}, {.duration = 6, .tolerance = 1e-12},
-                                        make_events(module, {}, {false}));
-    std::printf("%.10f\n", 2 * (motion.events.at(1).time - motion.events.at(0).time));
-    return 0;
+y = 5
+[[particle]]
+name = "ball"
+mass = "m"
+position = [0, "y"]
+[[unilateral]]
+name = "floor"
+gap = "y"
+restitution = 0.5
+)toml", "ball.toml");
+
+    const DerivedScene d = derive(scene);
+    const ReadableEquation& equation = d.shown.equations.at(0);
+    std::printf("%s = %s\n", latex(equation.lhs).c_str(), latex(equation.rhs).c_str());
+
+    const Run run = simulate(scene, {.method = "dop853", .duration = 2.5, .tolerance = 1e-10});
+    for (const ContactEvent& event : run.motion.contacts) std::printf("impact at %.9f\n", event.time);
+    std::printf("the estimated error is %s\n", *run.estimate->value < 1e-8 ? "below 1e-8" : "too large");
+    return run.doubts.empty() ? 0 : 1;
 }
