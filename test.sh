@@ -16,6 +16,7 @@ esac
 cd -- "$(dirname -- "$0")"
 # shellcheck source=.ci/setup.sh
 . .ci/setup.sh
+packages="$packages clang-format-14"
 set_up "$preset"
 
 if ctest --preset "$preset" --output-on-failure -j "$(nproc)"; then

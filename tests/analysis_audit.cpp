@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Constraints: integrability against dw ∧ w written out and against forms made from known functions, integrals against the
-// functions they were made from, poses and contradictions against hand calculation.
+// Constraints: integrability against dw ∧ w written out and against forms made from known functions, integrals
+// against the functions they were made from, poses and contradictions against hand calculation.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -9,12 +9,12 @@
 
 #include "audit/audit.hpp"
 #include "audit/integral.hpp"
-#include "state/redundancy.hpp"
 #include "exact/variety.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "notation/text.hpp"
 #include "scenes.hpp"
+#include "state/redundancy.hpp"
 
 using namespace alembert;
 using GiNaC::ex;
@@ -24,7 +24,8 @@ namespace {
 /// Constraints as text: velocity ones contain a prime. Coordinates as in a scene's table.
 Mechanism with(const std::vector<std::string>& coordinates, const std::vector<std::string>& constraints,
                const std::string& parameters = "", const std::string& inputs = "") {
-    std::string text = "[parameters]\n" + parameters + "\n[inputs]\n" + inputs + "\n[coordinates]\n", kinetic = "0";
+    std::string text = "[parameters]\n" + parameters + "\n[inputs]\n" + inputs + "\n[coordinates]\n",
+                kinetic = "0";
     for (const std::string& q : coordinates) {
         text += q + (q.find('=') == std::string::npos ? " = 0.3\n" : "\n");
         kinetic += "+" + q.substr(0, q.find(' ')) + "'^2";
@@ -32,7 +33,8 @@ Mechanism with(const std::vector<std::string>& coordinates, const std::vector<st
     text += "[energy]\nkinetic = \"" + kinetic + "\"\n";
     for (std::size_t k = 0; k < constraints.size(); ++k)
         text += fmt::format("[[constraint]]\nname = \"c{}\"\n{} = \"{}\"\n", k,
-                            constraints[k].find('\'') == std::string::npos ? "holonomic" : "nonholonomic", constraints[k]);
+                            constraints[k].find('\'') == std::string::npos ? "holonomic" : "nonholonomic",
+                            constraints[k]);
     return build(parse_scene(text, "test.toml"));
 }
 
@@ -60,8 +62,12 @@ bool is_integrable(const Mechanism& m, const OneForm& form) {
     return true;
 }
 
-std::vector<std::optional<bool>> joint(const Mechanism& m) { return integrability(forms_of(m), m, {}, {}).integrable; }
-std::optional<int> integrals(const Mechanism& m) { return integrability(forms_of(m), m, {}, {}).integrals; }
+std::vector<std::optional<bool>> joint(const Mechanism& m) {
+    return integrability(forms_of(m), m, {}, {}).integrable;
+}
+std::optional<int> integrals(const Mechanism& m) {
+    return integrability(forms_of(m), m, {}, {}).integrals;
+}
 
 using Answers = std::vector<std::optional<bool>>;
 
@@ -70,9 +76,11 @@ using Answers = std::vector<std::optional<bool>>;
 TEST_CASE("integrability: of one constraint is what dw ^ w says") {
     int yes = 0, no = 0;
     for (const char* constraint :
-         {"x' - r*y'", "y*x' - x*y'", "z' - y*x'", "x'*sin(z) - y'*cos(z)", "x' - t*y'", "x' - sin(t)", "sin(x*y)*x' + exp(y)*y'",
-          "y*z*x' + x*z*y' + x*y*z'", "y*z*x' + x*z*y' - x*y*z'", "y*z*x' + 2*x*z*y' + x*y*t*z'", "cos(x - y)*(x' - y') + z*z'",
-          "x*x' + y*y' + sqrt(1 + z^2)*z'", "x*x' + y*z' + z*y' + r*t", "x' + y*z*y' + y^2*z'/2", "exp(z)*(x' - r*z')", "y*x' + z*y' + x*z'", "x' - y*t*z'"}) {
+         {"x' - r*y'", "y*x' - x*y'", "z' - y*x'", "x'*sin(z) - y'*cos(z)", "x' - t*y'", "x' - sin(t)",
+          "sin(x*y)*x' + exp(y)*y'", "y*z*x' + x*z*y' + x*y*z'", "y*z*x' + x*z*y' - x*y*z'",
+          "y*z*x' + 2*x*z*y' + x*y*t*z'", "cos(x - y)*(x' - y') + z*z'", "x*x' + y*y' + sqrt(1 + z^2)*z'",
+          "x*x' + y*z' + z*y' + r*t", "x' + y*z*y' + y^2*z'/2", "exp(z)*(x' - r*z')", "y*x' + z*y' + x*z'",
+          "x' - y*t*z'"}) {
         CAPTURE(constraint);
         const Mechanism m = with({"x", "y", "z"}, {constraint}, "r = 0.5");
         const bool expected = is_integrable(m, forms_of(m)[0]);
@@ -87,14 +95,16 @@ TEST_CASE("integrability: of one constraint is what dw ^ w says") {
 // Any combinations of dF and dG, with functions for coefficients.
 TEST_CASE("integrability: combinations of two differentials are integrable together, and not alone") {
     const char *F = "(y*x' + x*y' + 2*w*w')", *G = "(cos(z)*z' + y*v' + v*y')";
-    const Mechanism m = with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G), fmt::format("sin(w)*{} + v*{}", F, G)});
+    const Mechanism m =
+        with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G), fmt::format("sin(w)*{} + v*{}", F, G)});
     const auto forms = forms_of(m);
     CHECK(!is_integrable(m, forms[0]));
     CHECK(!is_integrable(m, forms[1]));
     CHECK(joint(m) == Answers{true, true});
     CHECK(integrals(m) == 2);
     // One of the coefficients of dF disturbed: neither is left.
-    const Mechanism other = with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G), fmt::format("sin(w)*{} + v*{} + x*y*v'", F, G)});
+    const Mechanism other = with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G),
+                                                             fmt::format("sin(w)*{} + v*{} + x*y*v'", F, G)});
     CHECK(joint(other) == Answers{false, false});
 }
 
@@ -103,7 +113,8 @@ TEST_CASE("integrability: two scleronomic forms in three coordinates always, the
     CHECK(joint(two) == Answers{true, true});
     CHECK(integrability({forms_of(two)[0]}, two, {}, {}).integrable == Answers{false});
     CHECK(integrals(with({"x", "y", "z"}, {"z' - y*x'", "x' - t*z*y'"})) == 0);  // t is a fourth variable
-    CHECK(joint(with({"x", "y", "phi", "theta"}, {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)"}, "r = 1.0")) == Answers{false, false});
+    CHECK(joint(with({"x", "y", "phi", "theta"}, {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)"},
+                     "r = 1.0")) == Answers{false, false});
     CHECK(joint(with({"x", "y", "phi"}, {"x'*sin(phi) - y'*cos(phi)"})) == Answers{false});
     CHECK(joint(with({"x", "y", "z"}, {"z' - y*x'", "y'"})) == Answers{true, true});
 }
@@ -123,7 +134,8 @@ TEST_CASE("integrability: the derived flag is followed to its end") {
 // x' cos + y' sin ± b th' = r p': the difference is 2b th' = r (p1' − p2'), though no constraint is integrable.
 TEST_CASE("audit: two wheels on an axle keep 2 b th - r (p1 - p2), a combination of what is not integrable") {
     const Mechanism m = with({"x", "y", "th", "p1", "p2"},
-                             {"x'*cos(th) + y'*sin(th) + b*th' - r*p1'", "x'*cos(th) + y'*sin(th) - b*th' - r*p2'", "y'*cos(th) - x'*sin(th)"},
+                             {"x'*cos(th) + y'*sin(th) + b*th' - r*p1'", "x'*cos(th) + y'*sin(th) - b*th' - r*p2'",
+                              "y'*cos(th) - x'*sin(th)"},
                              "b = 0.4\nr = 0.1");
     const Audit audit = audit_of(m);
     CHECK(audit.integrals == 1);
@@ -135,7 +147,8 @@ TEST_CASE("audit: two wheels on an axle keep 2 b th - r (p1 - p2), a combination
     CHECK(audit.degrees_of_freedom == 2);
 }
 
-// Beside z = 0 the form is not integrable; on it x' = 0 is left. And the other way round: on x = y the form is z' − y·x' with dx = dy.
+// Beside z = 0 the form is not integrable; on it x' = 0 is left. And the other way round: on x = y the form is z'
+// − y·x' with dx = dy.
 TEST_CASE("integrability: is decided where the holonomic constraints hold") {
     const Mechanism flat = with({"x", "y", "z = 0"}, {"z", "x' + z*x*y' + z*y'"});
     const Audit audit = audit_of(flat);
@@ -144,8 +157,10 @@ TEST_CASE("integrability: is decided where the holonomic constraints hold") {
     const Mechanism still = with({"x", "y", "z", "w"}, {"x - y", "z' - y*w'"});
     CHECK(audit_of(still).constraints[1].integrable == false);
     CHECK(audit_of(with({"x", "y", "z", "w"}, {"x - y", "z' - y*x'"})).constraints[1].integrable == true);
-    // With the gear c = a + b the second is (x − a + y − b)′ cos c, which makes the blade's two coordinates of three.
-    const std::vector<std::string> gear{"c - a - b", "x'*sin(c) - y'*cos(c)", "cos(c)*(x' - a') + (cos(a)*cos(b) - sin(a)*sin(b))*(y' - b')"};
+    // With the gear c = a + b the second is (x − a + y − b)′ cos c, which makes the blade's two coordinates of
+    // three.
+    const std::vector<std::string> gear{"c - a - b", "x'*sin(c) - y'*cos(c)",
+                                        "cos(c)*(x' - a') + (cos(a)*cos(b) - sin(a)*sin(b))*(y' - b')"};
     const Audit turned = audit_of(with({"a", "b", "c = 0.6", "x", "y"}, gear));
     CHECK(turned.constraints[1].integrable == true);
     CHECK(turned.constraints[1].alone == false);
@@ -153,8 +168,10 @@ TEST_CASE("integrability: is decided where the holonomic constraints hold") {
 }
 
 TEST_CASE("integrability: where angles leave no exact point of the loop, no needs to be seen in numbers") {
-    const std::vector<std::string> q{"al = 0.5", "be = { guess = 0.3, rate_guess = 0 }", "ga = { guess = 0.7, rate_guess = 0 }", "x", "y"};
-    const std::string loop_x = "cos(al) + 2*cos(be) - 1.5*cos(ga) - 1.7", loop_y = "sin(al) + 2*sin(be) - 1.5*sin(ga)";
+    const std::vector<std::string> q{"al = 0.5", "be = { guess = 0.3, rate_guess = 0 }",
+                                     "ga = { guess = 0.7, rate_guess = 0 }", "x", "y"};
+    const std::string loop_x = "cos(al) + 2*cos(be) - 1.5*cos(ga) - 1.7",
+                      loop_y = "sin(al) + 2*sin(be) - 1.5*sin(ga)";
     const Audit no = audit_of(with(q, {loop_x, loop_y, "x' - y*al'"}));
     CHECK(no.constraints[2].integrable == false);
     CHECK(!no.exact_rank);
@@ -167,15 +184,27 @@ TEST_CASE("integral: of a differential with a factor is a function of what it wa
     struct Case {
         const char *function, *factor;
     };
-    const std::vector<Case> cases{
-        {"x*y^2 + z", "1"}, {"x/y", "y^2"}, {"x*y*z", "1/(x*y*z)"}, {"sin(x + 2*y)*z", "1"}, {"x^2 + y^2", "1/(x^2 + y^2)"},
-        {"x*sin(y) + z*cos(y)", "1"}, {"x - r*y + t^2*z", "1"}, {"exp(x)*y", "exp(-x)"}, {"x - 2*sin(3*t)", "r"}, {"x^3*sin(x)*r + y", "1"},
-        {"sqrt(x^2 + y^2 + z^2)", "1"}, {"x/cos(y)", "cos(y)^2"}, {"log(1 + x^2) + y*z", "1"}, {"r*cos(x) - cos(x - y)", "1"}, {"y*cosh(x) + log(cos(z))", "1"}};
+    const std::vector<Case> cases{{"x*y^2 + z", "1"},
+                                  {"x/y", "y^2"},
+                                  {"x*y*z", "1/(x*y*z)"},
+                                  {"sin(x + 2*y)*z", "1"},
+                                  {"x^2 + y^2", "1/(x^2 + y^2)"},
+                                  {"x*sin(y) + z*cos(y)", "1"},
+                                  {"x - r*y + t^2*z", "1"},
+                                  {"exp(x)*y", "exp(-x)"},
+                                  {"x - 2*sin(3*t)", "r"},
+                                  {"x^3*sin(x)*r + y", "1"},
+                                  {"sqrt(x^2 + y^2 + z^2)", "1"},
+                                  {"x/cos(y)", "cos(y)^2"},
+                                  {"log(1 + x^2) + y*z", "1"},
+                                  {"r*cos(x) - cos(x - y)", "1"},
+                                  {"y*cosh(x) + log(cos(z))", "1"}};
     for (const Case& c : cases) {
         CAPTURE(c.function);
         const Mechanism m = with({"x", "y", "z"}, {c.function}, "r = 0.5");
         const Mechanism::Constraint& F = m.constraints[0];
-        const Mechanism scaled = with({"x", "y", "z"}, {fmt::format("({})*({})'", c.factor, c.function)}, "r = 0.5");
+        const Mechanism scaled =
+            with({"x", "y", "z"}, {fmt::format("({})*({})'", c.factor, c.function)}, "r = 0.5");
         const auto G = integral_of(forms_of(scaled)[0], scaled);
         REQUIRE(G);
         const auto z = variables(m), own = variables(scaled);
@@ -186,7 +215,8 @@ TEST_CASE("integral: of a differential with a factor is a function of what it wa
         bool moves = false;
         for (std::size_t i = 0; i < z.size(); ++i) {
             moves = moves || vanishes(g.diff(z[i]), m) == false;
-            for (std::size_t j = 0; j < i; ++j) CHECK(vanishes(g.diff(z[i]) * f.diff(z[j]) - g.diff(z[j]) * f.diff(z[i]), m) == true);
+            for (std::size_t j = 0; j < i; ++j)
+                CHECK(vanishes(g.diff(z[i]) * f.diff(z[j]) - g.diff(z[j]) * f.diff(z[i]), m) == true);
         }
         CHECK(moves);
     }
@@ -216,10 +246,14 @@ TEST_CASE("variety: its points obey the constraints exactly, parameters and angl
     CHECK(look(with({"x", "y", "z", "w"}, {"x^2 + y^2 - 1", "(x - z)^2 + (y - w)^2 - 4"})));
     CHECK(look(with({"a", "b"}, {"sin(a) + 2*cos(a)*sin(b) - 1"})));
     // The turn of c = 2a − 3b + 1 is the product of theirs.
-    const Mechanism gear = with({"a", "b", "c"}, {"c - 2*a + 3*b - 1", "sin(c) - sin(2*a)*cos(3*b - 1) + cos(2*a)*sin(3*b - 1)", "sin(c) - sin(2*a - 3*b)"});
+    const Mechanism gear =
+        with({"a", "b", "c"}, {"c - 2*a + 3*b - 1", "sin(c) - sin(2*a)*cos(3*b - 1) + cos(2*a)*sin(3*b - 1)",
+                               "sin(c) - sin(2*a - 3*b)"});
     CHECK(look(with({"a", "b", "c"}, {"c - 2*a + 3*b - 1"})));
     Program program;
-    const std::vector<int> f = lower_expressions(program, gear, {*gear.constraints[0].position, *gear.constraints[1].position, *gear.constraints[2].position});
+    const std::vector<int> f = lower_expressions(
+        program, gear,
+        {*gear.constraints[0].position, *gear.constraints[1].position, *gear.constraints[2].position});
     const Variety variety = variety_points(program, {f[0]}, {f[1], f[2]}, 2);
     CHECK(variety.on_variety);
     for (const ModularPoint& point : variety.points) {
@@ -230,7 +264,9 @@ TEST_CASE("variety: its points obey the constraints exactly, parameters and angl
     CHECK(!look(with({"a", "b", "c"}, {"cos(a) + 2*cos(b) - 3*cos(c) - 1", "sin(a) + 2*sin(b) - 3*sin(c)"})));
 }
 
-TEST_CASE("audit: copies, multiples and derivatives are redundant, a velocity rather than the position it follows from") {
+TEST_CASE(
+    "audit: copies, multiples and derivatives are redundant, a velocity rather than the position it follows "
+    "from") {
     const std::vector<std::string> q{"x = 0.6", "y = 0.8", "z"};
     const auto redundant = [&](const std::vector<std::string>& constraints) {
         std::vector<int> result;
@@ -241,7 +277,8 @@ TEST_CASE("audit: copies, multiples and derivatives are redundant, a velocity ra
         CHECK(audit.degrees_of_freedom == 3 - audit.rank);
         return result;
     };
-    CHECK(redundant({"x^2 + y^2 - 1", "z*x*x' + z*y*y'", "exp(x)*(z' - y*x')", "z' - y*x'"}) == std::vector{0, 1, 0, 1});
+    CHECK(redundant({"x^2 + y^2 - 1", "z*x*x' + z*y*y'", "exp(x)*(z' - y*x')", "z' - y*x'"}) ==
+          std::vector{0, 1, 0, 1});
     CHECK(redundant({"x*x' + y*y'", "x^2 + y^2 - 1"}) == std::vector{1, 0});
     // Dependent where the circle is, and nowhere else.
     CHECK(redundant({"x^2 + y^2 - 1", "z*(x^2 + y^2 - 1) + x^2 + y^2 - 1"}) == std::vector{0, 1});
@@ -253,7 +290,8 @@ TEST_CASE("audit: copies, multiples and derivatives are redundant, a velocity ra
 }
 
 TEST_CASE("audit: constraints that contradict each other are named, and no innocent one") {
-    const Audit audit = audit_of(with({"x = 1", "y = 0", "z"}, {"z - x", "x^2 + y^2 - 1", "z' + y'", "2*x^2 + 2*y^2 - 4"}));
+    const Audit audit =
+        audit_of(with({"x = 1", "y = 0", "z"}, {"z - x", "x^2 + y^2 - 1", "z' + y'", "2*x^2 + 2*y^2 - 4"}));
     CHECK(audit.wrong);
     CHECK(audit.problem.find("'c1' and 'c3' contradict each other") != std::string::npos);
     CHECK(audit.problem.find("'c0'") == std::string::npos);
@@ -270,23 +308,28 @@ TEST_CASE("audit: constraints that contradict each other are named, and no innoc
     CHECK(hidden.constraints[1].notes[0].find("force a relation") != std::string::npos);
 }
 
-// The minors of the loop's A are a b sin(al − be) and so on: all links on one line. A parallelogram closes so at al = ga = 0 or π with
-// be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be = 0, Grashof's alone never.
+// The minors of the loop's A are a b sin(al − be) and so on: all links on one line. A parallelogram closes so at
+// al = ga = 0 or π with be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be = 0,
+// Grashof's alone never.
 TEST_CASE("audit: a linkage that can lie flat has lost a row there, and Grashof's cannot") {
     const auto poses = [](const std::string& lengths, const std::string& be, const std::string& ga) {
-        const Audit audit = audit_of(with({"al = 0.5", "be = { guess = " + be + ", rate_guess = 0 }", "ga = { guess = " + ga + ", rate_guess = 0 }"},
-                                          {"a*cos(al) + b*cos(be) - c*cos(ga) - d", "a*sin(al) + b*sin(be) - c*sin(ga)"}, lengths));
+        const Audit audit = audit_of(
+            with({"al = 0.5", "be = { guess = " + be + ", rate_guess = 0 }",
+                  "ga = { guess = " + ga + ", rate_guess = 0 }"},
+                 {"a*cos(al) + b*cos(be) - c*cos(ga) - d", "a*sin(al) + b*sin(be) - c*sin(ga)"}, lengths));
         CHECK(audit.problem.empty());
         CHECK(audit.rank == 2);
         std::set<std::array<long, 3>> result;  // in units of 1e-7
         for (const SingularPose& pose : audit.singular_poses) {
             CHECK(pose.rank == 1);
-            result.insert({std::lround(1e7 * pose.q[0]), std::lround(1e7 * pose.q[1]), std::lround(1e7 * pose.q[2])});
+            result.insert(
+                {std::lround(1e7 * pose.q[0]), std::lround(1e7 * pose.q[1]), std::lround(1e7 * pose.q[2])});
         }
         return result;
     };
     const long pi = std::lround(1e7 * M_PI);
-    CHECK(poses("a = 1\nb = 2\nc = 1\nd = 2", "0.1", "0.6") == std::set<std::array<long, 3>>{{0, 0, 0}, {pi, 0, pi}});
+    CHECK(poses("a = 1\nb = 2\nc = 1\nd = 2", "0.1", "0.6") ==
+          std::set<std::array<long, 3>>{{0, 0, 0}, {pi, 0, pi}});
     CHECK(poses("a = 1\nb = 2\nc = 2\nd = 3", "0.6", "1.4") == std::set<std::array<long, 3>>{{pi, 0, pi}});
     CHECK(poses("a = 1\nb = 4\nc = 3.5\nd = 3", "0.6", "1.4").empty());
 }
@@ -311,12 +354,15 @@ TEST_CASE("audit: what is declared wrongly is said, with the integral") {
     CHECK(disc.constraints[0].notes[0] == "declared nonholonomic, but it is integrable: x - r*phi is constant");
     CHECK(disc.failure <= -60);
     // A four-bar's loop, differentiated by hand.
-    const Audit bar = audit_of(with({"al", "be", "ga"}, {"a*sin(al)*al' + b*sin(be)*be' - c*sin(ga)*ga'", "a*cos(al)*al' + b*cos(be)*be' - c*cos(ga)*ga'"},
-                                    "a = 1\nb = 4\nc = 3.5"));
+    const Audit bar = audit_of(
+        with({"al", "be", "ga"},
+             {"a*sin(al)*al' + b*sin(be)*be' - c*sin(ga)*ga'", "a*cos(al)*al' + b*cos(be)*be' - c*cos(ga)*ga'"},
+             "a = 1\nb = 4\nc = 3.5"));
     CHECK(text(*bar.constraints[0].integral) == "a*cos(al) + b*cos(be) - c*cos(ga)");
     CHECK(text(*bar.constraints[1].integral) == "a*sin(al) + b*sin(be) - c*sin(ga)");
     // Together with another.
-    const Audit coin = audit_of(with({"x", "y", "phi", "theta"}, {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)", "theta'"}, "r = 1.0"));
+    const Audit coin = audit_of(with({"x", "y", "phi", "theta"},
+                                     {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)", "theta'"}, "r = 1.0"));
     CHECK(coin.constraints[0].alone == false);
     CHECK(text(*coin.constraints[0].integral) == "x - r*phi*cos(theta)");
     const Audit square = audit_of(with({"x = 1", "y"}, {"(x - 1)^2"}));
@@ -324,7 +370,8 @@ TEST_CASE("audit: what is declared wrongly is said, with the integral") {
     CHECK(square.constraints[0].notes[0].find("without the square") != std::string::npos);
     const Audit special = audit_of(with({"x", "y", "z"}, {"z' - k*y*x'"}, "k = 0"));
     CHECK(special.constraints[0].integrable == false);
-    CHECK(special.constraints[0].notes == std::vector<std::string>{"it is integrable for the scene's parameters, but not for general ones"});
+    CHECK(special.constraints[0].notes ==
+          std::vector<std::string>{"it is integrable for the scene's parameters, but not for general ones"});
 }
 
 TEST_CASE("audit: rheonomic is what changes with t, not what is written with it; inputs are functions of t") {
@@ -333,16 +380,21 @@ TEST_CASE("audit: rheonomic is what changes with t, not what is written with it;
         for (const AuditedConstraint& c : audit_of(m).constraints) result.push_back(c.rheonomic);
         return result;
     };
-    CHECK(kinds(with({"x = { guess = 1, rate_guess = 0 }", "y = { guess = 1, rate_guess = 0 }", "z = { guess = 1, rate_guess = 0 }"},
-                     {"x - (sin(t)^2 + cos(t)^2)", "y - cos(2*t)", "z' - F'"}, "", "F = \"sin(t)\"")) == std::vector{0, 1, 1});
+    CHECK(kinds(with({"x = { guess = 1, rate_guess = 0 }", "y = { guess = 1, rate_guess = 0 }",
+                      "z = { guess = 1, rate_guess = 0 }"},
+                     {"x - (sin(t)^2 + cos(t)^2)", "y - cos(2*t)", "z' - F'"}, "", "F = \"sin(t)\"")) ==
+          std::vector{0, 1, 1});
     const std::vector<std::string> q{"x = { guess = 1, rate_guess = 0 }", "y = { guess = 1, rate_guess = 0 }"};
     const Audit given = audit_of(with(q, {"x' - F*y' - y*F'"}, "", "F = \"G^2\"\nG = \"1 + t\""));
     CHECK(given.constraints[0].integrable == true);
     CHECK(given.constraints[0].integral);
     CHECK(audit_of(with(q, {"x' - F*y'"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable == false);
-    CHECK(audit_of(with(q, {"x' - F*y' - 2*y*F'"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable == false);
-    CHECK(audit_of(with(q, {"x' - F'*y' - 2*y"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable == true);  // F'' = 2
-    CHECK(audit_of(with(q, {"x' - F'*y' - 3*y"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable == false);
+    CHECK(audit_of(with(q, {"x' - F*y' - 2*y*F'"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable ==
+          false);
+    CHECK(audit_of(with(q, {"x' - F'*y' - 2*y"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable ==
+          true);  // F'' = 2
+    CHECK(audit_of(with(q, {"x' - F'*y' - 3*y"}, "", "F = \"G^2\"\nG = \"1 + t\"")).constraints[0].integrable ==
+          false);
 }
 
 TEST_CASE("audit: guesses are adjusted to the constraints, and what was adjusted is said") {

@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "alembert/error.hpp"
-#include "linear/linearize.hpp"
 #include "formalism/formalisms.hpp"
-#include "program/germ.hpp"
+#include "linear/linearize.hpp"
 #include "lower/start.hpp"
+#include "program/germ.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

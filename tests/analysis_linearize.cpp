@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Linearized equations against closed forms, against a published benchmark, and against differences of the nonlinear accelerations
-// in 60 digits, in which dependent coordinates and rates are solved for at each state.
+// Linearized equations against closed forms, against a published benchmark, and against differences of the
+// nonlinear accelerations in 60 digits, in which dependent coordinates and rates are solved for at each state.
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <map>
 
 #include "alembert/error.hpp"
-#include "state/assemble.hpp"
-#include "linear/linearize.hpp"
-#include "state/redundancy.hpp"
 #include "digits.hpp"
 #include "formalism/formalisms.hpp"
+#include "linear/linearize.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
+#include "state/redundancy.hpp"
 
 using namespace alembert;
 using test::Digits;
@@ -105,14 +105,16 @@ public:
     }
 
 private:
-    void move(std::vector<Digits>& x, const std::vector<int>& dependent, Group group, const std::vector<Digits>& value) const {
+    void move(std::vector<Digits>& x, const std::vector<int>& dependent, Group group,
+              const std::vector<Digits>& value) const {
         const std::vector<int> misfit = program_.nodes_of(group), rows = program_.nodes_of(Group::row);
         std::vector<std::vector<Digits>> S;
         std::vector<Digits> b;
         for (std::size_t k = 0; k < misfit.size(); ++k) {
             if (group == Group::position && !m_.constraints[k].position) continue;
             S.emplace_back();
-            for (const int j : dependent) S.back().push_back(value[rows[k * m_.q.size() + static_cast<std::size_t>(j)]]);
+            for (const int j : dependent)
+                S.back().push_back(value[rows[k * m_.q.size() + static_cast<std::size_t>(j)]]);
             b.push_back(value[misfit[k]]);
         }
         const std::vector<Digits> step = solved(S, b);
@@ -125,13 +127,17 @@ private:
     std::vector<int> q_, u_, dependent_q_, dependent_u_;
 };
 
-double approximately(const Digits& x) { return cln::double_approx(x.value()); }
+double approximately(const Digits& x) {
+    return cln::double_approx(x.value());
+}
 
 /// A against central differences with a step of 1e-20: they are off by 1e-40 of the third derivatives.
 void check_differences(const Case& c) {
     Nonlinear f(c);
     const std::vector<std::string> names = f.names();
-    const auto position = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+    const auto position = [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) - names.begin();
+    };
     Digits h = 1;
     for (int k = 0; k < 20; ++k) h = h / 10;
     const double size = c.near.A.cwiseAbs().maxCoeff();
@@ -143,7 +149,8 @@ void check_differences(const Case& c) {
             const double expected = approximately((plus[row] - minus[row]) / (2 * h));
             CAPTURE(c.near.states[i]);
             CAPTURE(c.near.states[j]);
-            CHECK(std::abs(c.near.A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) - expected) <= 1e-15 * size);
+            CHECK(std::abs(c.near.A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) - expected) <=
+                  1e-15 * size);
         }
     }
 }
@@ -155,30 +162,38 @@ Eigen::Matrix2d lean_and_steer(const Case& c, const Eigen::MatrixXd& matrix) {
 }
 
 Case bicycle(double v) {
-    return linearized(read_scene(test::source_path("scenes/gallery/bicycle.toml")), "routh", {{"kick", 0}, {"v", v}});
+    return linearized(read_scene(test::source_path("scenes/gallery/bicycle.toml")), "routh",
+                      {{"kick", 0}, {"v", v}});
 }
 
-double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
+double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    return (a - b).cwiseAbs().maxCoeff();
+}
 
 }  // namespace
 
-// Meijaard, Papadopoulos, Ruina & Schwab, Proc. R. Soc. A 463 (2007) 1955, equation (6.1): M q'' + v C1 q' + (g K0 + v² K2) q = f.
+// Meijaard, Papadopoulos, Ruina & Schwab, Proc. R. Soc. A 463 (2007) 1955, equation (6.1): M q'' + v C1 q' + (g K0
+// + v² K2) q = f.
 TEST_CASE("linearize: the bicycle's matrices are the published ones") {
     const Eigen::Matrix2d M{{80.81722, 2.31941332208709}, {2.31941332208709, 0.29784188199686}},
         C1{{0, 33.86641391492494}, {-0.85035641456978, 1.68540397397560}},
-        K0{{-80.95, -2.59951685249872}, {-2.59951685249872, -0.80329488458618}}, K2{{0, 76.59734589573222}, {0, 2.65431523794604}};
+        K0{{-80.95, -2.59951685249872}, {-2.59951685249872, -0.80329488458618}},
+        K2{{0, 76.59734589573222}, {0, 2.65431523794604}};
     for (const double v : {0.0, 1.0, 4.6, 10.0}) {
         CAPTURE(v);
         const Case c = bicycle(v);
         CHECK(distance(lean_and_steer(c, c.near.M), M) < 1e-12);
         CHECK(distance(lean_and_steer(c, c.near.D), v * C1) < 1e-12 * std::max(1.0, v));
-        CHECK(distance(lean_and_steer(c, c.near.K + c.near.N), 9.81 * K0 + v * v * K2) < 1e-12 * std::max(9.81, v * v));
+        CHECK(distance(lean_and_steer(c, c.near.K + c.near.N), 9.81 * K0 + v * v * K2) <
+              1e-12 * std::max(9.81, v * v));
         CHECK(c.near.M.row(2).head(2).isZero(0));  // forward motion is on its own
         CHECK(c.near.D.row(2).isZero(0));
-        CHECK(c.near.moving == (v == 0 ? std::vector<std::string>{} : std::vector<std::string>{"x", "rear", "front"}));
+        CHECK(c.near.moving ==
+              (v == 0 ? std::vector<std::string>{} : std::vector<std::string>{"x", "rear", "front"}));
     }
     const Case still = bicycle(0), five = bicycle(5);
-    const Eigen::Matrix2d at0 = lean_and_steer(still, still.near.K + still.near.N), at5 = lean_and_steer(five, five.near.K + five.near.N);
+    const Eigen::Matrix2d at0 = lean_and_steer(still, still.near.K + still.near.N),
+                          at5 = lean_and_steer(five, five.near.K + five.near.N);
     CHECK(distance(at0 / 9.81, K0) < 1e-12);
     CHECK(distance((at5 - at0) / 25, K2) < 1e-12);
     CHECK(distance(lean_and_steer(five, five.near.D) / 5, C1) < 1e-12);
@@ -216,34 +231,52 @@ TEST_CASE("linearize: the bicycle's eigenvalues are the published ones") {
 }
 
 TEST_CASE("linearize: the matrix is that of differences of the nonlinear equations") {
-    SUBCASE("bicycle") { check_differences(bicycle(4.6)); }
-    SUBCASE("double pendulum, one rod up") { check_differences(textbook("double_pendulum", "lagrange", {{"theta1", 0}, {"theta2", M_PI}, {"theta1'", 0}, {"theta2'", 0}})); }
-    SUBCASE("rolling disc, straight") { check_differences(textbook("rolling_disc_in_space", "routh", {{"psi'", 0}, {"theta", 0}, {"theta'", 0}})); }
-    SUBCASE("rolling disc, spinning in place") { check_differences(textbook("rolling_disc_in_space", "routh", {{"phi'", 0}, {"theta", 0}, {"theta'", 0}})); }
+    SUBCASE("bicycle") {
+        check_differences(bicycle(4.6));
+    }
+    SUBCASE("double pendulum, one rod up") {
+        check_differences(textbook("double_pendulum", "lagrange",
+                                   {{"theta1", 0}, {"theta2", M_PI}, {"theta1'", 0}, {"theta2'", 0}}));
+    }
+    SUBCASE("rolling disc, straight") {
+        check_differences(textbook("rolling_disc_in_space", "routh", {{"psi'", 0}, {"theta", 0}, {"theta'", 0}}));
+    }
+    SUBCASE("rolling disc, spinning in place") {
+        check_differences(textbook("rolling_disc_in_space", "routh", {{"phi'", 0}, {"theta", 0}, {"theta'", 0}}));
+    }
     SUBCASE("rolling disc, on a circle") {
         // 6 r ψ' φ' cos θ + 5 r ψ'² sin θ cos θ + 4 g sin θ = 0
-        const double theta = 0.3, psi = 2.0, phi = -(5 * 0.5 * psi * psi * std::sin(theta) * std::cos(theta) + 4 * 9.81 * std::sin(theta)) / (6 * 0.5 * psi * std::cos(theta));
-        const Case c = textbook("rolling_disc_in_space", "routh", {{"psi'", psi}, {"theta", theta}, {"theta'", 0}, {"phi'", phi}});
+        const double theta = 0.3, psi = 2.0,
+                     phi =
+                         -(5 * 0.5 * psi * psi * std::sin(theta) * std::cos(theta) + 4 * 9.81 * std::sin(theta)) /
+                         (6 * 0.5 * psi * std::cos(theta));
+        const Case c = textbook("rolling_disc_in_space", "routh",
+                                {{"psi'", psi}, {"theta", theta}, {"theta'", 0}, {"phi'", phi}});
         CHECK(c.near.moving == std::vector<std::string>{"x", "psi", "phi"});
         CHECK(c.near.states == std::vector<std::string>{"theta", "psi'", "theta'", "phi'"});
         check_differences(c);
     }
-    SUBCASE("pendulum in Cartesian coordinates") { check_differences(textbook("cartesian_pendulum", "routh", {{"x", 0}, {"y", 1}, {"x'", 0}, {"y'", 0}})); }
+    SUBCASE("pendulum in Cartesian coordinates") {
+        check_differences(textbook("cartesian_pendulum", "routh", {{"x", 0}, {"y", 1}, {"x'", 0}, {"y'", 0}}));
+    }
 }
 
 TEST_CASE("linearize: constraint forces act on independent coordinates to the second order") {
-    const Case c = linearized(parse_scene("gravity = [0, \"g\"]\n[parameters]\ng = 9.81\nl = 2\nm = 3\n[coordinates]\nx = 0\ny = { guess = 1 }\n"
-                                          "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
-                                          "[[constraint]]\nname = \"rod\"\nholonomic = \"x^2 + y^2 - l^2\"\n",
-                                          "rod.toml"),
-                              "routh", {});
+    const Case c = linearized(
+        parse_scene(
+            "gravity = [0, \"g\"]\n[parameters]\ng = 9.81\nl = 2\nm = 3\n[coordinates]\nx = 0\ny = { guess = 1 }\n"
+            "[[particle]]\nname = \"P\"\nmass = \"m\"\nposition = [\"x\", \"y\"]\n"
+            "[[constraint]]\nname = \"rod\"\nholonomic = \"x^2 + y^2 - l^2\"\n",
+            "rod.toml"),
+        "routh", {});
     CHECK(c.near.states == std::vector<std::string>{"x", "x'"});
     REQUIRE(c.near.eigenvalues.size() == 2);
     CHECK(std::abs(c.near.eigenvalues[1] - std::complex<double>(0, std::sqrt(9.81 / 2))) < 1e-15);
     CHECK(std::abs(c.near.K(0, 0) - 3 * 9.81 / 2) < 1e-14);
 }
 
-// 5 r θ'' = 6 r ψ' φ' + 5 r ψ'² θ + 4 g θ, ψ'' = −2 φ' θ' near straight rolling, φ' + 5/3 ψ' θ constant near spinning in place.
+// 5 r θ'' = 6 r ψ' φ' + 5 r ψ'² θ + 4 g θ, ψ'' = −2 φ' θ' near straight rolling, φ' + 5/3 ψ' θ constant near
+// spinning in place.
 TEST_CASE("linearize: a disc stays up above the speeds of the textbook") {
     const double r = 0.5, g = 9.81;
     const auto largest = [](const Case& c) { return c.near.eigenvalues.back().real(); };
@@ -251,20 +284,26 @@ TEST_CASE("linearize: a disc stays up above the speeds of the textbook") {
         CAPTURE(factor);
         const double roll = factor * std::sqrt(g / (3 * r)), spin = factor * std::sqrt(4 * g / (5 * r));
         const double left_roll = 4 * g / (5 * r) - 12 * roll * roll / 5, left_spin = 4 * g / (5 * r) - spin * spin;
-        const Case rolls = textbook("rolling_disc_in_space", "routh", {{"psi'", 0}, {"theta", 0}, {"theta'", 0}, {"phi'", roll}});
-        const Case spins = textbook("rolling_disc_in_space", "routh", {{"psi'", spin}, {"theta", 0}, {"theta'", 0}, {"phi'", 0}});
+        const Case rolls =
+            textbook("rolling_disc_in_space", "routh", {{"psi'", 0}, {"theta", 0}, {"theta'", 0}, {"phi'", roll}});
+        const Case spins =
+            textbook("rolling_disc_in_space", "routh", {{"psi'", spin}, {"theta", 0}, {"theta'", 0}, {"phi'", 0}});
         CHECK(std::abs(largest(rolls) - std::sqrt(std::max(0.0, left_roll))) < 1e-13);
         CHECK(std::abs(largest(spins) - std::sqrt(std::max(0.0, left_spin))) < 1e-13);
     }
 }
 
-// V(θ) = (a − b cos θ)²/(2 I1 sin² θ) + m g l cos θ with the momenta a, b about the vertical and the axis; ω² = V''/I1.
+// V(θ) = (a − b cos θ)²/(2 I1 sin² θ) + m g l cos θ with the momenta a, b about the vertical and the axis; ω² =
+// V''/I1.
 TEST_CASE("linearize: a top in regular precession nods with the frequency of its effective potential") {
-    const Scene scene = parse_scene("gravity = [0, 0, \"-g\"]\n[parameters]\ng = 9.81\nm = 1.5\nl = 0.3\nA = 0.4\nC = 0.1\n[coordinates]\npsi = 0\ntheta = 1\nphi = 0\n"
-                                    "[[frame]]\nname = \"T\"\nrotate = [[\"z\",\"psi\"],[\"x\",\"theta\"],[\"z\",\"phi\"]]\n"
-                                    "[[body]]\nname = \"top\"\nmass = \"m\"\nframe = \"T\"\ninertia = { xx = \"A\", yy = \"A\", zz = \"C\" }\nabout = \"O\"\n"
-                                    "position = [0, 0, \"l\"]\naxes = \"T\"\n",
-                                    "top.toml");
+    const Scene scene = parse_scene(
+        "gravity = [0, 0, \"-g\"]\n[parameters]\ng = 9.81\nm = 1.5\nl = 0.3\nA = 0.4\nC = 0.1\n[coordinates]\npsi "
+        "= 0\ntheta = 1\nphi = 0\n"
+        "[[frame]]\nname = \"T\"\nrotate = [[\"z\",\"psi\"],[\"x\",\"theta\"],[\"z\",\"phi\"]]\n"
+        "[[body]]\nname = \"top\"\nmass = \"m\"\nframe = \"T\"\ninertia = { xx = \"A\", yy = \"A\", zz = \"C\" "
+        "}\nabout = \"O\"\n"
+        "position = [0, 0, \"l\"]\naxes = \"T\"\n",
+        "top.toml");
     const double A = 0.4, C = 0.1, w = 1.5 * 9.81 * 0.3, theta = 0.9, p = 1.7;
     // Steady where A cos θ p² − C w3 p + m g l = 0: the spin that goes with the precession p.
     const double w3 = (A * std::cos(theta) * p * p + w) / (C * p), spin = w3 - p * std::cos(theta);
@@ -294,7 +333,8 @@ TEST_CASE("linearize: speeds of the scene are states, and inputs have columns") 
     const Case cart = textbook("cart_pole", "lagrange", {{"theta", 0}, {"F0", 0}});
     CHECK(cart.near.inputs == std::vector<std::string>{"F"});
     const double M = 1, m = 0.3, l = 0.5, g = 9.81, b = 0.2;
-    const Eigen::Matrix4d A{{0, 0, 1, 0}, {0, 0, 0, 1}, {0, -m * g / M, -b / M, 0}, {0, (M + m) * g / (M * l), b / (M * l), 0}};
+    const Eigen::Matrix4d A{
+        {0, 0, 1, 0}, {0, 0, 0, 1}, {0, -m * g / M, -b / M, 0}, {0, (M + m) * g / (M * l), b / (M * l), 0}};
     CHECK(distance(cart.near.A, A) < 1e-14);
     CHECK(distance(cart.near.B, Eigen::Vector4d(0, 0, 1 / M, -1 / (M * l))) < 1e-15);
 }
@@ -310,6 +350,10 @@ TEST_CASE("linearize: what is neither at rest nor steady is refused with what is
     };
     CHECK(message("cart_pole", "lagrange", {{"theta", 0.1}, {"F0", 0}}).find("theta'' = ") != std::string::npos);
     CHECK(message("chaplygin_sleigh", "routh", {}).find("phi is not cyclic") != std::string::npos);
-    const Scene moved = parse_scene("[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n[[force]]\nat = \"P\"\nvector = [\"-x*(2+sin(t))\", 0]\n", "t.toml");
-    CHECK_THROWS_WITH_AS(linearized(moved, "lagrange", {}), doctest::Contains("change with time (x'' holds t"), ModelError);
+    const Scene moved = parse_scene(
+        "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n[[force]]\nat = "
+        "\"P\"\nvector = [\"-x*(2+sin(t))\", 0]\n",
+        "t.toml");
+    CHECK_THROWS_WITH_AS(linearized(moved, "lagrange", {}), doctest::Contains("change with time (x'' holds t"),
+                         ModelError);
 }

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "check/check.hpp"
-#include "state/redundancy.hpp"
-#include "formalism/routh.hpp"
 #include "derive/derivation.hpp"
+#include "formalism/routh.hpp"
 #include "notation/text.hpp"
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
+#include "state/redundancy.hpp"
 
 using namespace alembert;
 
@@ -23,7 +23,8 @@ Checked checked(Scene scene) {
 
 /// A textbook scene with these claims in place of its own.
 Checked checked(const std::string& name, const std::string& claims) {
-    return checked(with_claims(read_scene(test::source_path("scenes/textbook/" + name + ".toml")), claims, "claims.txt"));
+    return checked(
+        with_claims(read_scene(test::source_path("scenes/textbook/" + name + ".toml")), claims, "claims.txt"));
 }
 
 void check_verdicts(const Checked& result, const std::vector<Verdict>& expected) {
@@ -52,7 +53,8 @@ TEST_CASE("check: every hand derivation that a textbook scene carries is proved"
     CHECK(claims >= 150);
 }
 
-TEST_CASE("check: the equation of rest of example 1-1 is proved, and one of its branches alone refuted by the other") {
+TEST_CASE(
+    "check: the equation of rest of example 1-1 is proved, and one of its branches alone refuted by the other") {
     const Checked result = checked("watt_governor", R"(
 rest
 sin(alpha)*(cos(alpha) - (m+M)*g/(m*l*Omega^2)) = 0
@@ -68,8 +70,11 @@ sin(alpha) = 0
 }
 
 // m x'' = a tan φ, m y'' = −a with any scale of a; x'' = … alone is taken up by a.
-TEST_CASE("check: unknown multipliers are in the author's sign and scale, and a claim that one takes up alone is vacuous") {
-    const Checked right = checked("sled", "unknowns a\nm*xC'' = -7*a*sin(phi)\nm*yC'' = 7*a*cos(phi)\nphi'' = 0\n");
+TEST_CASE(
+    "check: unknown multipliers are in the author's sign and scale, and a claim that one takes up alone is "
+    "vacuous") {
+    const Checked right =
+        checked("sled", "unknowns a\nm*xC'' = -7*a*sin(phi)\nm*yC'' = 7*a*cos(phi)\nphi'' = 0\n");
     for (const CheckedClaim& c : right.claims) CHECK(c.verdict == Verdict::proved);
     CHECK(right.complete);
     const Checked alone = checked("sled", "unknowns a\nm*xC'' = a*tan(phi)\nphi'' = 0\n");
@@ -118,20 +123,31 @@ TEST_CASE("check: the slips of students are named") {
         CHECK_FALSE(result.claims[0].counterexample.empty());
         return result.claims[0].likely ? result.claims[0].likely->kind : std::string("unknown");
     };
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) - (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "sign");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + 2*m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "factor");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2'*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "lost_dot");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "missing_term");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + m1*l1*theta1'^2 + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "extra_term");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*sin(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "swapped_trig");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1+theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "wrong_argument");
-    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l1*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "wrong_arm");
-    CHECK(slip("m2*l2*theta2'' + m2*l1*theta1''*cos(theta1-theta2) - m2*l1*theta1'^2*sin(theta1-theta2) + m2*g*sin(theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta2)") == "wrong_row");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) - "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "sign");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + 2*m2*l2*theta2'^2*sin(theta1-theta2) + "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "factor");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2'*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "lost_dot");
+    CHECK(
+        slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta1)") ==
+        "missing_term");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + "
+               "m1*l1*theta1'^2 + (m1+m2)*g*sin(theta1) = F*cos(theta1)") == "extra_term");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*sin(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "swapped_trig");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1+theta2) + "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "wrong_argument");
+    CHECK(slip("(m1+m2)*l1*theta1'' + m2*l1*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2) + "
+               "(m1+m2)*g*sin(theta1) = F*cos(theta1)") == "wrong_arm");
+    CHECK(slip("m2*l2*theta2'' + m2*l1*theta1''*cos(theta1-theta2) - m2*l1*theta1'^2*sin(theta1-theta2) + "
+               "m2*g*sin(theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta2)") == "wrong_row");
 }
 
 TEST_CASE("check: the difference from the nearest right equation is shown after matching the row's scale") {
     const Checked result = checked("double_pendulum",
-                                   "theta1'' + m2*l2/((m1+m2)*l1)*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2)/((m1+m2)*l1) + "
+                                   "theta1'' + m2*l2/((m1+m2)*l1)*theta2''*cos(theta1-theta2) + "
+                                   "m2*l2*theta2'^2*sin(theta1-theta2)/((m1+m2)*l1) + "
                                    "g*sin(theta1)/l1 = -F*cos(theta1)/((m1+m2)*l1)\n");
     REQUIRE(result.claims[0].verdict == Verdict::refuted);
     CHECK(result.claims[0].likely->kind == "sign");
@@ -139,14 +155,19 @@ TEST_CASE("check: the difference from the nearest right equation is shown after 
 
 TEST_CASE("check: a claim that holds at the scene's values only is refuted, with that said") {
     // two_body has m1 = 3 and m2 = 1.
-    Scene scene = parse_scene("[parameters]\nm = 2\nk = 8\n[coordinates]\nx = 1\n[energy]\nkinetic = \"m*x'^2/2\"\npotential = \"k*x^2/2\"\n"
-                              "[[claim]]\nequation = \"x'' = -4*x\"\n", "values.toml");
+    Scene scene = parse_scene(
+        "[parameters]\nm = 2\nk = 8\n[coordinates]\nx = 1\n[energy]\nkinetic = \"m*x'^2/2\"\npotential = "
+        "\"k*x^2/2\"\n"
+        "[[claim]]\nequation = \"x'' = -4*x\"\n",
+        "values.toml");
     const Checked result = checked(scene);
     REQUIRE(result.claims[0].verdict == Verdict::refuted);
     CHECK(result.claims[0].reason.find("scene's values") != std::string::npos);
 }
 
-TEST_CASE("check: momenta are legal in claims; names that are not declared and lines that are no equations are errors with their place") {
+TEST_CASE(
+    "check: momenta are legal in claims; names that are not declared and lines that are no equations are errors "
+    "with their place") {
     const Checked result = checked("two_body", "(p_phi)' = 0\np_phi = m1*m2/(m1+m2)*r^2*phi'\n");
     for (const CheckedClaim& c : result.claims) CHECK(c.verdict == Verdict::proved);
     const auto complaint = [](const std::string& claims) -> std::string {
@@ -183,13 +204,16 @@ unknowns R
 }
 
 TEST_CASE("check: nobody gives the derivative of a multiplier, an acceleration or an unknown function") {
-    for (const char* claims : {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
+    for (const char* claims :
+         {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
         CAPTURE(claims);
         CHECK_THROWS_AS(checked("sled", claims), SceneError);
     }
 }
 
-TEST_CASE("check: sizes and signs are those of real numbers, tangents and half angles are known, and identities say nothing") {
+TEST_CASE(
+    "check: sizes and signs are those of real numbers, tangents and half angles are known, and identities say "
+    "nothing") {
     const Checked result = checked("double_pendulum", R"(
 abs(theta1')^2 = theta1'^2
 abs(theta1')^3 = theta1'^3
@@ -201,8 +225,9 @@ F' = 3/2*cos(3*t)
 ((m1+m2)*l1*theta1'' + m2*l2*theta2''*cos(theta1-theta2) + m2*l2*theta2'^2*sin(theta1-theta2))/cos(theta1) + (m1+m2)*g*tan(theta1/2)*(1 + 1/cos(theta1)) = F
 abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'^2*sin(theta1-theta2) + m2*g*sin(theta2)) = F*cos(theta2)*abs(theta1')
 )");
-    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved, Verdict::proved,
-                                        Verdict::proved, Verdict::refuted, Verdict::proved, Verdict::proved};
+    const std::vector<Verdict> expected{Verdict::proved,  Verdict::refuted, Verdict::proved,
+                                        Verdict::proved,  Verdict::proved,  Verdict::proved,
+                                        Verdict::refuted, Verdict::proved,  Verdict::proved};
     check_verdicts(result, expected);
 }
 
@@ -221,15 +246,18 @@ potential = "m*9.81*(yp - l*cos(theta))"
 [[constraint]]
 name = "tied"
 holonomic = "sin(phi/2) - sin(theta)/2"
-)toml", "drive.toml");
+)toml",
+                                    "drive.toml");
     const Checked result = checked(with_claims(scene, R"(
 m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
 m*l^2*theta'' + m*l*(9.81 - 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -cos(theta)/cos(phi/2)*phi''
 m*l^2*theta'' + m*l*(9.81 + 0.1*1.005^2*cos(1.005*t) - 0.02*0.375^2*sin(0.375*t))*sin(theta) = -1/2*cos(theta)*lambda_tied
 cos(1.005*t) = 4*cos(0.25125*t)^3 - 3*cos(0.25125*t)
 cos(1.005*t) = 2*cos(0.5025*t)^2 - 1
-)", "claims.txt"));
-    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
+)",
+                                               "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
+                                        Verdict::proved};
     check_verdicts(result, expected);
 }
 
@@ -247,7 +275,8 @@ holonomic = "cos(alpha) + 4*cos(beta) - 7/2*cos(gamma) - 3"
 [[constraint]]
 name = "y"
 holonomic = "sin(alpha) + 4*sin(beta) - 7/2*sin(gamma)"
-)toml", "loop.toml");
+)toml",
+                                    "loop.toml");
     const Checked result = checked(with_claims(scene, R"(
 alpha'*sin(alpha-beta) = 7/2*gamma'*sin(gamma-beta)
 alpha'*sin(alpha-beta) = 4*gamma'*sin(gamma-beta)
@@ -255,15 +284,17 @@ alpha'*sin(alpha-gamma) = -4*beta'*sin(beta-gamma)
 beta = 2*atan(2/3)
 6*gamma'' = 7/2*sin(gamma)*lambda_x - 7/2*cos(gamma)*lambda_y
 (alpha'^2 + beta'^2/2 + alpha'*beta'*cos(alpha-beta) + 3*gamma'^2)' = 0
-)", "claims.txt"));
-    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
-                                        Verdict::refuted, Verdict::proved, Verdict::proved};
+)",
+                                               "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved,  Verdict::refuted, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved,  Verdict::proved};
     check_verdicts(result, expected);
     CHECK_FALSE(result.claims[1].counterexample.empty());
     CHECK_FALSE(result.claims[3].counterexample.empty());
 }
 
-// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by Cramer's rule.
+// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by
+// Cramer's rule.
 TEST_CASE("check: constraints that cannot be solved one after the other") {
     const Scene scene = parse_scene(R"toml([coordinates]
 a = { initial = 0.5, rate = 2.0 }
@@ -282,7 +313,8 @@ holonomic = "sin(a) + sin(b)*cos(d) + 2*cos(c) = 12/5"
 [[constraint]]
 name = "z"
 holonomic = "2*sin(a+b) + 3*sin(c) + sin(d)*cos(b) = 4"
-)toml", "loop.toml");
+)toml",
+                                    "loop.toml");
     const Checked result = checked(with_claims(scene, R"(
 (a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 + sin(c)) + 5*cos(d))' = 0
 (a'^2 + b'^2/2 + a'*b'*cos(a-b)/3 + 3*c'^2 + d'^2*(2 - sin(c)) + 5*cos(d))' = 0
@@ -290,30 +322,37 @@ sin(a)*a' + sin(b)*sin(c)*b' - cos(b)*cos(c)*c' = cos(d)*d'/3
 sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
 6*c'' = lambda_x*cos(b)*cos(c) - 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
 6*c'' = lambda_x*cos(b)*cos(c) + 2*lambda_y*sin(c) + 3*lambda_z*cos(c) + d'^2*cos(c)
-)", "claims.txt"));
-    const std::vector<Verdict> expected{Verdict::proved, Verdict::refuted, Verdict::proved,
-                                        Verdict::refuted, Verdict::proved, Verdict::refuted};
+)",
+                                               "claims.txt"));
+    const std::vector<Verdict> expected{Verdict::proved,  Verdict::refuted, Verdict::proved,
+                                        Verdict::refuted, Verdict::proved,  Verdict::refuted};
     check_verdicts(result, expected);
-    for (std::size_t k = 0; k < expected.size(); ++k) CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
+    for (std::size_t k = 0; k < expected.size(); ++k)
+        CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
 }
 
 // x² = l² has two branches; nothing says which.
 TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
-    const Scene scene = parse_scene("[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
-                                    "[[constraint]]\nname = \"wall\"\nholonomic = \"x^2 - l^2\"\n", "branch.toml");
-    const Checked result = checked(with_claims(scene, "x = l\nx = -l\nx^2 = l^2\nx' = 0\n(x-l)*(x+l) = 0\n", "claims.txt"));
+    const Scene scene = parse_scene(
+        "[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
+        "[[constraint]]\nname = \"wall\"\nholonomic = \"x^2 - l^2\"\n",
+        "branch.toml");
+    const Checked result =
+        checked(with_claims(scene, "x = l\nx = -l\nx^2 = l^2\nx' = 0\n(x-l)*(x+l) = 0\n", "claims.txt"));
     CHECK(result.claims[0].verdict == Verdict::refuted);
     CHECK(result.claims[1].verdict == Verdict::refuted);
     for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
 }
 
-// Two rows of one constraint, of which the second is left out: a claim that names its multiplier speaks of both, of which the sum of
-// forces alone is determined; one that does not speaks of the first as of the only one.
+// Two rows of one constraint, of which the second is left out: a claim that names its multiplier speaks of both,
+// of which the sum of forces alone is determined; one that does not speaks of the first as of the only one.
 TEST_CASE("check: the multipliers of a constraint and of its double") {
-    const Scene scene = parse_scene("[parameters]\nm = 1\ng = 9.81\n[coordinates]\nx = 0.2\ny = 0.2\n"
-                                    "[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\npotential = \"m*g*y\"\n"
-                                    "[[constraint]]\nname = \"c1\"\nholonomic = \"x - y\"\n"
-                                    "[[constraint]]\nname = \"c2\"\nholonomic = \"2*x - 2*y\"\n", "double.toml");
+    const Scene scene = parse_scene(
+        "[parameters]\nm = 1\ng = 9.81\n[coordinates]\nx = 0.2\ny = 0.2\n"
+        "[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\npotential = \"m*g*y\"\n"
+        "[[constraint]]\nname = \"c1\"\nholonomic = \"x - y\"\n"
+        "[[constraint]]\nname = \"c2\"\nholonomic = \"2*x - 2*y\"\n",
+        "double.toml");
     const Mechanism all = build(scene);
     const Checked result = check(with_claims(scene, R"(
 m*x'' = lambda_c1 + 2*lambda_c2
@@ -324,8 +363,10 @@ m*x'' = lambda_c1
 m*x'' = 2*lambda_c2
 m*x'' = 2*lambda_c1
 2*x'' + g = 0
-)", "claims.txt"), without_constraints(all, redundant_constraints(all)));
-    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved, Verdict::refuted, Verdict::refuted,
+)",
+                                             "claims.txt"),
+                                 without_constraints(all, redundant_constraints(all)));
+    const std::vector<Verdict> expected{Verdict::proved, Verdict::proved,  Verdict::refuted, Verdict::refuted,
                                         Verdict::proved, Verdict::refuted, Verdict::refuted, Verdict::proved};
     check_verdicts(result, expected);
 }
@@ -347,23 +388,31 @@ potential = "k*cos(a) + k*sin(b)"
 [[constraint]]
 name = "mesh"
 holonomic = "{}"
-)--", mesh), "gears.toml");
+)--",
+                                                    mesh),
+                                        "gears.toml");
         std::string letters;
-        for (const CheckedClaim& c : checked(with_claims(scene, claims, "claims.txt")).claims) letters += "pruv"[static_cast<int>(c.verdict)];
+        for (const CheckedClaim& c : checked(with_claims(scene, claims, "claims.txt")).claims)
+            letters += "pruv"[static_cast<int>(c.verdict)];
         return letters;
     };
     // By hand: a'' = n b'' and the mesh's torque eliminated give (n²I1 + I2)·b'' = n·k·sin(a) − k·cos(b).
     for (const char* mesh : {"a = 2*b", "b = a/2"})
-        CHECK(verdicts(mesh, "cos(a) = 2*cos(b)^2 - 1\ncos(a) = cos(b)\n(4*I1+I2)*b'' = 2*k*sin(2*b) - k*cos(b)\n(4*I1+I2)*b'' = 2*k*sin(b) - k*cos(b)\n") == "prpr");
-    CHECK(verdicts("2*a = 3*b", "cos(2*a) = cos(3*b)\ncos(a) = cos(b)\n(9*I1/4+I2)*b'' = 3*k/2*sin(a) - k*cos(b)\n") == "prp");
-    CHECK(verdicts("a - 2*b = pi/2", "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
+        CHECK(verdicts(mesh,
+                       "cos(a) = 2*cos(b)^2 - 1\ncos(a) = cos(b)\n(4*I1+I2)*b'' = 2*k*sin(2*b) - "
+                       "k*cos(b)\n(4*I1+I2)*b'' = 2*k*sin(b) - k*cos(b)\n") == "prpr");
+    CHECK(verdicts("2*a = 3*b",
+                   "cos(2*a) = cos(3*b)\ncos(a) = cos(b)\n(9*I1/4+I2)*b'' = 3*k/2*sin(a) - k*cos(b)\n") == "prp");
+    CHECK(verdicts("a - 2*b = pi/2",
+                   "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
     CHECK(verdicts("a - 2*b = pi/3", "2*cos(a) = cos(2*b) - sqrt(3)*sin(2*b)\ncos(a) = cos(2*b)\n") == "pr");
     // No turn by π/5 in the field: what cannot be decided is not called wrong.
     CHECK(verdicts("a - 2*b = pi/5", "cos(a) = cos(2*b + pi/5)\ncos(a) = cos(2*b)\n") == "ur");
 }
 
 TEST_CASE("check: roots of numbers that the field does not have, and the turns that go with them") {
-    // Two masses at the corners of an equilateral triangle that hangs from the third: 2 m a² th'' = −2 m g a sin(th) cos(π/6).
+    // Two masses at the corners of an equilateral triangle that hangs from the third: 2 m a² th'' = −2 m g a
+    // sin(th) cos(π/6).
     const std::string triangle = R"--(
 gravity = [0, "-g"]
 [parameters]
@@ -387,30 +436,35 @@ position = ["-a/2", "-a*sqrt(3)/2"]
 axes = "R"
 )--";
     const auto verdict = [&](const std::string& claim) {
-        return checked(with_claims(parse_scene(triangle, "triangle.toml"), claim + "\n", "claims.txt")).claims[0].verdict;
+        return checked(with_claims(parse_scene(triangle, "triangle.toml"), claim + "\n", "claims.txt"))
+            .claims[0]
+            .verdict;
     };
-    for (const char* right : {"2*a*th'' + sqrt(3)*g*sin(th) = 0", "2*a*th'' = -3*g*sin(th)/sqrt(3)", "a*th'' = -cos(pi/6)*g*sin(th)",
-                              "2*a*th'' = g*(cos(th + pi/3) - cos(th - pi/3))", "sqrt(5)*a*th'' = -sqrt(15)/2*g*sin(th)",
-                              "sqrt(12*g/a)*a*th'' = -3*g*sqrt(g/a)*sin(th)"}) {
+    for (const char* right :
+         {"2*a*th'' + sqrt(3)*g*sin(th) = 0", "2*a*th'' = -3*g*sin(th)/sqrt(3)", "a*th'' = -cos(pi/6)*g*sin(th)",
+          "2*a*th'' = g*(cos(th + pi/3) - cos(th - pi/3))", "sqrt(5)*a*th'' = -sqrt(15)/2*g*sin(th)",
+          "sqrt(12*g/a)*a*th'' = -3*g*sqrt(g/a)*sin(th)"}) {
         CAPTURE(right);
         CHECK(verdict(right) == Verdict::proved);
     }
-    for (const char* wrong : {"2*a*th'' = -3*g*sin(th)", "2*a*th'' = sqrt(3)*g*sin(th)", "a*th'' = -cos(pi/3)*g*sin(th)",
-                              "2*a*th'' = g*(cos(th + pi/6) - cos(th - pi/6))"}) {
+    for (const char* wrong : {"2*a*th'' = -3*g*sin(th)", "2*a*th'' = sqrt(3)*g*sin(th)",
+                              "a*th'' = -cos(pi/3)*g*sin(th)", "2*a*th'' = g*(cos(th + pi/6) - cos(th - pi/6))"}) {
         CAPTURE(wrong);
         CHECK(verdict(wrong) == Verdict::refuted);
     }
 }
 
-TEST_CASE("check: a chain of eight rods proves its own equations and refutes one with a sign changed, which it names") {
+TEST_CASE(
+    "check: a chain of eight rods proves its own equations and refutes one with a sign changed, which it names") {
     std::string text = "gravity = [0, \"g\"]\n[parameters]\nm = 1\nl = 1\ng = 9.81\n[coordinates]\n", bodies;
     for (int k = 1; k <= 8; ++k) {
         text += fmt::format("q{} = 0.1\n", k);
-        bodies += fmt::format("[[frame]]\nname = \"R{0}\"\nparent = \"{1}\"\nrotate = [[\"z\", \"q{0}\"]]\n"
-                              "[[point]]\nname = \"J{0}\"\nfrom = \"{2}\"\noffset = [0, \"l\"]\naxes = \"R{0}\"\n"
-                              "[[body]]\nname = \"B{0}\"\nmass = \"m\"\ninertia = \"m*l^2/12\"\nframe = \"R{0}\"\nfrom = \"{2}\"\n"
-                              "position = [0, \"l/2\"]\naxes = \"R{0}\"\n",
-                              k, k == 1 ? "N" : fmt::format("R{}", k - 1), k == 1 ? "O" : fmt::format("J{}", k - 1));
+        bodies += fmt::format(
+            "[[frame]]\nname = \"R{0}\"\nparent = \"{1}\"\nrotate = [[\"z\", \"q{0}\"]]\n"
+            "[[point]]\nname = \"J{0}\"\nfrom = \"{2}\"\noffset = [0, \"l\"]\naxes = \"R{0}\"\n"
+            "[[body]]\nname = \"B{0}\"\nmass = \"m\"\ninertia = \"m*l^2/12\"\nframe = \"R{0}\"\nfrom = \"{2}\"\n"
+            "position = [0, \"l/2\"]\naxes = \"R{0}\"\n",
+            k, k == 1 ? "N" : fmt::format("R{}", k - 1), k == 1 ? "O" : fmt::format("J{}", k - 1));
     }
     const Scene scene = parse_scene(text + bodies, "chain.toml");
     const Mechanism m = build(scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left undecided.
-// ALEMBERT_CLAIMS sets how many of each there are a scene (3; tests/bench/check_property.sh asks for 500), ALEMBERT_SCENE picks
-// one scene.
+// Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left
+// undecided. ALEMBERT_CLAIMS sets how many of each there are a scene (3; tests/bench/check_property.sh asks for
+// 500), ALEMBERT_SCENE picks one scene.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -31,7 +31,11 @@ struct Counts {
 class Trial {
 public:
     Trial(const std::string& file, unsigned seed)
-        : scene_(read_scene(file)), m_(build(scene_)), e_(routh(m_)), oracle_(scene_, m_, e_, seed), rewritings_(scene_, m_, e_),
+        : scene_(read_scene(file)),
+          m_(build(scene_)),
+          e_(routh(m_)),
+          oracle_(scene_, m_, e_, seed),
+          rewritings_(scene_, m_, e_),
           random_(seed) {
         REQUIRE(oracle_.states() == 3);
     }
@@ -94,14 +98,17 @@ private:
 
 }  // namespace
 
-TEST_CASE("check: random right claims are proved, random wrong ones refuted, at most one in a hundred is undecided") {
+TEST_CASE(
+    "check: random right claims are proved, random wrong ones refuted, at most one in a hundred is undecided") {
     const char* const wanted = std::getenv("ALEMBERT_CLAIMS");
     const int count = wanted != nullptr ? std::atoi(wanted) : 3;
     constexpr unsigned seed = 1918;
     for (const std::string& file : scenes_in("scenes/textbook")) {
         CAPTURE(file);
         CAPTURE(seed);
-        if (const char* const only = std::getenv("ALEMBERT_SCENE"); only != nullptr && file.find(only) == std::string::npos) continue;
+        if (const char* const only = std::getenv("ALEMBERT_SCENE");
+            only != nullptr && file.find(only) == std::string::npos)
+            continue;
         const Mechanism m = build(read_scene(file));
         if (!m.unilateral.empty()) continue;  // the oracle does not read contacts
         Trial trial(file, seed);
@@ -112,8 +119,11 @@ TEST_CASE("check: random right claims are proved, random wrong ones refuted, at 
         CHECK(c.proved + c.refuted + c.undecided == 2 * count);
         CHECK(100 * c.undecided <= 2 * count);
         if (wanted != nullptr)
-            fmt::print("{:<24} proved {:4}  refuted {:4}  undecided {:3}  false proofs {}  false refutations {}  slowest {:.3f} s\n",
-                       file.substr(file.rfind('/') + 1), c.proved, c.refuted, c.undecided, c.false_proofs, c.false_refutations, c.slowest);
+            fmt::print(
+                "{:<24} proved {:4}  refuted {:4}  undecided {:3}  false proofs {}  false refutations {}  slowest "
+                "{:.3f} s\n",
+                file.substr(file.rfind('/') + 1), c.proved, c.refuted, c.undecided, c.false_proofs,
+                c.false_refutations, c.slowest);
         if (wanted != nullptr && c.slowest > 1) fmt::print("  the slowest: {}\n", c.slowest_claim);
     }
 }

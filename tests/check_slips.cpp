@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are named rightly.
-// One of a kind of an equation, for a fourth of these; ALEMBERT_SLIPS asks for that many of every one.
+// Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are
+// named rightly. One of a kind of an equation, for a fourth of these; ALEMBERT_SLIPS asks for that many of every
+// one.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -19,7 +20,8 @@
 using namespace alembert;
 using namespace alembert::test;
 
-TEST_CASE("check: slips made on the equations of every textbook scene are refuted, and at least four of five named") {
+TEST_CASE(
+    "check: slips made on the equations of every textbook scene are refuted, and at least four of five named") {
     constexpr unsigned seed = 20240607;
     const char* const wanted = std::getenv("ALEMBERT_SLIPS");
     const std::size_t each = wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 1;
@@ -37,7 +39,8 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
         std::string claims;
         std::vector<StudentSlip> slips;
         for (std::size_t k = 0; k < right.size(); ++k)
-            for (const StudentSlip& slip : slips_of(scene, right, static_cast<std::size_t>(e.size()), k, random, each)) {
+            for (const StudentSlip& slip :
+                 slips_of(scene, right, static_cast<std::size_t>(e.size()), k, random, each)) {
                 std::vector<Diagnostic> mistakes;
                 const Equality equation = parse_equality(slip.equation, {}, mistakes);
                 CAPTURE(slip.equation);
@@ -57,8 +60,8 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
             const std::string kind = c.likely ? c.likely->kind : "unknown";
             ++named[slips[k].kind][kind];
             if (kind != slips[k].kind)
-                misnamed += fmt::format("{} named {}: {} | {} | {}\n", slips[k].kind, kind, wrong.file, slips[k].equation,
-                                        c.likely ? c.likely->repair : std::string());
+                misnamed += fmt::format("{} named {}: {} | {} | {}\n", slips[k].kind, kind, wrong.file,
+                                        slips[k].equation, c.likely ? c.likely->repair : std::string());
         }
     }
     std::string table;
@@ -68,7 +71,8 @@ TEST_CASE("check: slips made on the equations of every textbook scene are refute
         for (const auto& [name, count] : as) sum += count;
         all += sum;
         right += as.contains(kind) ? as.at(kind) : 0;
-        table += fmt::format("{:<15} {:4} made, {:3.0f} % named rightly;", kind, sum, 100.0 * (as.contains(kind) ? as.at(kind) : 0) / sum);
+        table += fmt::format("{:<15} {:4} made, {:3.0f} % named rightly;", kind, sum,
+                             100.0 * (as.contains(kind) ? as.at(kind) : 0) / sum);
         for (const auto& [name, count] : as)
             if (name != kind) table += fmt::format(" {} {}", name, count);
         table += "\n";

@@ -62,18 +62,24 @@ TEST_CASE("commands: the regular double pendulum is within 1e-11 of 30 digits at
 }
 
 // What runs is the fastest, without the others being derived; what is shown is what a teacher would choose.
-TEST_CASE("commands: a tree of many bodies runs by the recursion at once, accelerates as by Lagrange, and is shown by Lagrange") {
+TEST_CASE(
+    "commands: a tree of many bodies runs by the recursion at once, accelerates as by Lagrange, and is shown by "
+    "Lagrange") {
     const std::string scene = source_path("scenes/benchmark/trees/pend16.toml");
     const auto json_of = [&](const std::vector<std::string>& args) {
         const auto result = run(args);
         REQUIRE(result.exit == 0);
         return Json::parse(result.out);
     };
-    const Json own = json_of({"eval", scene, "--json"}), lagrange = json_of({"eval", scene, "--json", "--by", "lagrange"});
+    const Json own = json_of({"eval", scene, "--json"}),
+               lagrange = json_of({"eval", scene, "--json", "--by", "lagrange"});
     double largest = 0;
-    for (const auto& [name, value] : lagrange["accelerations"].items()) largest = std::max(largest, std::abs(value.get<double>()));
+    for (const auto& [name, value] : lagrange["accelerations"].items())
+        largest = std::max(largest, std::abs(value.get<double>()));
     for (const auto& [name, value] : lagrange["accelerations"].items())
         CHECK(std::abs(own["accelerations"][name].get<double>() - value.get<double>()) < 1e-11 * largest);
-    CHECK(json_of({"emit", scene, "--json", "-o", alembert::test::temporary("emitted", "") + ".d"})["formulation"].get<std::string>().starts_with("recursive"));
+    CHECK(json_of({"emit", scene, "--json", "-o", alembert::test::temporary("emitted", "") + ".d"})["formulation"]
+              .get<std::string>()
+              .starts_with("recursive"));
     CHECK(json_of({"derive", scene, "--json"})["formalism"] == "lagrange");
 }

@@ -15,7 +15,8 @@ using Json = nlohmann::json;
 namespace {
 
 std::string scene(const std::string& coordinates, const std::string& constraints) {
-    return temporary("audit.toml", "[coordinates]\n" + coordinates + "\n[energy]\nkinetic = \"x'^2 + y'^2\"\n" + constraints);
+    return temporary("audit.toml",
+                     "[coordinates]\n" + coordinates + "\n[energy]\nkinetic = \"x'^2 + y'^2\"\n" + constraints);
 }
 
 }  // namespace
@@ -41,7 +42,8 @@ TEST_CASE("commands: audit tells the rolling disc's integral in text and JSON") 
     CHECK(json["rank"] == 1);
     CHECK(json["degrees_of_freedom"] == 1);
     CHECK(json["coordinates_free"] == 1);
-    const Json sleigh = Json::parse(run({"audit", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json"}).out);
+    const Json sleigh =
+        Json::parse(run({"audit", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json"}).out);
     CHECK(sleigh["constraints"][0]["integrable"] == false);
     CHECK(sleigh["degrees_of_freedom"] == 2);
     CHECK(sleigh["coordinates_free"] == 3);
@@ -67,8 +69,11 @@ TEST_CASE("commands: audit says what was adjusted") {
 }
 
 TEST_CASE("commands: audit reports what is wrong with the constraints before it fails") {
-    const auto one = [](const std::string& name, const std::string& rule) { return "[[constraint]]\nname = \"" + name + "\"\n" + rule + "\n"; };
-    const std::string circle = one("circle", "holonomic = \"x^2 + y^2 = 1\""), larger = one("larger", "holonomic = \"x^2 + y^2 = 2\"");
+    const auto one = [](const std::string& name, const std::string& rule) {
+        return "[[constraint]]\nname = \"" + name + "\"\n" + rule + "\n";
+    };
+    const std::string circle = one("circle", "holonomic = \"x^2 + y^2 = 1\""),
+                      larger = one("larger", "holonomic = \"x^2 + y^2 = 2\"");
     const auto contradictory = run({"audit", scene("x = 1\ny = 0", circle + larger), "--json"});
     CHECK(contradictory.exit == 3);
     CHECK(contradictory.err.find("'circle' and 'larger' contradict each other") != std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `bench` and the error estimate of `simulate` against digits from elsewhere (the cases' pages: Kepler's equation in 50 digits,
-// Taylor series in 110).
+// `bench` and the error estimate of `simulate` against digits from elsewhere (the cases' pages: Kepler's equation
+// in 50 digits, Taylor series in 110).
 #include <doctest/doctest.h>
 
 #include <array>
@@ -27,13 +27,16 @@ Json result_of(const std::vector<std::string>& arguments) {
     return Json::parse(result.out);
 }
 
-std::string scene(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
+std::string scene(const std::string& name) {
+    return source_path("scenes/benchmark/" + name + ".toml");
+}
 
 }  // namespace
 
 TEST_CASE("bench: the reference of Kepler's comet is Kepler's equation in the digits that it claims") {
     const std::string svg = temporary("kepler.svg", ""), csv = temporary("kepler.csv", "");
-    const Json result = result_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
+    const Json result =
+        result_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
     const Json& reference = result["reference"];
     CHECK(reference["digits"].get<int>() >= 18);
     // The leading 20 digits as text: a double would lose the last four.
@@ -43,7 +46,8 @@ TEST_CASE("bench: the reference of Kepler's comet is Kepler's equation in the di
     REQUIRE(result["runs"].size() == 12);
     double first = 0, last = 0;
     for (const Json& one : result["runs"]) {
-        if (one["tolerance"].get<double>() > 0.9e-5 && one["tolerance"].get<double>() < 1.1e-5) first = one["error"];
+        if (one["tolerance"].get<double>() > 0.9e-5 && one["tolerance"].get<double>() < 1.1e-5)
+            first = one["error"];
         last = one["error"];
         CHECK(one["seconds"].get<double>() > 0);
         CHECK(one["evaluations"].get<long>() > one["steps"].get<long>());
@@ -67,15 +71,18 @@ TEST_CASE("bench: methods for separable systems are left out where the system is
         for (const Json& one : result["runs"]) names.insert(one["method"].get<std::string>());
         return names;
     };
-    const auto coupled = methods(result_of({"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1"}));
+    const auto coupled =
+        methods(result_of({"bench", scene("double_pendulum_regular"), "--json", "--duration", "0.1"}));
     CHECK(!coupled.contains("kahanli8"));
     CHECK(coupled.contains("gauss"));
     CHECK(coupled.contains("radau"));
-    CHECK(methods(result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "kahanli8"})).contains("kahanli8"));
+    CHECK(methods(result_of({"bench", scene("kepler"), "--json", "--duration", "0.01", "--method", "kahanli8"}))
+              .contains("kahanli8"));
 }
 
 TEST_CASE("bench: constraints are kept, and their error is told") {
-    const Json result = result_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
+    const Json result =
+        result_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
     const Json& end = result["reference"]["text"]["coordinates"];
     // Exact by elliptic functions: the mass at t = 10.
     CHECK(end["x"].get<std::string>().substr(0, 19) == "-0.2750874625761168");
@@ -85,8 +92,10 @@ TEST_CASE("bench: constraints are kept, and their error is told") {
 
 // One step of 5 s and another of 5 s would agree to the last digit. x = cos t.
 TEST_CASE("simulate: the second run of a step beyond the duration takes half of the step that was taken") {
-    const std::string one = temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
-    const Json result = result_of({"simulate", one, "--json", "--duration", "5", "--method", "rk4", "--step", "100"});
+    const std::string one =
+        temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
+    const Json result =
+        result_of({"simulate", one, "--json", "--duration", "5", "--method", "rk4", "--step", "100"});
     const double error = std::abs(result["final"]["coordinates"]["x"].get<double>() - std::cos(5));
     CHECK(error > 1);
     CHECK(result["error_estimate"]["value"].get<double>() > error / 30);
@@ -94,8 +103,13 @@ TEST_CASE("simulate: the second run of a step beyond the duration takes half of 
 }
 
 TEST_CASE("simulate: options that are no numbers in their range, or no use to the method, are refused") {
-    const std::string one = temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
-    for (const std::vector<std::string>& more : {std::vector<std::string>{"--duration", "nan"}, {"--duration", "-1"}, {"--tolerance", "0"}, {"--tolerance", "inf"}, {"--method", "dop853", "--step", "0.1"}}) {
+    const std::string one =
+        temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--duration", "nan"},
+                                                 {"--duration", "-1"},
+                                                 {"--tolerance", "0"},
+                                                 {"--tolerance", "inf"},
+                                                 {"--method", "dop853", "--step", "0.1"}}) {
         std::vector<std::string> words{"simulate", one};
         words.insert(words.end(), more.begin(), more.end());
         const auto result = run(words);
@@ -108,7 +122,9 @@ TEST_CASE("simulate: options that are no numbers in their range, or no use to th
 
 // x = 1/(1 − t)² is the motion of x'' = 6 x².
 TEST_CASE("bench: where no method reaches the end it says what stops them, and where") {
-    const std::string pole = temporary("pole.toml", "[coordinates]\nx = { initial = 1, rate = 2 }\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-2*x^3\"\n[simulation]\nduration = 2\n");
+    const std::string pole = temporary("pole.toml",
+                                       "[coordinates]\nx = { initial = 1, rate = 2 }\n[energy]\nkinetic = "
+                                       "\"x'^2/2\"\npotential = \"-2*x^3\"\n[simulation]\nduration = 2\n");
     const auto result = run({"bench", pole, "--reference-seconds", "0.2"});
     CHECK(result.exit == 4);
     CHECK(result.err.find("no method reaches the end") != std::string::npos);
@@ -118,11 +134,15 @@ TEST_CASE("bench: where no method reaches the end it says what stops them, and w
 }
 
 TEST_CASE("simulate: the estimated error is within a factor of 30 of the true one") {
-    for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"}, std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
-        const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
+    for (const auto& [name, x, method] : {std::tuple{"kepler", -0.13516647736782103, "dop853"},
+                                          std::tuple{"kepler", -0.13516647736782103, "verner98"}}) {
+        const Json result =
+            result_of({"simulate", scene(name), "--json", "--tolerance", "1e-9", "--method", method});
         const Json& end = result["final"];
-        const double error = std::max({std::abs(end["coordinates"]["x"].get<double>() - x), std::abs(end["coordinates"]["y"].get<double>() + 0.073200184472628027),
-                                       std::abs(end["rates"]["x"].get<double>() - 3.3757472100490510) / 3.37, std::abs(end["rates"]["y"].get<double>() - 0.78449894364958458)});
+        const double error = std::max({std::abs(end["coordinates"]["x"].get<double>() - x),
+                                       std::abs(end["coordinates"]["y"].get<double>() + 0.073200184472628027),
+                                       std::abs(end["rates"]["x"].get<double>() - 3.3757472100490510) / 3.37,
+                                       std::abs(end["rates"]["y"].get<double>() - 0.78449894364958458)});
         const double estimate = result["error_estimate"]["value"];
         CAPTURE(error);
         CAPTURE(estimate);
@@ -154,11 +174,14 @@ TEST_CASE("simulate: chaos is told with its exponent, and a result without digit
 }
 
 // Runs apart by 0.1: seen in their rows, where the estimate works with two other runs of its own.
-TEST_CASE("simulate: the time after which no digit is left is the time at which a hundred times stricter run has parted") {
+TEST_CASE(
+    "simulate: the time after which no digit is left is the time at which a hundred times stricter run has "
+    "parted") {
     const std::string chaotic = scene("double_pendulum_chaotic");
     const auto rows = [&](const std::string& tolerance) {
         const std::string file = temporary("chaos" + tolerance + ".csv", "");
-        const Json result = result_of({"simulate", chaotic, "--json", "--duration", "40", "--sample", "0.1", "--tolerance", tolerance, "-o", file});
+        const Json result = result_of({"simulate", chaotic, "--json", "--duration", "40", "--sample", "0.1",
+                                       "--tolerance", tolerance, "-o", file});
         std::ifstream in(file);
         std::vector<std::array<double, 3>> list;
         std::string line;
@@ -177,7 +200,8 @@ TEST_CASE("simulate: the time after which no digit is left is the time at which 
     double parted = 0;
     for (std::size_t k = 0; k < first.size() && parted == 0; ++k)
         for (int i = 1; i <= 2; ++i)
-            if (std::abs(first[k][i] - second[k][i]) > 0.1 * std::max(1.0, std::abs(second[k][i]))) parted = first[k][0];
+            if (std::abs(first[k][i] - second[k][i]) > 0.1 * std::max(1.0, std::abs(second[k][i])))
+                parted = first[k][0];
     CAPTURE(parted);
     REQUIRE(loose["error_estimate"].contains("no_digit_after"));
     CHECK(std::abs(loose["error_estimate"]["no_digit_after"].get<double>() - parted) < 2);
@@ -185,16 +209,21 @@ TEST_CASE("simulate: the time after which no digit is left is the time at which 
     CHECK(loose["warning"].get<std::string>().starts_with("NOT TRUSTWORTHY"));
 }
 
-// The true errors: against the end of a run three decades stricter by another method, whose own error is a hundredth and less of them.
+// The true errors: against the end of a run three decades stricter by another method, whose own error is a
+// hundredth and less of them.
 TEST_CASE("simulate: the estimated error is within a factor of 10 of the true one, whatever the scene") {
-    for (const char* name : {"kepler", "pleiades", "andrews", "free_body", "car_axis", "stiff_spring_pendulum", "double_pendulum_regular", "four_bars_2"}) {
+    for (const char* name : {"kepler", "pleiades", "andrews", "free_body", "car_axis", "stiff_spring_pendulum",
+                             "double_pendulum_regular", "four_bars_2"}) {
         CAPTURE(name);
-        const Json result = result_of({"simulate", scene(name), "--json", "--tolerance", "1e-8", "--method", "dop853"});
-        const Json better = result_of({"simulate", scene(name), "--json", "--no-estimate", "--tolerance", "1e-11", "--method", "verner98"});
+        const Json result =
+            result_of({"simulate", scene(name), "--json", "--tolerance", "1e-8", "--method", "dop853"});
+        const Json better = result_of(
+            {"simulate", scene(name), "--json", "--no-estimate", "--tolerance", "1e-11", "--method", "verner98"});
         double error = 0;
         for (const char* group : {"coordinates", "rates"})
             for (const auto& [key, value] : better["final"][group].items())
-                error = std::max(error, std::abs(result["final"][group][key].get<double>() - value.get<double>()) / std::max(1.0, std::abs(value.get<double>())));
+                error = std::max(error, std::abs(result["final"][group][key].get<double>() - value.get<double>()) /
+                                            std::max(1.0, std::abs(value.get<double>())));
         const double estimate = result["error_estimate"]["value"];
         CAPTURE(error);
         CAPTURE(estimate);
@@ -203,7 +232,8 @@ TEST_CASE("simulate: the estimated error is within a factor of 10 of the true on
     }
 }
 
-// It touches down first at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e): `error` holds those times against a strict run's.
+// It touches down first at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e): `error` holds those times
+// against a strict run's.
 TEST_CASE("bench: a bouncing ball has its row, by the times of its contacts") {
     const Json result = result_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
     CHECK(result["reference"]["digits"].get<int>() >= 10);

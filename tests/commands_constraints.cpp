@@ -15,10 +15,11 @@ using alembert::test::source_path;
 using alembert::test::temporary;
 using Json = nlohmann::json;
 
-// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and place by
-// quadrature in 32 digits. Local errors of 1e-11 on some sixty steps of an attracting motion.
+// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and place
+// by quadrature in 32 digits. Local errors of 1e-11 on some sixty steps of an attracting motion.
 TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
-    const auto result = run({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--tolerance", "1e-13"});
+    const auto result =
+        run({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--tolerance", "1e-13"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
     const Json& end = json["final"];
@@ -31,8 +32,10 @@ TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
 }
 
 // A Cartesian pendulum from the horizontal is the angle's pendulum: the same end state by other equations.
-TEST_CASE("commands: the Cartesian pendulum moves like the pendulum in its angle, with the tension m(g cos + l w²)") {
-    const auto cartesian = run({"simulate", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--tolerance", "1e-12"});
+TEST_CASE(
+    "commands: the Cartesian pendulum moves like the pendulum in its angle, with the tension m(g cos + l w²)") {
+    const auto cartesian = run(
+        {"simulate", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--tolerance", "1e-12"});
     const std::string angle = temporary("angle.toml", R"toml(
 [coordinates]
 th = { initial = "pi/2" }
@@ -51,13 +54,16 @@ tolerance = 1e-13
     CHECK(std::abs(end["coordinates"]["x"].get<double>() - std::sin(th)) < 1e-9);
     CHECK(std::abs(end["coordinates"]["y"].get<double>() + std::cos(th)) < 1e-9);
     CHECK(std::abs(end["rates"]["x"].get<double>() - w * std::cos(th)) < 1e-9);
-    const auto low = run({"eval", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--at", "x=0", "y=-1", "x'=3"});
+    const auto low = run(
+        {"eval", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--at", "x=0", "y=-1", "x'=3"});
     REQUIRE(low.exit == 0);
-    CHECK(Json::parse(low.out)["outputs"]["tension"].get<double>() == doctest::Approx(2 * (9.81 + 9)).epsilon(1e-14));
+    CHECK(Json::parse(low.out)["outputs"]["tension"].get<double>() ==
+          doctest::Approx(2 * (9.81 + 9)).epsilon(1e-14));
 }
 
 TEST_CASE("commands: a four-bar keeps its loop and its energy over a hundred turns of the crank") {
-    const auto result = run({"simulate", source_path("scenes/textbook/four_bar.toml"), "--json", "--tolerance", "1e-12", "--duration", "450"});
+    const auto result = run({"simulate", source_path("scenes/textbook/four_bar.toml"), "--json", "--tolerance",
+                             "1e-12", "--duration", "450"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
     CHECK(json["final"]["coordinates"]["alpha"].get<double>() > 200 * M_PI);
@@ -89,13 +95,17 @@ tolerance = 1e-11
     const Json json = Json::parse(result.out);
     CHECK(json["energy_drift"].is_null());
     CHECK(json["work_balance"].get<double>() < 1e-9);
-    CHECK(json["final"]["coordinates"]["x"].get<double>() == doctest::Approx(1 + std::sin(10.0) / 2).epsilon(1e-12));
+    CHECK(json["final"]["coordinates"]["x"].get<double>() ==
+          doctest::Approx(1 + std::sin(10.0) / 2).epsilon(1e-12));
 }
 
 TEST_CASE("commands: what is wrong with constraints has its message and exit code") {
-    const auto scene = [](const std::string& constraint, const std::string& x = "x = 0.6", const std::string& more = "") {
-        return temporary("c.toml", "[coordinates]\n" + x + "\ny = 0.8\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n" +
-                                       "[[constraint]]\nname = \"c\"\n" + constraint + "\n" + more);
+    const auto scene = [](const std::string& constraint, const std::string& x = "x = 0.6",
+                          const std::string& more = "") {
+        return temporary("c.toml",
+                         "[coordinates]\n" + x +
+                             "\ny = 0.8\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n" +
+                             "[[constraint]]\nname = \"c\"\n" + constraint + "\n" + more);
     };
     const auto fails = [](const std::string& file, int exit, const std::string& message) {
         const auto result = run({"eval", file});
@@ -105,14 +115,16 @@ TEST_CASE("commands: what is wrong with constraints has its message and exit cod
     };
     fails(scene("holonomic = \"x^2 + y^2 - 2\""), 3, "constraint 'c' is off by 1 at the start");
     fails(scene("holonomic = \"x^2 + y^2 + 1\"", "x = { guess = 0.6 }"), 4, "the guesses do not converge");
-    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = { guess = 0.6 }", "[[constraint]]\nname = \"d\"\nholonomic = \"2*x^2 + 2*y^2 = 3\"\n"), 3,
-          "constraints 'c' and 'd' contradict each other");
+    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = { guess = 0.6 }",
+                "[[constraint]]\nname = \"d\"\nholonomic = \"2*x^2 + 2*y^2 = 3\"\n"),
+          3, "constraints 'c' and 'd' contradict each other");
     fails(scene("nonholonomic = \"x'^2 - y'\""), 3, "not linear in the rates");
     fails(scene("holonomic = \"x'\""), 3, "'nonholonomic'");
     fails(scene("holonomic = \"t - t\""), 3, "contains no coordinate");
     fails(scene("nonholonomic = \"x*y\""), 3, "contains no rate");
     fails(scene("multiplier = \"mu\""), 3, "needs one of 'holonomic' and 'nonholonomic'");
-    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = 0.6", "[outputs]\nx = \"lambda_d\"\n"), 3, "unknown name 'lambda_d'");
+    fails(scene("holonomic = \"x^2 + y^2 = 1\"", "x = 0.6", "[outputs]\nx = \"lambda_d\"\n"), 3,
+          "unknown name 'lambda_d'");
     CHECK(run({"eval", scene("holonomic = \"x^2 + y^2 = 1\""), "--by", "lagrange"}).exit == 3);
     CHECK(run({"eval", scene("holonomic = \"x^2 + y^2 = 1\"")}).exit == 0);
 }
@@ -148,12 +160,14 @@ duration = 2
     CHECK(run({"derive", source_path("scenes/textbook/four_bar.toml")}).err.empty());
 }
 
-// The rod of a pendulum pulls with m (g cos + l w²) along itself: at 30° from the lowest point, turning with 2 rad/s.
+// The rod of a pendulum pulls with m (g cos + l w²) along itself: at 30° from the lowest point, turning with 2
+// rad/s.
 TEST_CASE("commands: reactions along the coordinates are those of the free body") {
     const double th = 0.5235987755982988, w = 2, m = 2, g = 9.81;
     const auto at = [&](const char* name, double value) { return fmt::format("{}={:.17g}", name, value); };
-    const auto result = run({"eval", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json", "--reactions", "--at", at("x", std::sin(th)),
-                             at("y", -std::cos(th)), at("x'", w * std::cos(th)), at("y'", w * std::sin(th))});
+    const auto result = run({"eval", source_path("scenes/textbook/cartesian_pendulum.toml"), "--json",
+                             "--reactions", "--at", at("x", std::sin(th)), at("y", -std::cos(th)),
+                             at("x'", w * std::cos(th)), at("y'", w * std::sin(th))});
     REQUIRE(result.exit == 0);
     const Json rod = Json::parse(result.out)["reactions"]["rod"];
     const double tension = m * (g * std::cos(th) + w * w);
@@ -185,7 +199,8 @@ nonholonomic = "x' = y*z' + z"
     }
 }
 
-// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the ratio 1 : 2.
+// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the
+// ratio 1 : 2.
 TEST_CASE("commands: redundant constraints share their reaction in the least way") {
     const std::string rod = R"toml(
 gravity = [0, "-9.81"]
@@ -201,7 +216,8 @@ name = "a"
 holonomic = "x^2 + y^2 = 1"
 )toml";
     const auto one = run({"eval", temporary("one.toml", rod), "--json"});
-    const std::string twice = temporary("twice.toml", rod + "[[constraint]]\nname = \"b\"\nholonomic = \"2*x^2 + 2*y^2 = 2\"\n");
+    const std::string twice =
+        temporary("twice.toml", rod + "[[constraint]]\nname = \"b\"\nholonomic = \"2*x^2 + 2*y^2 = 2\"\n");
     const auto two = run({"eval", twice, "--json"});
     REQUIRE(one.exit == 0);
     REQUIRE(two.exit == 0);
@@ -214,25 +230,31 @@ holonomic = "x^2 + y^2 = 1"
     CHECK(motion.exit == 0);
 }
 
-// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same with
-// what it cannot have, each named.
-// x'' + x = cos 2t from rest: x = (cos t − cos 2t)/3. The load's work is integrated with the motion.
+// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same
+// with what it cannot have, each named. x'' + x = cos 2t from rest: x = (cos t − cos 2t)/3. The load's work is
+// integrated with the motion.
 TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy") {
-    const std::string driven = temporary("driven.toml", "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[forces]\nx = \"cos(2*t)\"\n");
+    const std::string driven = temporary("driven.toml",
+                                         "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
+                                         "\"x^2/2\"\n[forces]\nx = \"cos(2*t)\"\n");
     for (const auto& [method, tolerance] : {std::pair{"verlet", 1e-4}, {"kahanli8", 1e-12}}) {
-        const auto result = run({"simulate", driven, "--json", "--duration", "5", "--method", method, "--step", "0.01"});
+        const auto result =
+            run({"simulate", driven, "--json", "--duration", "5", "--method", method, "--step", "0.01"});
         INFO(result.err);
         REQUIRE(result.exit == 0);
         const Json motion = Json::parse(result.out);
-        CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() - (std::cos(5) - std::cos(10)) / 3) < tolerance);
+        CHECK(std::abs(motion["final"]["coordinates"]["x"].get<double>() - (std::cos(5) - std::cos(10)) / 3) <
+              tolerance);
         CHECK(motion["work_balance"].get<double>() < tolerance);
     }
 }
 
 TEST_CASE("commands: kahanli8 integrates a separable system and refuses the others with the reason") {
     const auto scene = [](const std::string& kinetic, const std::string& more) {
-        return temporary("separable.toml", "[coordinates]\nx = { initial = 1 }\ny = { initial = 0.2, rate = 0.3 }\n[energy]\nkinetic = \"" +
-                                               kinetic + "\"\npotential = \"x^2/2 + y^2 + x^2*y^2 + y^4/4\"\n" + more);
+        return temporary(
+            "separable.toml",
+            "[coordinates]\nx = { initial = 1 }\ny = { initial = 0.2, rate = 0.3 }\n[energy]\nkinetic = \"" +
+                kinetic + "\"\npotential = \"x^2/2 + y^2 + x^2*y^2 + y^4/4\"\n" + more);
     };
     const std::string free = scene("x'^2/2 + y'^2", "");
     const auto end = [&](const std::vector<std::string>& more) {
@@ -244,9 +266,11 @@ TEST_CASE("commands: kahanli8 integrates a separable system and refuses the othe
     };
     const Json exact = end({"--tolerance", "1e-13"});
     for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--method", "kahanli8", "--step", "0.05"}, {"--method", "gauss", "--step", "0.02"}}) {
+         {std::vector<std::string>{"--method", "kahanli8", "--step", "0.05"},
+          {"--method", "gauss", "--step", "0.02"}}) {
         const Json other = end(words);
-        for (const char* name : {"x", "y"}) CHECK(std::abs(other[name].get<double>() - exact[name].get<double>()) < 1e-9);
+        for (const char* name : {"x", "y"})
+            CHECK(std::abs(other[name].get<double>() - exact[name].get<double>()) < 1e-9);
     }
     const auto refused = [&](const std::string& path, const char* reason) {
         const auto result = run({"simulate", path, "--duration", "1", "--method", "verlet", "--step", "0.01"});

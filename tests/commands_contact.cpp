@@ -72,7 +72,8 @@ TEST_CASE("contact: without loss a ball bounces fifty times and keeps its energy
     CHECK(value(hard["contacts"][1], "time") == value(hard["contacts"][0], "time"));
 }
 
-TEST_CASE("contact: a run that begins in contact tells nothing, and one that ends among the bounces is right there") {
+TEST_CASE(
+    "contact: a run that begins in contact tells nothing, and one that ends among the bounces is right there") {
     const std::string lying = temporary("lying.toml", R"toml(
 gravity = [0, -9.81]
 [coordinates]
@@ -136,20 +137,25 @@ tolerance = 1e-12
     CHECK(std::abs(value(motion["contacts"][1], "speed_before") - before) < 1e-9);
     CHECK(std::abs(value(motion["contacts"][1], "speed_after") + 0.3 * before) < 1e-9);
     const double after = 2 * std::cos(10 * impact) - 0.3 * before, left = 0.6 - impact;
-    CHECK(std::abs(coordinate(motion, "y") - (0.2 * std::sin(10 * impact) + after * left - g * left * left / 2)) < 1e-10);
+    CHECK(std::abs(coordinate(motion, "y") - (0.2 * std::sin(10 * impact) + after * left - g * left * left / 2)) <
+          1e-10);
     CHECK(motion["work_balance"].get<double>() < 1e-10);
     CHECK(simulated(scene, {"--duration", "20"})["work_balance"].get<double>() < 1e-9);
 }
 
-// Slack where v² = −g l cos θ with v² = v₀² − 2 g l (1 − cos θ): cos θ = (2 − v₀²/(g l))/3, here −1/2. With the angle α = π − θ
-// from the top the parabola meets the circle again after 4 v sin α/g.
-TEST_CASE("contact: a pendulum on a string goes slack at the angle of the closed form and taut again where its parabola ends") {
+// Slack where v² = −g l cos θ with v² = v₀² − 2 g l (1 − cos θ): cos θ = (2 − v₀²/(g l))/3, here −1/2. With the
+// angle α = π − θ from the top the parabola meets the circle again after 4 v sin α/g.
+TEST_CASE(
+    "contact: a pendulum on a string goes slack at the angle of the closed form and taut again where its parabola "
+    "ends") {
     const Json motion = simulated(source_path("scenes/textbook/slack_pendulum.toml"), {"--tolerance", "1e-12"});
     const double l = 1, v0 = std::sqrt(3.5 * g * l), theta = std::acos((2 - v0 * v0 / (g * l)) / 3);
     double release = 0;  // ∫ l dθ/v, by Simpson's rule
     for (int i = 0; i <= 2000; ++i)
-        release += (i == 0 || i == 2000 ? 1 : i % 2 == 1 ? 4 : 2) * (theta / 6000) * l /
-                   std::sqrt(v0 * v0 - 2 * g * l * (1 - std::cos(theta * i / 2000)));
+        release += (i == 0 || i == 2000 ? 1
+                    : i % 2 == 1        ? 4
+                                        : 2) *
+                   (theta / 6000) * l / std::sqrt(v0 * v0 - 2 * g * l * (1 - std::cos(theta * i / 2000)));
     const double v = std::sqrt(-g * l * std::cos(theta)), flight = 4 * v * std::sin(theta) / g;
     REQUIRE(motion["contacts"].size() >= 3);
     CHECK(motion["contacts"][0]["event"] == "release");
@@ -158,7 +164,8 @@ TEST_CASE("contact: a pendulum on a string goes slack at the angle of the closed
     CHECK(std::abs(value(motion["contacts"][1], "time") - release - flight) < 1e-9);
     CHECK(motion["contacts"][2]["event"] == "rest");
     const double x = l * std::sin(theta) + v * std::cos(theta) * flight, u = v * std::cos(theta);
-    const double y = -l * std::cos(theta) + v * std::sin(theta) * flight - g * flight * flight / 2, w = v * std::sin(theta) - g * flight;
+    const double y = -l * std::cos(theta) + v * std::sin(theta) * flight - g * flight * flight / 2,
+                 w = v * std::sin(theta) - g * flight;
     CHECK(std::abs(value(motion["contacts"][1], "speed_before") + (x * u + y * w) / l) < 1e-8);
     // What is tangential stays; then it swings with the energy that is left.
     const double along = (-y * u + x * w) / l, x_end = coordinate(motion, "x"), y_end = coordinate(motion, "y");
@@ -230,7 +237,8 @@ duration = 3
     CHECK(std::abs(coordinate(motion, "y")) < 1e-15);
 }
 
-// A rod of length 1 and mass 1, I = 1/12: for its end, 1/W = 1 + 3 cos² φ; Π = (1 + e) v W, and (1 − e²) v² W/2 is lost.
+// A rod of length 1 and mass 1, I = 1/12: for its end, 1/W = 1 + 3 cos² φ; Π = (1 + e) v W, and (1 − e²) v² W/2 is
+// lost.
 TEST_CASE("contact: a rod falls on a table, end by end, and lies; flat, both ends bounce together") {
     const auto rod = [](const char* phi) {
         return simulated(temporary("rod.toml", R"toml(

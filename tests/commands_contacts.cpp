@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contacts beside other things: constraints, each other, moving frames, events, the start, and where nothing is consistent.
+// Contacts beside other things: constraints, each other, moving frames, events, the start, and where nothing is
+// consistent.
 #include "contacts.hpp"
 
 using namespace alembert::test;
@@ -45,13 +46,15 @@ tolerance = 1e-13
     CHECK(one["contacts"].size() > 5);
     for (std::size_t k = 0; k < one["contacts"].size(); ++k) {
         CHECK(std::abs(value(one["contacts"][k], "time") - value(other["contacts"][k], "time")) < 1e-9);
-        CHECK(std::abs(value(one["contacts"][k], "energy_loss") - value(other["contacts"][k], "energy_loss")) < 1e-9);
+        CHECK(std::abs(value(one["contacts"][k], "energy_loss") - value(other["contacts"][k], "energy_loss")) <
+              1e-9);
     }
     CHECK(std::abs(std::sin(coordinate(one, "th")) - coordinate(other, "x")) < 1e-9);
     CHECK(other["constraint_drift"].get<double>() < 1e-12);
 }
 
-TEST_CASE("contact: three bodies stacked above each other bounce, collapse and lie; four legs share a load that moves") {
+TEST_CASE(
+    "contact: three bodies stacked above each other bounce, collapse and lie; four legs share a load that moves") {
     const Json stack = simulated(temporary("stack.toml", R"toml(
 [coordinates]
 a = 0
@@ -112,7 +115,8 @@ duration = 10
 }
 
 // Seen from a platform that swings: x = y − s(t), and the floor stands still on it.
-TEST_CASE("contact: a moving frame sees the same bounces, and the work of its motion in the impacts is accounted for") {
+TEST_CASE(
+    "contact: a moving frame sees the same bounces, and the work of its motion in the impacts is accounted for") {
     const std::string moving = temporary("moving.toml", R"toml(
 gravity = [0, -9.81]
 [inputs]
@@ -161,7 +165,9 @@ tolerance = 1e-12
     CHECK(one["work_balance"].get<double>() < 1e-10);
 }
 
-TEST_CASE("contact: where no mode is consistent the run ends with exit 4, the contacts by name, and what there was until then") {
+TEST_CASE(
+    "contact: where no mode is consistent the run ends with exit 4, the contacts by name, and what there was "
+    "until then") {
     const std::string scene = temporary("squeeze.toml", R"toml(
 [coordinates]
 y = { initial = 0.3, rate = 0.1 }
@@ -189,15 +195,19 @@ duration = 3
 
 TEST_CASE("contact: a gap that is negative at the start is a mistake of the scene, by name and depth") {
     for (const char* verb : {"simulate", "eval"}) {
-        const auto result = run({verb, temporary("deep.toml", "[coordinates]\ny = -0.25\n[[particle]]\nname = \"P\"\nmass = 1\n"
-                                                              "position = [0, \"y\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n")});
+        const auto result =
+            run({verb, temporary("deep.toml",
+                                 "[coordinates]\ny = -0.25\n[[particle]]\nname = \"P\"\nmass = 1\n"
+                                 "position = [0, \"y\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n")});
         CHECK(result.exit == 3);
         CHECK(result.err.find(":8:9: the gap of 'floor' is -0.25 at the start") != std::string::npos);
     }
 }
 
 TEST_CASE("contact: a scene's event stops a run among impacts, and is told once") {
-    const Json motion = simulated(ball(0.5, 3, "[[event]]\nname = \"high\"\nwhen = \"y - 0.5\"\n[[event]]\nname = \"end\"\nwhen = \"t - 1\"\nstop = true\n"));
+    const Json motion = simulated(ball(0.5, 3,
+                                       "[[event]]\nname = \"high\"\nwhen = \"y - 0.5\"\n[[event]]\nname = "
+                                       "\"end\"\nwhen = \"t - 1\"\nstop = true\n"));
     CHECK(motion["final"]["time"].get<double>() == doctest::Approx(1).epsilon(1e-14));
     REQUIRE(motion["events"].size() == 2);  // on the way down; it never comes as high again
     CHECK(std::abs(value(motion["events"][0], "time") - std::sqrt(1 / g)) < 1e-11);
@@ -207,11 +217,13 @@ TEST_CASE("contact: a scene's event stops a run among impacts, and is told once"
 
 TEST_CASE("contact: eval chooses the contacts that last, derive shows gaps and reactions") {
     const std::string scene = source_path("scenes/textbook/bouncing_ball.toml");
-    const Json open = Json::parse(run({"eval", scene, "--json"}).out), closed = Json::parse(run({"eval", scene, "--json", "--at", "y=0"}).out);
+    const Json open = Json::parse(run({"eval", scene, "--json"}).out),
+               closed = Json::parse(run({"eval", scene, "--json", "--at", "y=0"}).out);
     CHECK(open["multipliers"]["lambda_floor"] == 0.0);
     CHECK(open["closed"].empty());
     CHECK(closed["closed"] == Json::array({"floor"}));
-    CHECK(closed["multipliers"]["lambda_floor"].get<double>() == doctest::Approx(open["potential"].get<double>()).epsilon(1e-14));  // m g from h = 1
+    CHECK(closed["multipliers"]["lambda_floor"].get<double>() ==
+          doctest::Approx(open["potential"].get<double>()).epsilon(1e-14));  // m g from h = 1
     CHECK(closed["accelerations"]["y"] == 0.0);
     const Json leaving = Json::parse(run({"eval", scene, "--json", "--at", "y=0", "y'=1"}).out);
     CHECK(leaving["closed"].empty());

@@ -49,12 +49,17 @@ duration = 5
 
 }  // namespace
 
-// y = 10 − g t²/2 and x = t: every method but euler and verlet's dense output is exact up to rounding; bdf to its tolerance.
-TEST_CASE("events: a scene's guards are met to 1e-12 by every method, simultaneous ones as declared, and stop ends the run") {
+// y = 10 − g t²/2 and x = t: every method but euler and verlet's dense output is exact up to rounding; bdf to its
+// tolerance.
+TEST_CASE(
+    "events: a scene's guards are met to 1e-12 by every method, simultaneous ones as declared, and stop ends the "
+    "run") {
     const std::string scene = temporary("thrown.toml", thrown);
     const double half = std::sqrt(10 / 9.81), late = std::sqrt(14 / 9.81), end = std::sqrt(20 / 9.81);
-    const std::vector<std::pair<std::string, double>> expected = {{"half", half}, {"abreast", half}, {"late", late}, {"end", end}, {"ground", end}};
-    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "taylor", "abm", "radau", "rk4", "gauss", "rattle", "kahanli8"}) {
+    const std::vector<std::pair<std::string, double>> expected = {
+        {"half", half}, {"abreast", half}, {"late", late}, {"end", end}, {"ground", end}};
+    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "taylor", "abm", "radau", "rk4",
+                                     "gauss", "rattle", "kahanli8"}) {
         std::vector<std::string> words = {"simulate", scene, "--json", "--no-estimate", "--method", method};
         if (method == "rk4" || method == "gauss" || method == "rattle" || method == "kahanli8")
             words.insert(words.end(), {"--step", "0.01"});
@@ -67,7 +72,8 @@ TEST_CASE("events: a scene's guards are met to 1e-12 by every method, simultaneo
         REQUIRE(motion["events"].size() == expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) {
             CHECK(motion["events"][k]["name"] == expected[k].first);
-            CHECK(std::abs(motion["events"][k]["time"].get<double>() - expected[k].second) < 1e-12 * expected[k].second);
+            CHECK(std::abs(motion["events"][k]["time"].get<double>() - expected[k].second) <
+                  1e-12 * expected[k].second);
         }
         CHECK(motion["final"]["time"] == motion["events"][3]["time"]);
         CHECK(std::abs(motion["final"]["coordinates"]["y"].get<double>()) < 1e-11);
@@ -89,12 +95,17 @@ stop = true
 [simulation]
 duration = 5
 )toml");
-    for (const auto& [method, option, value] : {std::tuple{"rk2", "--step", "0.05"}, {"verlet", "--step", "0.05"}, {"bdf", "--tolerance", "1e-5"}, {"dop853", "--tolerance", "1e-6"}}) {
+    for (const auto& [method, option, value] : {std::tuple{"rk2", "--step", "0.05"},
+                                                {"verlet", "--step", "0.05"},
+                                                {"bdf", "--tolerance", "1e-5"},
+                                                {"dop853", "--tolerance", "1e-6"}}) {
         const auto result = run({"simulate", scene, "--json", "--method", method, option, value});
         INFO(result.err);
         REQUIRE(result.exit == 0);
         const Json motion = Json::parse(result.out);
-        const double error = std::max(std::abs(motion["final"]["time"].get<double>() - std::acos(0)) / std::acos(0), std::abs(motion["final"]["rates"]["x"].get<double>() + 1));
+        const double error =
+            std::max(std::abs(motion["final"]["time"].get<double>() - std::acos(0)) / std::acos(0),
+                     std::abs(motion["final"]["rates"]["x"].get<double>() + 1));
         REQUIRE(motion["error_estimate"]["value"].is_number());
         CHECK(motion["error_estimate"]["value"].get<double>() > error / 10);
         CHECK(motion["error_estimate"]["value"].get<double>() < error * 10);
@@ -124,8 +135,11 @@ stop = true
 [simulation]
 duration = 5
 )toml");
-    const double quarter = std::comp_ellint_1(std::sin(M_PI / 4)) / std::sqrt(9.81);  // of the period from the horizontal
-    for (const std::vector<std::string>& method : {std::vector<std::string>{"dop853", "--tolerance", "1e-14"}, {"taylor", "--tolerance", "1e-14"}, {"rattle8", "--step", "0.01"}}) {
+    const double quarter =
+        std::comp_ellint_1(std::sin(M_PI / 4)) / std::sqrt(9.81);  // of the period from the horizontal
+    for (const std::vector<std::string>& method : {std::vector<std::string>{"dop853", "--tolerance", "1e-14"},
+                                                   {"taylor", "--tolerance", "1e-14"},
+                                                   {"rattle8", "--step", "0.01"}}) {
         std::vector<std::string> words = {"simulate", scene, "--json", "--no-estimate", "--method"};
         words.insert(words.end(), method.begin(), method.end());
         const auto result = run(words);

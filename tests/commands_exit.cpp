@@ -40,11 +40,12 @@ TEST_CASE("commands: eval gives the pendulum's closed form, with --at for state 
     const auto run_at = run({"eval", scene, "--json", "--at", "theta=0.5", "theta'=2", "l=2"});
     REQUIRE(run_at.exit == 0);
     const Json result = Json::parse(run_at.out);
-    CHECK(result["accelerations"]["theta"].get<double>() == doctest::Approx(-9.81 / 2 * std::sin(0.5)).epsilon(1e-15));
+    CHECK(result["accelerations"]["theta"].get<double>() ==
+          doctest::Approx(-9.81 / 2 * std::sin(0.5)).epsilon(1e-15));
     CHECK(result["kinetic"].get<double>() == doctest::Approx(0.5 * 2 * 4 * 4).epsilon(1e-15));
     CHECK(result["potential"].get<double>() == doctest::Approx(-2 * 9.81 * 2 * std::cos(0.5)).epsilon(1e-15));
-    for (const char* key : {"time", "coordinates", "rates", "accelerations", "speeds", "speed_rates", "multipliers", "kinetic",
-                            "potential", "energy", "residuals", "outputs"})
+    for (const char* key : {"time", "coordinates", "rates", "accelerations", "speeds", "speed_rates",
+                            "multipliers", "kinetic", "potential", "energy", "residuals", "outputs"})
         CHECK_MESSAGE(result.contains(key), key);
 }
 
@@ -54,7 +55,8 @@ TEST_CASE("commands: simulate writes the CSV on the sample grid and the JSON of 
     const auto result = run({"simulate", scene, "--json", "-o", csv, "--sample", "0.3"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
-    for (const char* key : {"final", "method", "steps", "rejected", "evaluations", "energy_drift", "constraint_drift", "seconds"})
+    for (const char* key :
+         {"final", "method", "steps", "rejected", "evaluations", "energy_drift", "constraint_drift", "seconds"})
         CHECK_MESSAGE(json.contains(key), key);
     CHECK(json["final"]["time"] == 2.0);
     CHECK(json["energy_drift"].get<double>() < 1e-9);
@@ -136,7 +138,8 @@ holonomic = "x = 0.1 + t^2"
     CHECK(beside.err.find("no inertia resists z'") != std::string::npos);  // the constraint does not either
 }
 
-// Cranks of length 1, pins 2 apart, a coupler of 2: flat at a = b = c = 0, where the first row, (-sin a, sin b, -2 sin c), is zero.
+// Cranks of length 1, pins 2 apart, a coupler of 2: flat at a = b = c = 0, where the first row, (-sin a, sin b, -2
+// sin c), is zero.
 TEST_CASE("commands: constraints that lose their rank at a pose are named, not taken for a division by zero") {
     const auto scene = [](const std::string& more) {
         return temporary("flat.toml", R"toml(
@@ -164,11 +167,15 @@ holonomic = "sin(a) + 2*sin(c) = sin(b)"
     for (const char* verb : {"eval", "simulate"}) {
         const auto result = run({verb, massless});
         CHECK(result.exit == 4);
-        CHECK(result.err.find("constraint 'along' has no row left in this pose, and the rank of the constraints drops from 2 to 1") != std::string::npos);
+        CHECK(result.err.find("constraint 'along' has no row left in this pose, and the rank of the constraints "
+                              "drops from 2 to 1") != std::string::npos);
         CHECK(result.err.find("division") == std::string::npos);
     }
     // With a mass on that crank the linkage goes on as the parallelogram that it is: a turn at constant speed.
-    const auto heavy = run({"simulate", scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", \"sin(b)\"]\n[simulation]\nduration = 1\n"), "--json"});
+    const auto heavy = run({"simulate",
+                            scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", "
+                                  "\"sin(b)\"]\n[simulation]\nduration = 1\n"),
+                            "--json"});
     REQUIRE(heavy.exit == 0);
     CHECK(std::abs(Json::parse(heavy.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
 }

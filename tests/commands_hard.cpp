@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The hard cases of scenes/benchmark against their reference digits, each at a tolerance that takes a fraction of a second.
+// The hard cases of scenes/benchmark against their reference digits, each at a tolerance that takes a fraction of
+// a second.
 //
-// Where the digits come from: Pleiades, outer solar system, Kepler, Chaplygin's sleigh, free body: published, or closed forms, or
-// Taylor series in 110 digits against extrapolation (the cases' pages). Tops: elliptic functions, tests/reference/heavy_top.py. The
-// others: `bench`, whose two methods in 34 digits agree to more than what is written here.
+// Where the digits come from: Pleiades, outer solar system, Kepler, Chaplygin's sleigh, free body: published, or
+// closed forms, or Taylor series in 110 digits against extrapolation (the cases' pages). Tops: elliptic functions,
+// tests/reference/heavy_top.py. The others: `bench`, whose two methods in 34 digits agree to more than what is
+// written here.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,7 +24,9 @@ using Json = nlohmann::json;
 
 namespace {
 
-std::string path_of(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
+std::string path_of(const std::string& name) {
+    return source_path("scenes/benchmark/" + name + ".toml");
+}
 
 /// The scene with one line replaced.
 std::string changed(const std::string& name, const std::string& line, const std::string& by) {
@@ -50,9 +54,9 @@ double error(const Json& result, const Values& reference) {
     double largest = 0;
     for (const auto& [name, value] : reference) {
         const Json& end = result["final"];
-        const double found = name.ends_with("'")                   ? end["rates"][name.substr(0, name.size() - 1)].get<double>()
-                             : end["coordinates"].contains(name)   ? end["coordinates"][name].get<double>()
-                                                                   : end["speeds"][name].get<double>();
+        const double found = name.ends_with("'") ? end["rates"][name.substr(0, name.size() - 1)].get<double>()
+                             : end["coordinates"].contains(name) ? end["coordinates"][name].get<double>()
+                                                                 : end["speeds"][name].get<double>();
         largest = std::max(largest, std::abs(found - value) / std::max(1.0, std::abs(value)));
     }
     return largest;
@@ -63,31 +67,36 @@ double error(const Json& result, const Values& reference) {
 // Error growth of about 100; the tolerance 1e-12 is kept some 600 times.
 TEST_CASE("hard: Pleiades at t = 3 has the digits of the test set") {
     const Json end = simulated(path_of("pleiades"), {"--tolerance", "1e-12"});
-    const Values page{{"x1", 0.37061391439705129}, {"x2", 3.23728409205723309}, {"x3", -3.22255903241832334}, {"x4", 0.65970914557753083},
-                      {"x5", 0.34255817071565797}, {"x6", 1.56217210140063101}, {"x7", -0.70030929222124953}, {"y1", -3.94343758551739205},
-                      {"y2", -3.27138097397254992}, {"y3", 5.22508184345654419}, {"y4", -2.59061243497746951}, {"y5", 1.19821369339227463},
-                      {"y6", -0.24296823449358234}, {"y7", 1.09144924042897974}, {"x1'", 3.41700380631431475}, {"x2'", 1.35458450162550122},
-                      {"x3'", -2.59006559781077541}, {"x4'", 2.02505373471424110}, {"x5'", -1.15581510016044909}, {"x6'", -0.80729881702230217},
-                      {"x7'", 0.59523963542087187}, {"y1'", -3.74124496123400847}, {"y2'", 0.37734596857506290}, {"y3'", 0.93868588695510788},
-                      {"y4'", 0.36679222272005698}, {"y5'", -0.34740463538084943}, {"y6'", 2.34491544818093692}, {"y7'", -1.94702043426329190}};
+    const Values page{{"x1", 0.37061391439705129},   {"x2", 3.23728409205723309},   {"x3", -3.22255903241832334},
+                      {"x4", 0.65970914557753083},   {"x5", 0.34255817071565797},   {"x6", 1.56217210140063101},
+                      {"x7", -0.70030929222124953},  {"y1", -3.94343758551739205},  {"y2", -3.27138097397254992},
+                      {"y3", 5.22508184345654419},   {"y4", -2.59061243497746951},  {"y5", 1.19821369339227463},
+                      {"y6", -0.24296823449358234},  {"y7", 1.09144924042897974},   {"x1'", 3.41700380631431475},
+                      {"x2'", 1.35458450162550122},  {"x3'", -2.59006559781077541}, {"x4'", 2.02505373471424110},
+                      {"x5'", -1.15581510016044909}, {"x6'", -0.80729881702230217}, {"x7'", 0.59523963542087187},
+                      {"y1'", -3.74124496123400847}, {"y2'", 0.37734596857506290},  {"y3'", 0.93868588695510788},
+                      {"y4'", 0.36679222272005698},  {"y5'", -0.34740463538084943}, {"y6'", 2.34491544818093692},
+                      {"y7'", -1.94702043426329190}};
     CHECK(error(end, page) < 1e-9);
     CHECK(end["energy_drift"].get<double>() < 1e-12);
 }
 
 TEST_CASE("hard: the outer solar system after 200 000 days has the page's digits") {
     const Json end = simulated(path_of("outer_solar_system"), {"--tolerance", "1e-12", "--method", "verner98"});
-    const Values page{{"xSun", 1.2358425423546087},     {"xJupiter", 2.6110795701128634}, {"yJupiter", -5.0795254967869880},
-                      {"zJupiter", -2.2447206778530572}, {"xSaturn", -7.6691362473913088}, {"yUranus", 15.337173753572523},
-                      {"xNeptune", 20.663980247515022}, {"xPluto", 36.566950698822605},   {"zPluto", -15.043469221823263},
-                      {"xJupiter'", 0.0071788789283759331}, {"yPluto'", 0.0021080115602782304}};
+    const Values page{
+        {"xSun", 1.2358425423546087},         {"xJupiter", 2.6110795701128634},  {"yJupiter", -5.0795254967869880},
+        {"zJupiter", -2.2447206778530572},    {"xSaturn", -7.6691362473913088},  {"yUranus", 15.337173753572523},
+        {"xNeptune", 20.663980247515022},     {"xPluto", 36.566950698822605},    {"zPluto", -15.043469221823263},
+        {"xJupiter'", 0.0071788789283759331}, {"yPluto'", 0.0021080115602782304}};
     CHECK(error(end, page) < 1e-8);
     CHECK(end["energy_drift"].get<double>() < 1e-11);
 }
 
 // h = 100 d, 270 000 years: the energy stays where it is, which no method without structure does at such steps.
 TEST_CASE("hard: a million steps of Kahan and Li over the outer solar system keep the energy to 1e-11") {
-    const Json end = simulated(path_of("outer_solar_system"), {"--method", "kahanli8", "--step", "100", "--duration", "1e8", "--sample", "1e6", "--no-estimate",
-                                                               "--budget", "20000000"});
+    const Json end =
+        simulated(path_of("outer_solar_system"), {"--method", "kahanli8", "--step", "100", "--duration", "1e8",
+                                                  "--sample", "1e6", "--no-estimate", "--budget", "20000000"});
     CHECK(end["steps"].get<long>() == 1000000);
     CHECK(end["energy_drift"].get<double>() < 1e-11);
 }
@@ -95,12 +104,17 @@ TEST_CASE("hard: a million steps of Kahan and Li over the outer solar system kee
 // Errors grow with the pericentres, each 200 times faster than the far end.
 TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's equation has it") {
     const Json end = simulated(path_of("kepler"), {});
-    CHECK(error(end, {{"x", -0.13516647736782103}, {"y", -0.073200184472628027}, {"x'", 3.3757472100490510}, {"y'", 0.78449894364958458}}) < 1e-8);
+    CHECK(error(end, {{"x", -0.13516647736782103},
+                      {"y", -0.073200184472628027},
+                      {"x'", 3.3757472100490510},
+                      {"y'", 0.78449894364958458}}) < 1e-8);
 }
 
 TEST_CASE("hard: the free body turns over as elliptic functions say") {
     const Json end = simulated(path_of("free_body"), {});
-    CHECK(error(end, {{"w1", 0.0447067883083085038}, {"w2", -0.999050200480192959}, {"w3", -0.0251574834491731180}}) < 1e-11);
+    CHECK(error(end,
+                {{"w1", 0.0447067883083085038}, {"w2", -0.999050200480192959}, {"w3", -0.0251574834491731180}}) <
+          1e-11);
     CHECK(end["energy_drift"].get<double>() < 1e-13);
 }
 
@@ -115,34 +129,46 @@ TEST_CASE("hard: tops, fast and near sleeping, nutate as elliptic functions say"
     // Below spin 4 it falls, and rises again: 0.146 rad at t = 50, from 1e-6.
     const Json falls = simulated(changed("heavy_top_sleeping", "spin = 4.01", "spin = 3.9"), {"--duration", "50"});
     const Json& p = falls["final"]["coordinates"];
-    CHECK(std::abs(2 * std::asin(std::hypot(p["e1"].get<double>(), p["e2"].get<double>())) - 0.146371379388930752) < 1e-6);
+    CHECK(std::abs(2 * std::asin(std::hypot(p["e1"].get<double>(), p["e2"].get<double>())) -
+                   0.146371379388930752) < 1e-6);
 }
 
-// Mathieu's equation puts the boundary at Omega = 14.1728900208 sqrt(g/l); 200 periods half a percent to either side.
+// Mathieu's equation puts the boundary at Omega = 14.1728900208 sqrt(g/l); 200 periods half a percent to either
+// side.
 TEST_CASE("hard: Kapitza's pendulum stands above the critical frequency and falls below it") {
-    const auto away = [](const Json& end) { return std::abs(end["final"]["coordinates"]["theta"].get<double>() - M_PI); };
+    const auto away = [](const Json& end) {
+        return std::abs(end["final"]["coordinates"]["theta"].get<double>() - M_PI);
+    };
     const Json stands = simulated(path_of("kapitza"), {});
     CHECK(away(stands) < 5e-6);
     CHECK(error(stands, {{"theta", 3.14159353054483153}, {"theta'", 6.11334305292917362e-7}}) < 1e-10);
-    CHECK(stands["work_balance"].get<double>() < 1e-10);  // of a kinetic energy of 40 J that comes and goes 400 times
+    CHECK(stands["work_balance"].get<double>() <
+          1e-10);  // of a kinetic energy of 40 J that comes and goes 400 times
     CHECK(away(simulated(changed("kapitza", "value = 1.005", "value = 0.995"), {})) > 1e-5);
 }
 
 TEST_CASE("hard: Chaplygin's sleigh settles as its closed form says") {
     const Json end = simulated(path_of("chaplygin_sleigh"), {"--tolerance", "1e-12"});
-    CHECK(error(end, {{"v", 2.29128781528791455}, {"w", 0.000343526576035294919}, {"phi", 3.02012447560614003},
-                      {"x", -18.2391848431069549}, {"y", 6.32313625326593145}}) < 1e-11);
+    CHECK(error(end, {{"v", 2.29128781528791455},
+                      {"w", 0.000343526576035294919},
+                      {"phi", 3.02012447560614003},
+                      {"x", -18.2391848431069549},
+                      {"y", 6.32313625326593145}}) < 1e-11);
     CHECK(end["energy_drift"].get<double>() < 1e-13);
 }
 
 // Some 1600 periods of the spring: an error of the phase of 1e-11 in each is 1e-8.
 TEST_CASE("hard: the spring of 1000 rad/s is followed through all its periods") {
     const Json end = simulated(path_of("stiff_spring_pendulum"), {"--tolerance", "1e-10"});
-    CHECK(error(end, {{"x", 0.275791881176460142}, {"y", -0.961246802525178218}, {"x'", -4.17425859353125942}, {"y'", -1.19767576613927863}}) < 1e-7);
+    CHECK(error(end, {{"x", 0.275791881176460142},
+                      {"y", -0.961246802525178218},
+                      {"x'", -4.17425859353125942},
+                      {"y'", -1.19767576613927863}}) < 1e-7);
     CHECK(end["energy_drift"].get<double>() < 1e-9);
 }
 
-// The taut line vibrates at 4400 rad/s; its force is the small difference of large ones, a part in 1e6 of which is rounding.
+// The taut line vibrates at 4400 rad/s; its force is the small difference of large ones, a part in 1e6 of which is
+// rounding.
 TEST_CASE("hard: a million times heavier bob leaves what is determined of the motion right") {
     const Json end = simulated(path_of("mass_ratio"), {});
     CHECK(error(end, {{"theta1", -0.287003119617438600}, {"theta2", -0.287901527472195053}}) < 1e-7);
@@ -160,28 +186,50 @@ TEST_CASE("hard: the ball lies when all its bounces are over") {
 
 TEST_CASE("hard: Andrews' squeezer has the digits of two methods in 110 digits, and those published") {
     const Json end = simulated(path_of("andrews"), {});
-    CHECK(error(end, {{"beta", 15.810771195153707097}, {"Theta", -15.756371058411839470}, {"gamma", 0.040822240119645804858}, {"Phi", -0.53473011634207959378},
-                      {"delta", 0.52440996587995406937}, {"Omega", 0.53473011634207959377}, {"eps", 1.0480807410419378731}, {"beta'", 1139.9203022591060642},
-                      {"Theta'", -1424.3792951775400732}, {"gamma'", 11.032911910618593745}, {"Phi'", 19.293374105032040832}, {"delta'", 0.57356991482950245382},
-                      {"Omega'", -19.293374105032040832}, {"eps'", 0.32317914924913087499}}) < 1e-9);
+    CHECK(error(end, {{"beta", 15.810771195153707097},
+                      {"Theta", -15.756371058411839470},
+                      {"gamma", 0.040822240119645804858},
+                      {"Phi", -0.53473011634207959378},
+                      {"delta", 0.52440996587995406937},
+                      {"Omega", 0.53473011634207959377},
+                      {"eps", 1.0480807410419378731},
+                      {"beta'", 1139.9203022591060642},
+                      {"Theta'", -1424.3792951775400732},
+                      {"gamma'", 11.032911910618593745},
+                      {"Phi'", 19.293374105032040832},
+                      {"delta'", 0.57356991482950245382},
+                      {"Omega'", -19.293374105032040832},
+                      {"eps'", 0.32317914924913087499}}) < 1e-9);
     CHECK(end["constraint_drift"].get<double>() < 1e-12);
 }
 
 TEST_CASE("hard: the car axis has the digits of the test set") {
     const Json end = simulated(path_of("car_axis"), {});
-    CHECK(error(end, {{"xl", 0.0493455784275402809}, {"yl", 0.496989460230171154}, {"xr", 1.04174252488542152}, {"yr", 0.373911027265361257},
-                      {"xl'", -0.0770583684040972358}, {"yl'", 0.00744686658723778553}, {"xr'", 0.0175568157537232222}, {"yr'", 0.770341043779251976}}) < 1e-10);
+    CHECK(error(end, {{"xl", 0.0493455784275402809},
+                      {"yl", 0.496989460230171154},
+                      {"xr", 1.04174252488542152},
+                      {"yr", 0.373911027265361257},
+                      {"xl'", -0.0770583684040972358},
+                      {"yl'", 0.00744686658723778553},
+                      {"xr'", 0.0175568157537232222},
+                      {"yr'", 0.770341043779251976}}) < 1e-10);
     CHECK(end["constraint_drift"].get<double>() < 1e-12);
 }
 
 TEST_CASE("hard: the stiff flyball governor has the digits of its reduction to three coordinates") {
     const Json end = simulated(path_of("flyball_governor"), {});
-    CHECK(error(end, {{"phi", 55.935409909102378768}, {"s", 0.61962291706136565883}, {"be", 0.39007370184702464508}, {"phi'", 5.5482036226549265825},
-                      {"s'", -0.74760335416433246768}, {"be'", 0.80846705134557740026}}) < 1e-7);
+    CHECK(error(end, {{"phi", 55.935409909102378768},
+                      {"s", 0.61962291706136565883},
+                      {"be", 0.39007370184702464508},
+                      {"phi'", 5.5482036226549265825},
+                      {"s'", -0.74760335416433246768},
+                      {"be'", 0.80846705134557740026}}) < 1e-7);
 }
 
 // Exact by elliptic functions (the case's page); the bar and the energy are kept by projection at each step.
-TEST_CASE("hard: the pendulum in Cartesian coordinates is where elliptic functions have it at 10 s, and keeps bar and energy") {
+TEST_CASE(
+    "hard: the pendulum in Cartesian coordinates is where elliptic functions have it at 10 s, and keeps bar and "
+    "energy") {
     const Json end = simulated(path_of("cartesian_pendulum"), {"--duration", "10"});
     CHECK(error(end, {{"x", -0.275087462576116860054}, {"y", -0.961419205099125064265}}) < 1e-9);
     const Json later = simulated(path_of("cartesian_pendulum"), {"--duration", "200", "--tolerance", "1e-11"});
@@ -198,38 +246,56 @@ TEST_CASE("hard: Bricard's mechanism moves, and keeps its energy and its loop") 
     CHECK(std::abs(q["q1"].get<double>() - q["q3"].get<double>()) < 1e-9);  // alternate joints turn alike
 }
 
-// The initial values have nine digits, and the modes ring with what is left of them: the published end is not good to more than this.
+// The initial values have nine digits, and the modes ring with what is left of them: the published end is not good
+// to more than this.
 TEST_CASE("hard: the slider-crank with a flexible rod has the published digits") {
     const Json end = simulated(path_of("slider_crank"), {"--tolerance", "1e-10"});
-    CHECK(error(end, {{"phi1", 15.0}, {"phi2", -0.3311734988256260}, {"x3", 0.1697373328427860}, {"phi2'", 60.25346755138369}, {"x3'", -8.753116326670527},
-                      {"q1'", -0.03005541400289738}, {"q2'", -0.005500431812571696}, {"q3'", 4.974111734266989e-4}}) < 1e-8);
+    CHECK(error(end, {{"phi1", 15.0},
+                      {"phi2", -0.3311734988256260},
+                      {"x3", 0.1697373328427860},
+                      {"phi2'", 60.25346755138369},
+                      {"x3'", -8.753116326670527},
+                      {"q1'", -0.03005541400289738},
+                      {"q2'", -0.005500431812571696},
+                      {"q3'", 4.974111734266989e-4}}) < 1e-8);
     CHECK(std::abs(end["final"]["coordinates"]["q1"].get<double>() - 1.893192899613509e-4) < 1e-10);
     CHECK(std::abs(end["final"]["coordinates"]["q2"].get<double>() - 2.375751249879174e-5) < 1e-11);
 }
 
-// The period is 4 K(sin 45°)/sqrt(g/l), from a start at rest in the horizontal: 10 000 s are 4223 periods and 0.60 s, a run of its own.
-// Local errors of 1e-12 that all point one way would let the place slip by 1e-12 in each of 570 000 steps.
+// The period is 4 K(sin 45°)/sqrt(g/l), from a start at rest in the horizontal: 10 000 s are 4223 periods and 0.60
+// s, a run of its own. Local errors of 1e-12 that all point one way would let the place slip by 1e-12 in each of
+// 570 000 steps.
 TEST_CASE("hard: the pendulum in Cartesian coordinates keeps bar, energy and phase for 10 000 s") {
     const double period = 2.36784194757623744930329503723863447586, rest = 10000 - 4223 * period;
     const Json end = simulated(path_of("cartesian_pendulum"), {"--no-estimate", "--sample", "1000"});
     REQUIRE(end["final"]["time"].get<double>() == 10000);
     CHECK(end["constraint_drift"].get<double>() < 1e-12);
     CHECK(end["energy_drift"].get<double>() < 1e-9);
-    const Json part = simulated(path_of("cartesian_pendulum"), {"--no-estimate", "--duration", std::to_string(rest), "--tolerance", "1e-13"});
+    const Json part = simulated(path_of("cartesian_pendulum"),
+                                {"--no-estimate", "--duration", std::to_string(rest), "--tolerance", "1e-13"});
     CHECK(error(end, {{"x", part["final"]["coordinates"]["x"]}, {"y", part["final"]["coordinates"]["y"]}}) < 1e-5);
 }
 
-// Cranks and couplers stay parallel and move as a pendulum, ((N+1)/3 + N) theta'' = -g ((N+1)/2 + N) sin(theta) from theta = pi at -1 rad/s;
-// the digits are those of that equation, by RK4 at 5e-5 s. Six times they lie flat, where N constraints are lost at once.
+// Cranks and couplers stay parallel and move as a pendulum, ((N+1)/3 + N) theta'' = -g ((N+1)/2 + N) sin(theta)
+// from theta = pi at -1 rad/s; the digits are those of that equation, by RK4 at 5e-5 s. Six times they lie flat,
+// where N constraints are lost at once.
 TEST_CASE("hard: four-bars side by side pass through flat poses on their branch and keep their energy") {
     struct Row {
         const char* name;
         double turned, rate;
     };
-    for (const Row& row : {Row{"four_bars_2", -31.7505971869842, -1.50664218083798}, Row{"large/four_bars_10", -31.621729822779, -1.21226221651854}}) {
+    for (const Row& row : {Row{"four_bars_2", -31.7505971869842, -1.50664218083798},
+                           Row{"large/four_bars_10", -31.621729822779, -1.21226221651854}}) {
         CAPTURE(row.name);
         const Json end = simulated(path_of(row.name), {"--no-estimate"});
-        CHECK(error(end, {{"q0", row.turned}, {"q1", row.turned}, {"q2", row.turned}, {"q0'", row.rate}, {"q2'", row.rate}, {"p0", 0}, {"p1", 0}, {"p1'", 0}}) < 2e-7);
+        CHECK(error(end, {{"q0", row.turned},
+                          {"q1", row.turned},
+                          {"q2", row.turned},
+                          {"q0'", row.rate},
+                          {"q2'", row.rate},
+                          {"p0", 0},
+                          {"p1", 0},
+                          {"p1'", 0}}) < 2e-7);
         CHECK(end["energy_drift"].get<double>() < 1e-9);
         CHECK(end["constraint_drift"].get<double>() < 1e-7);
     }

@@ -23,10 +23,12 @@ TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, exactly as 
     CHECK(number(json["before"]["theta1"]) == 0);
     CHECK(number(json["energy_loss"]) == doctest::Approx(-number(json["work_of_impulses"])).epsilon(1e-14));
     CHECK(json["equations"][0]["text"] ==
-          "8*m*l*theta1' + 3*m*l*theta2'*cos(theta1-theta2) - 8*m*l*theta1'(-) - 3*m*l*theta2'(-)*cos(theta1-theta2) = "
+          "8*m*l*theta1' + 3*m*l*theta2'*cos(theta1-theta2) - 8*m*l*theta1'(-) - "
+          "3*m*l*theta2'(-)*cos(theta1-theta2) = "
           "6*S*cos(theta1)");
     CHECK(json["equations"][0]["latex"] ==
-          "8 m l \\dot{\\theta}_{1} + 3 m l \\dot{\\theta}_{2} \\cos(\\theta_{1} - \\theta_{2}) - 8 m l \\dot{\\theta}_{1-} "
+          "8 m l \\dot{\\theta}_{1} + 3 m l \\dot{\\theta}_{2} \\cos(\\theta_{1} - \\theta_{2}) - 8 m l "
+          "\\dot{\\theta}_{1-} "
           "- 3 m l \\dot{\\theta}_{2-} \\cos(\\theta_{1} - \\theta_{2}) = 6 S \\cos\\theta_{1}");
     const auto person = run({"impact", source_path("scenes/textbook/struck_rods.toml")});
     CHECK(person.out.find("  theta1' = 3*S/(7*m*l)\n  theta2' = 6*S/(7*m*l)\n") != std::string::npos);
@@ -36,7 +38,8 @@ TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, exactly as 
 TEST_CASE("impact: a slanting rod on a table, in closed form and in symbols") {
     for (const double e : {0.0, 0.4, 1.0}) {
         const double m = 2, l = 0.8, v = 1.5, alpha = 0.6, c = std::cos(alpha);
-        const Json json = impact_of(filled(slanting_rod, {{"m", m}, {"l", l}, {"v", v}, {"e", e}, {"alpha", alpha}}));
+        const Json json =
+            impact_of(filled(slanting_rod, {{"m", m}, {"l", l}, {"v", v}, {"e", e}, {"alpha", alpha}}));
         const double P = (1 + e) * m * v / (1 + 3 * c * c);
         CHECK(number(json["reactions"]["table"]) == doctest::Approx(P).epsilon(1e-13));
         CHECK(number(json["after"]["y"]) == doctest::Approx(P / m - v).epsilon(1e-13));
@@ -48,7 +51,8 @@ TEST_CASE("impact: a slanting rod on a table, in closed form and in symbols") {
 }
 
 // No impulse has a moment about O but the hinge's, and that acts within the system; locked, it is one body.
-TEST_CASE("impact: a double pendulum whose lower hinge locks keeps its angular momentum and loses Carnot's energy") {
+TEST_CASE(
+    "impact: a double pendulum whose lower hinge locks keeps its angular momentum and loses Carnot's energy") {
     const Json json = impact_of(double_pendulum + lock);
     const double m1 = 1.3, m2 = 2, l1 = 1.1, l2 = 0.5, c = std::cos(0.3 - 1.1);
     const auto momentum = [&](double w1, double w2) {
@@ -66,9 +70,11 @@ TEST_CASE("impact: a double pendulum whose lower hinge locks keeps its angular m
     // The same scene is no start for anything else.
     CHECK(run({"eval", temporary("locked.toml", double_pendulum + lock)}).exit == 3);
     // A holonomic one: the angle between the rods stays what it is.
-    const Json welded = impact_of(double_pendulum + "[[constraint]]\nname = \"weld\"\nholonomic = \"theta1 - theta2 + 0.8\"\n");
+    const Json welded =
+        impact_of(double_pendulum + "[[constraint]]\nname = \"weld\"\nholonomic = \"theta1 - theta2 + 0.8\"\n");
     CHECK(number(welded["after"]["theta1"]) == doctest::Approx(w1).epsilon(1e-13));
-    CHECK(number(welded["reactions"]["weld"]) == doctest::Approx(number(json["reactions"]["lock"])).epsilon(1e-12));
+    CHECK(number(welded["reactions"]["weld"]) ==
+          doctest::Approx(number(json["reactions"]["lock"])).epsilon(1e-12));
 }
 
 // About the edge of the step: (J + m r²) ω = J v/r + m v (r − h); the classic ω = (v/r)(1 − 2h/3r).
@@ -124,11 +130,14 @@ TEST_CASE("impact: a rod struck at two thirds of its length leaves its pin alone
 
 TEST_CASE("impact: a generalized impulse is that of the forces that do its work") {
     const Json by_point = impact_of(double_pendulum + "[[impulse]]\nat = \"B\"\nvector = [0.3, -0.2]\n");
-    const double Q1 = 1.1 * (0.3 * std::cos(0.3) - 0.2 * std::sin(0.3)), Q2 = 0.5 * (0.3 * std::cos(1.1) - 0.2 * std::sin(1.1));
-    const Json by_angle = impact_of(double_pendulum + fmt::format("[impulses]\ntheta1 = {:.17g}\ntheta2 = {:.17g}\n", Q1, Q2));
+    const double Q1 = 1.1 * (0.3 * std::cos(0.3) - 0.2 * std::sin(0.3)),
+                 Q2 = 0.5 * (0.3 * std::cos(1.1) - 0.2 * std::sin(1.1));
+    const Json by_angle =
+        impact_of(double_pendulum + fmt::format("[impulses]\ntheta1 = {:.17g}\ntheta2 = {:.17g}\n", Q1, Q2));
     for (const char* name : {"theta1", "theta2"})
         CHECK(number(by_point["after"][name]) == doctest::Approx(number(by_angle["after"][name])).epsilon(1e-13));
-    CHECK(number(by_point["work_of_impulses"]) == doctest::Approx(-number(by_point["energy_loss"])).epsilon(1e-13));
+    CHECK(number(by_point["work_of_impulses"]) ==
+          doctest::Approx(-number(by_point["energy_loss"])).epsilon(1e-13));
 }
 
 // A string of length l, slack no longer: gap = l − r, approached at the outward speed u, which e turns back.
@@ -179,8 +188,9 @@ restitution = "e"
     CHECK(number(json["after"]["y"]) == doctest::Approx(0.8 + 0.5 * 3.8).epsilon(1e-14));
     CHECK(number(json["work_of_moving_constraints"]) == doctest::Approx(0.8 * 2 * 1.5 * 3.8).epsilon(1e-14));
     CHECK(number(json["loss_in_constraints"]) == doctest::Approx(0.5 * (1 - 0.25) * 2 * 3.8 * 3.8).epsilon(1e-14));
-    CHECK(number(json["loss_in_constraints"]) ==
-          doctest::Approx(number(json["energy_loss"]) + number(json["work_of_moving_constraints"])).epsilon(1e-13));
+    CHECK(
+        number(json["loss_in_constraints"]) ==
+        doctest::Approx(number(json["energy_loss"]) + number(json["work_of_moving_constraints"])).epsilon(1e-13));
     CHECK(json["solution"]["y"] == "(4+19*e)/5");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Impacts against other routes: the limit of short forces, the printed equations and solutions read back; and what is
-// refused.
+// Impacts against other routes: the limit of short forces, the printed equations and solutions read back; and what
+// is refused.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -13,25 +13,30 @@ using namespace alembert::test;
 
 // What is printed can be typed: outputs of a scene with other values of the parameters, against the numbers there.
 TEST_CASE("impact: the symbolic rates are right at other values than those at which they were found") {
-    const Json first = impact_of(filled(slanting_rod, {{"m", 2}, {"l", 0.8}, {"v", 1.5}, {"e", 0.4}, {"alpha", 0.6}}));
-    std::string other = filled(slanting_rod, {{"m", 0.7}, {"l", 3.1}, {"v", 0.2}, {"e", 0.9}, {"alpha", 1.3}}) + "[outputs]\n";
-    for (const auto& [name, text] : first["solution"].items()) other += fmt::format("after_{} = \"{}\"\n", name, text.get<std::string>());
+    const Json first =
+        impact_of(filled(slanting_rod, {{"m", 2}, {"l", 0.8}, {"v", 1.5}, {"e", 0.4}, {"alpha", 0.6}}));
+    std::string other =
+        filled(slanting_rod, {{"m", 0.7}, {"l", 3.1}, {"v", 0.2}, {"e", 0.9}, {"alpha", 1.3}}) + "[outputs]\n";
+    for (const auto& [name, text] : first["solution"].items())
+        other += fmt::format("after_{} = \"{}\"\n", name, text.get<std::string>());
     const auto evaluated = run({"eval", temporary("other.toml", other), "--json"});
     REQUIRE(evaluated.exit == 0);
     const Json outputs = Json::parse(evaluated.out)["outputs"], there = impact_of(other)["after"];
     for (const char* name : {"y", "theta"})
-        CHECK(number(outputs[std::string("after_") + name]) == doctest::Approx(number(there[name])).epsilon(1e-13));
+        CHECK(number(outputs[std::string("after_") + name]) ==
+              doctest::Approx(number(there[name])).epsilon(1e-13));
 }
 
-// A smooth pulse of the same ∫F dt, integrated by the equations of motion; gravity acts meanwhile, so the rates differ
-// by a term of first order in its length: halving it halves the difference.
+// A smooth pulse of the same ∫F dt, integrated by the equations of motion; gravity acts meanwhile, so the rates
+// differ by a term of first order in its length: halving it halves the difference.
 TEST_CASE("impact: it is the limit of a large short force") {
     std::string text = pinned_rod;
     text.replace(text.find("{h}"), 3, "0.9*l");
     const Json limit = impact_of(filled(text, {{"tau", 1}}) + "[[impulse]]\nat = \"P\"\nvector = [\"S\", 0]\n");
     const auto after = [&](double tau) {
         const std::string scene = filled(text, {{"tau", tau}}) + "[[force]]\nat = \"P\"\nvector = [\"F\", 0]\n";
-        const auto result = run({"simulate", temporary("pulse.toml", scene), "--json", "--tolerance", "1e-12", "--duration", fmt::format("{}", tau)});
+        const auto result = run({"simulate", temporary("pulse.toml", scene), "--json", "--tolerance", "1e-12",
+                                 "--duration", fmt::format("{}", tau)});
         REQUIRE(result.exit == 0);
         return Json::parse(result.out)["final"]["rates"];
     };
@@ -75,7 +80,8 @@ TEST_CASE("impact: its equations read as claims, and hold, as do those that text
         for (const auto& equation : json["equations"]) claims.push_back(equation["text"]);
         for (const auto& condition : json["conditions"]) claims.push_back(condition);
         std::string read = text;
-        for (const std::string& claim : claims) read += fmt::format("[[claim]]\nequation = \"{}\"\nat = \"impact\"\n", claim);
+        for (const std::string& claim : claims)
+            read += fmt::format("[[claim]]\nequation = \"{}\"\nat = \"impact\"\n", claim);
         CHECK(run({"impact", temporary("claims.toml", read)}).exit == 0);
         std::string outputs = "\n[outputs]\n";
         const auto replace = [](std::string& in, const std::string& mark, const Json& by) {
@@ -85,12 +91,14 @@ TEST_CASE("impact: its equations read as claims, and hold, as do those that text
         for (std::size_t k = 0; k < claims.size(); ++k) {
             std::string claim = claims[k];
             for (const auto& item : json["before"].items()) replace(claim, item.key() + "'(-)", item.value());
-            for (const auto& item : json["reactions"].items()) replace(claim, "lambda_" + item.key(), item.value());
+            for (const auto& item : json["reactions"].items())
+                replace(claim, "lambda_" + item.key(), item.value());
             const std::size_t equals = claim.find('=');
             outputs += fmt::format("c{} = \"{} - ({})\"\n", k, claim.substr(0, equals), claim.substr(equals + 1));
         }
         std::vector<std::string> args{"eval", temporary("held.toml", text + outputs), "--json", "--at"};
-        for (const auto& item : json["after"].items()) args.push_back(fmt::format("{}'={:.17g}", item.key(), item.value().get<double>()));
+        for (const auto& item : json["after"].items())
+            args.push_back(fmt::format("{}'={:.17g}", item.key(), item.value().get<double>()));
         const auto result = run(args);
         INFO(result.err);
         REQUIRE(result.exit == 0);
@@ -115,12 +123,14 @@ TEST_CASE("impact: its equations read as claims, and hold, as do those that text
 }
 
 TEST_CASE("impact: where nothing is struck the rates stay, and that is said") {
-    for (const std::string more : {"", "[[unilateral]]\nname = \"far\"\ngap = \"1 - theta1\"\n",
-                                   "[[unilateral]]\nname = \"opening\"\ngap = \"theta1 - 0.3\"\nrestitution = 1\n"}) {
+    for (const std::string more :
+         {"", "[[unilateral]]\nname = \"far\"\ngap = \"1 - theta1\"\n",
+          "[[unilateral]]\nname = \"opening\"\ngap = \"theta1 - 0.3\"\nrestitution = 1\n"}) {
         const Json json = impact_of(double_pendulum + more);
         CHECK(json["after"] == json["before"]);
         CHECK(number(json["energy_loss"]) == 0);
-        CHECK(run({"impact", temporary("calm.toml", double_pendulum + more)}).out.find("Nothing is struck") != std::string::npos);
+        CHECK(run({"impact", temporary("calm.toml", double_pendulum + more)}).out.find("Nothing is struck") !=
+              std::string::npos);
     }
 }
 
@@ -129,8 +139,9 @@ TEST_CASE("impact: a long chain is computed in numbers, and that is said") {
     for (int i = 0; i < 12; ++i) text += fmt::format("a{} = {}\n", i, 0.1 * i);
     text += "[parameters]\nm = 1\nS = 1\n";
     for (int i = 0; i < 12; ++i)
-        text += fmt::format("[[particle]]\nname = \"P{}\"\nmass = \"m\"\nfrom = \"{}\"\nposition = [\"sin(a{})\", \"cos(a{})\"]\n", i,
-                            i == 0 ? "O" : fmt::format("P{}", i - 1), i, i);
+        text += fmt::format(
+            "[[particle]]\nname = \"P{}\"\nmass = \"m\"\nfrom = \"{}\"\nposition = [\"sin(a{})\", \"cos(a{})\"]\n",
+            i, i == 0 ? "O" : fmt::format("P{}", i - 1), i, i);
     const Json json = impact_of(text + "[[impulse]]\nat = \"P5\"\nvector = [\"S\", 0]\n");
     CHECK(json["solution"].empty());
     CHECK(json["note"].get<std::string>().find("beyond the readable size") != std::string::npos);
@@ -147,9 +158,13 @@ TEST_CASE("impact: what cannot be struck is refused with its reason") {
     };
     refused("[[unilateral]]\nname = \"wall\"\ngap = \"0.2 - theta1\"\n", 3, "the gap 'wall' is -0.1");
     refused("[[constraint]]\nname = \"far\"\nholonomic = \"theta1 - 0.4\"\n", 3, "constraint 'far' is off by 0.1");
-    refused("[[constraint]]\nname = \"a\"\nnonholonomic = \"theta1' - 1\"\n[[constraint]]\nname = \"b\"\nnonholonomic = \"theta1' - 2\"\n",
-            4, "the constraints contradict each other");
-    const auto singular = run({"impact", temporary("massless.toml", "[coordinates]\nx = 0\ny = 0\n[energy]\nkinetic = \"x'^2\"\n[impulses]\ny = 1\n")});
+    refused(
+        "[[constraint]]\nname = \"a\"\nnonholonomic = \"theta1' - 1\"\n[[constraint]]\nname = \"b\"\nnonholonomic "
+        "= \"theta1' - 2\"\n",
+        4, "the constraints contradict each other");
+    const auto singular = run(
+        {"impact", temporary("massless.toml",
+                             "[coordinates]\nx = 0\ny = 0\n[energy]\nkinetic = \"x'^2\"\n[impulses]\ny = 1\n")});
     CHECK(singular.exit == 4);
     CHECK(singular.err.find("mass matrix is singular") != std::string::npos);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots as scenes: accelerations by the recursion on the imported tree against a Newton-Euler of this file, which reads the URDF's
-// numbers by itself, goes link by link (fixed ones too) along the axes of the world, and knows neither merged bodies nor scenes.
+// Robots as scenes: accelerations by the recursion on the imported tree against a Newton-Euler of this file, which
+// reads the URDF's numbers by itself, goes link by link (fixed ones too) along the axes of the world, and knows
+// neither merged bodies nor scenes.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -38,8 +39,12 @@ V3 three(const std::string& text) {
     return v;
 }
 
-M3 about(const V3& axis, double angle) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
-M3 of_rpy(const V3& a) { return about(V3::UnitZ(), a[2]) * about(V3::UnitY(), a[1]) * about(V3::UnitX(), a[0]); }
+M3 about(const V3& axis, double angle) {
+    return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+M3 of_rpy(const V3& a) {
+    return about(V3::UnitZ(), a[2]) * about(V3::UnitY(), a[1]) * about(V3::UnitX(), a[0]);
+}
 
 struct Body {
     double mass = 0;
@@ -72,8 +77,11 @@ struct Model {
             if (closes && depth == 1) link.clear(), in_joint = false;
             if (closes) continue;
             std::map<std::string, std::string> a;
-            for (std::sregex_iterator k(inside.begin(), inside.end(), attribute); k != end; ++k) a[(*k)[1]] = (*k)[2];
-            const auto number = [&](const char* key, double otherwise) { return a.count(key) ? std::stod(a[key]) : otherwise; };
+            for (std::sregex_iterator k(inside.begin(), inside.end(), attribute); k != end; ++k)
+                a[(*k)[1]] = (*k)[2];
+            const auto number = [&](const char* key, double otherwise) {
+                return a.count(key) ? std::stod(a[key]) : otherwise;
+            };
             if (depth == 1 && name == "link") bodies[link = a["name"]];
             if (depth == 1 && name == "joint") {
                 in_joint = !alone;
@@ -82,11 +90,12 @@ struct Model {
                 list.back().type = a["type"];
             }
             if (!link.empty() && name == "inertial") in_inertial = true;
-            if (in_inertial && name == "origin") bodies[link].centre = three(a["xyz"]), bodies[link].centre_rpy = three(a["rpy"]);
+            if (in_inertial && name == "origin")
+                bodies[link].centre = three(a["xyz"]), bodies[link].centre_rpy = three(a["rpy"]);
             if (in_inertial && name == "mass") bodies[link].mass = number("value", 0);
             if (in_inertial && name == "inertia")
-                bodies[link].inertia << number("ixx", 0), number("ixy", 0), number("ixz", 0), number("ixy", 0), number("iyy", 0), number("iyz", 0), number("ixz", 0),
-                    number("iyz", 0), number("izz", 0);
+                bodies[link].inertia << number("ixx", 0), number("ixy", 0), number("ixz", 0), number("ixy", 0),
+                    number("iyy", 0), number("iyz", 0), number("ixz", 0), number("iyz", 0), number("izz", 0);
             if (in_joint && depth == 2) {
                 Hinge& joint = list.back();
                 if (name == "parent") joint.parent = a["link"];
@@ -94,17 +103,21 @@ struct Model {
                 if (name == "origin") joint.xyz = three(a["xyz"]), joint.rpy = three(a["rpy"]);
                 if (name == "axis") joint.axis = three(a["xyz"]).normalized();
                 if (name == "dynamics") joint.damping = number("damping", 0);
-                if (name == "mimic") joint.leader = a["joint"], joint.factor = number("multiplier", 1), joint.offset = number("offset", 0);
+                if (name == "mimic")
+                    joint.leader = a["joint"], joint.factor = number("multiplier", 1),
+                    joint.offset = number("offset", 0);
             }
             if (!alone) ++depth;
             if (alone && depth == 1) link.clear();
         }
         std::map<std::string, bool> placed;
         for (const auto& [name, body] : bodies)
-            if (std::none_of(list.begin(), list.end(), [&, n = name](const Hinge& h) { return h.child == n; })) placed[name] = true;
+            if (std::none_of(list.begin(), list.end(), [&, n = name](const Hinge& h) { return h.child == n; }))
+                placed[name] = true;
         REQUIRE(placed.size() == 1);
         while (!list.empty()) {
-            const auto next = std::find_if(list.begin(), list.end(), [&](const Hinge& h) { return placed.count(h.parent) > 0; });
+            const auto next =
+                std::find_if(list.begin(), list.end(), [&](const Hinge& h) { return placed.count(h.parent) > 0; });
             REQUIRE(next != list.end());
             placed[next->child] = true;
             if (next->type == "floating")
@@ -190,13 +203,15 @@ struct Model {
             for (const Hinge& other : hinges) {
                 const Hinge* below = &other;
                 while (below->name != h.name) {
-                    const auto up = std::find_if(hinges.begin(), hinges.end(), [&](const Hinge& k) { return k.child == below->parent; });
+                    const auto up = std::find_if(hinges.begin(), hinges.end(),
+                                                 [&](const Hinge& k) { return k.child == below->parent; });
                     if (up == hinges.end()) break;
                     below = &*up;
                 }
                 if (below->name != h.name) continue;
                 const Wrench& w = needed[other.child];
-                load += h.type == "prismatic" ? axis[h.name].dot(w.f) : axis[h.name].dot(w.n + (w.c - pivot[h.name]).cross(w.f));
+                load += h.type == "prismatic" ? axis[h.name].dot(w.f)
+                                              : axis[h.name].dot(w.n + (w.c - pivot[h.name]).cross(w.f));
             }
             double factor = 1;
             const Hinge* leader = &h;
@@ -219,8 +234,10 @@ struct Random {
 };
 
 /// The largest difference of accelerations, over the largest of them.
-void compare(const std::string& robot, const std::vector<std::string>& still, std::size_t freedom, const std::vector<std::string>& options = {}) {
-    const std::string file = source_path("tests/robots/" + robot + ".urdf"), scene = temporary(robot + ".toml", "");
+void compare(const std::string& robot, const std::vector<std::string>& still, std::size_t freedom,
+             const std::vector<std::string>& options = {}) {
+    const std::string file = source_path("tests/robots/" + robot + ".urdf"),
+                      scene = temporary(robot + ".toml", "");
     std::vector<std::string> args{"import", file, "-o", scene, "--json"};
     args.insert(args.end(), options.begin(), options.end());
     const auto imported = run(args);
@@ -231,7 +248,9 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
     for (int trial = 0; trial < 4; ++trial) {
         Model::Values q, u, none;
         for (const Hinge& h : model.hinges) {
-            if (!h.leader.empty() || h.type == "fixed" || std::find(still.begin(), still.end(), h.name) != still.end()) continue;
+            if (!h.leader.empty() || h.type == "fixed" ||
+                std::find(still.begin(), still.end(), h.name) != still.end())
+                continue;
             q[h.name] = random(-1.2, 1.2);
             u[h.name] = random(-1, 1);
         }
@@ -270,31 +289,47 @@ void compare(const std::string& robot, const std::vector<std::string>& still, st
     }
 }
 
-std::string link_of(const std::string& name, const std::string& inside = "") { return "<link name=\"" + name + "\">" + inside + "</link>"; }
-const std::string heavy = "<inertial><mass value=\"2\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>";
-std::string hinge_of(const std::string& name, const std::string& type, const std::string& parent, const std::string& child, const std::string& inside = "") {
-    return fmt::format("<joint name=\"{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>{}</joint>", name, type, parent, child, inside);
+std::string link_of(const std::string& name, const std::string& inside = "") {
+    return "<link name=\"" + name + "\">" + inside + "</link>";
 }
-std::string robot_of(const std::string& inside) { return "<robot name=\"r\">" + inside + "</robot>"; }
+const std::string heavy =
+    "<inertial><mass value=\"2\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" "
+    "iyz=\"0\"/></inertial>";
+std::string hinge_of(const std::string& name, const std::string& type, const std::string& parent,
+                     const std::string& child, const std::string& inside = "") {
+    return fmt::format("<joint name=\"{}\" type=\"{}\"><parent link=\"{}\"/><child link=\"{}\"/>{}</joint>", name,
+                       type, parent, child, inside);
+}
+std::string robot_of(const std::string& inside) {
+    return "<robot name=\"r\">" + inside + "</robot>";
+}
 
 }  // namespace
 
-TEST_CASE("import: a six-joint arm with oblique axes, turned inertias and a fixed tool accelerates as link by link") { compare("arm6", {}, 6); }
+TEST_CASE(
+    "import: a six-joint arm with oblique axes, turned inertias and a fixed tool accelerates as link by link") {
+    compare("arm6", {}, 6);
+}
 
-TEST_CASE("import: a torso of branches, with joints that mimic others and others again, accelerates as link by link") {
+TEST_CASE(
+    "import: a torso of branches, with joints that mimic others and others again, accelerates as link by link") {
     compare("torso", {"antenna"}, 10);
 }
 
-TEST_CASE("import: a quadruped on a floating base accelerates as link by link") { compare("quadruped", {}, 18); }
+TEST_CASE("import: a quadruped on a floating base accelerates as link by link") {
+    compare("quadruped", {}, 18);
+}
 
 TEST_CASE("import: what is left out is told, what is merged too, and the scene keeps limits as remarks") {
     const std::string scene = temporary("told.toml", "");
     const auto result = run({"import", source_path("tests/robots/arm6.urdf"), "-o", scene});
     REQUIRE(result.exit == 0);
-    for (const char* line : {"dropped: <visual>: base_link, shoulder-1, forearm\n", "dropped: <collision>: base_link\n", "dropped: <transmission>: t1, t2\n",
-                             "dropped: <gazebo>: flange\n", "dropped: Coulomb friction, <dynamics friction=…>: j1, j4\n", "dropped: <limit>: j1, j2, j3, j5, j6\n",
-                             "dropped: <safety_controller>: j5\n", "dropped: mass that is fixed to the ground: base_link\n", "note: 'shoulder-1' is called shoulder_1",
-                             "note: j3 starts at 0, outside its limits"})
+    for (const char* line :
+         {"dropped: <visual>: base_link, shoulder-1, forearm\n", "dropped: <collision>: base_link\n",
+          "dropped: <transmission>: t1, t2\n", "dropped: <gazebo>: flange\n",
+          "dropped: Coulomb friction, <dynamics friction=…>: j1, j4\n", "dropped: <limit>: j1, j2, j3, j5, j6\n",
+          "dropped: <safety_controller>: j5\n", "dropped: mass that is fixed to the ground: base_link\n",
+          "note: 'shoulder-1' is called shoulder_1", "note: j3 starts at 0, outside its limits"})
         CHECK(result.err.find(line) != std::string::npos);
     CHECK(result.out.find("welding_torch is fixed to tool0") != std::string::npos);
     CHECK(contents(scene).find("about = \"limits 0.2 to 2.6\"") != std::string::npos);
@@ -302,10 +337,15 @@ TEST_CASE("import: what is left out is told, what is merged too, and the scene k
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
 }
 
-// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and turns as it did, whatever turns it; and a planar joint across x does not fall along x.
+// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and turns as it did, whatever turns it; and a
+// planar joint across x does not fall along x.
 TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a planar joint keeps its plane") {
-    const std::string two = temporary("two.urdf", robot_of(link_of("a", heavy) + link_of("b", "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>") +
-                                                        hinge_of("weld", "fixed", "a", "b", "<origin xyz=\"0.3 0 0\"/>")));
+    const std::string two =
+        temporary("two.urdf", robot_of(link_of("a", heavy) +
+                                       link_of("b",
+                                               "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" "
+                                               "izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>") +
+                                       hinge_of("weld", "fixed", "a", "b", "<origin xyz=\"0.3 0 0\"/>")));
     const std::string scene = temporary("two.toml", "");
     REQUIRE(run({"import", two, "-o", scene, "--floating"}).exit == 0);
     const Json by_angles = Json::parse(run({"eval", scene, "--json"}).out);
@@ -317,9 +357,13 @@ TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a pl
     REQUIRE(run({"import", two, "-o", scene, "--floating", "--quaternion"}).exit == 0);
     const Json by_quaternion = Json::parse(run({"eval", scene, "--json", "--at", "floating_base_e3'=1"}).out);
     CHECK(std::abs(by_quaternion["accelerations"]["floating_base_x"].get<double>() - 0.4) < 1e-13);
-    const std::string flat = temporary("flat.urdf", robot_of(link_of("a") + link_of("b", heavy) + hinge_of("table", "planar", "a", "b", "<axis xyz=\"0 1 0\"/><origin rpy=\"0 0 0.5\"/>")));
+    const std::string flat = temporary(
+        "flat.urdf",
+        robot_of(link_of("a") + link_of("b", heavy) +
+                 hinge_of("table", "planar", "a", "b", "<axis xyz=\"0 1 0\"/><origin rpy=\"0 0 0.5\"/>")));
     REQUIRE(run({"import", flat, "-o", scene}).exit == 0);
-    const Json planar = Json::parse(run({"eval", scene, "--json", "--at", "table_x=0.7", "--at", "table_y=-0.4"}).out)["accelerations"];
+    const Json planar = Json::parse(
+        run({"eval", scene, "--json", "--at", "table_x=0.7", "--at", "table_y=-0.4"}).out)["accelerations"];
     CHECK(std::abs(std::hypot(planar["table_x"].get<double>(), planar["table_y"].get<double>()) - 9.81) < 1e-13);
     CHECK(std::abs(planar["table_turn"].get<double>()) < 1e-13);
 }
@@ -349,21 +393,39 @@ TEST_CASE("import: what is no robot is told in one message, and nothing is writt
     refused(robot_of(""), "urdfdom refuses it");
     refused(robot_of(link_of("a", heavy) + link_of("a", heavy)), "urdfdom refuses it: link 'a' is not unique");
     refused(robot_of(link_of("a", heavy)), "no joint that moves a mass");
-    refused(robot_of(link_of("a") + link_of("b") + hinge_of("j", "continuous", "a", "b")), "no link of this robot has a mass");
+    refused(robot_of(link_of("a") + link_of("b") + hinge_of("j", "continuous", "a", "b")),
+            "no link of this robot has a mass");
     refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "hinge", "a", "b")), "urdfdom refuses it");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "revolute", "a", "c", limit)), "urdfdom refuses it: Failed to build tree: child link [c] of joint [j] not found");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>")), "the axis of joint 'j' is zero");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<origin xyz=\"0 one 0\"/>")), "urdfdom refuses it");
-    refused(robot_of(link_of("a") + link_of("b", "<inertial><origin rpy=\"0 0\"/>" + heavy.substr(10)) + hinge_of("j", "continuous", "a", "b")), "rpy=\"0 0\"; expected three numbers");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>")), "joint 'j' mimics 'k', which is no joint");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>") +
-                  hinge_of("k", "continuous", "b", "c", "<mimic joint=\"j\"/>")),
+    refused(robot_of(link_of("a") + link_of("b", heavy) + hinge_of("j", "revolute", "a", "c", limit)),
+            "urdfdom refuses it: Failed to build tree: child link [c] of joint [j] not found");
+    refused(robot_of(link_of("a") + link_of("b", heavy) +
+                     hinge_of("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>")),
+            "the axis of joint 'j' is zero");
+    refused(robot_of(link_of("a") + link_of("b", heavy) +
+                     hinge_of("j", "continuous", "a", "b", "<origin xyz=\"0 one 0\"/>")),
+            "urdfdom refuses it");
+    refused(robot_of(link_of("a") + link_of("b", "<inertial><origin rpy=\"0 0\"/>" + heavy.substr(10)) +
+                     hinge_of("j", "continuous", "a", "b")),
+            "rpy=\"0 0\"; expected three numbers");
+    refused(robot_of(link_of("a") + link_of("b", heavy) +
+                     hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>")),
+            "joint 'j' mimics 'k', which is no joint");
+    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) +
+                     hinge_of("j", "continuous", "a", "b", "<mimic joint=\"k\"/>") +
+                     hinge_of("k", "continuous", "b", "c", "<mimic joint=\"j\"/>")),
             "mimics itself in a circle");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "b", "c") + hinge_of("k", "continuous", "c", "b")), "in a circle of joints");
-    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "a", "b") + hinge_of("k", "continuous", "a", "c") + hinge_of("l", "continuous", "b", "c")),
-            "joint 'l' holds link 'c', which joint 'k' holds already");
-    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("\"2\""), "\"-2\"")) + hinge_of("j", "continuous", "a", "b")), "the mass of link 'b' is -2");
-    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("ixy=\"0\""), "ixy=\"3\"")) + hinge_of("j", "continuous", "a", "b")),
+    refused(robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) +
+                     hinge_of("j", "continuous", "b", "c") + hinge_of("k", "continuous", "c", "b")),
+            "in a circle of joints");
+    refused(
+        robot_of(link_of("a") + link_of("b", heavy) + link_of("c", heavy) + hinge_of("j", "continuous", "a", "b") +
+                 hinge_of("k", "continuous", "a", "c") + hinge_of("l", "continuous", "b", "c")),
+        "joint 'l' holds link 'c', which joint 'k' holds already");
+    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("\"2\""), "\"-2\"")) +
+                     hinge_of("j", "continuous", "a", "b")),
+            "the mass of link 'b' is -2");
+    refused(robot_of(link_of("a") + link_of("b", std::regex_replace(heavy, std::regex("ixy=\"0\""), "ixy=\"3\"")) +
+                     hinge_of("j", "continuous", "a", "b")),
             "the principal moments of inertia of link 'b', -2, 1 and 4, are not all zero or more");
     CHECK(run({"import", source_path("tests/robots/none.urdf"), "-o", out}).exit == 3);
     CHECK(run({"import", source_path("tests/robots/arm6.urdf"), "-o", "/no/such/folder/x.toml"}).exit == 5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `[[event]]` with impulses and a direction: kicks, held against closed forms and against other coordinates for the same system.
+// `[[event]]` with impulses and a direction: kicks, held against closed forms and against other coordinates for
+// the same system.
 #include "contacts.hpp"
 
 using namespace alembert::test;
@@ -68,15 +69,21 @@ std::vector<Json> named(const Json& motion, const std::string& name) {
 
 }  // namespace
 
-// Half a period takes π/ω of the time and leaves the part d = exp(−aπ/ω) of the speed, ω² = 4 − a²; so v⁻ → d (v⁻ + P), and after
-// the kick P/(1 − d) in the limit.
-TEST_CASE("kicks: the escapement of a linear oscillator has the times, the energies and the limit cycle of its closed form") {
+// Half a period takes π/ω of the time and leaves the part d = exp(−aπ/ω) of the speed, ω² = 4 − a²; so v⁻ → d (v⁻
+// + P), and after the kick P/(1 − d) in the limit.
+TEST_CASE(
+    "kicks: the escapement of a linear oscillator has the times, the energies and the limit cycle of its closed "
+    "form") {
     const double a = 1, P = 0.3, omega = std::sqrt(4 - a * a), d = std::exp(-a * M_PI / omega);
     const double first = (M_PI - std::atan(omega / a)) / omega, rise = std::atan(omega / a) / omega;
     const double speed = P / (1 - d), amplitude = speed * std::exp(-a * rise) * std::sin(omega * rise) / omega;
     const std::string scene = temporary("escapement.toml", escapement);
-    for (const std::vector<std::string>& method : {std::vector<std::string>{}, {"--method", "taylor"}, {"--method", "radau"}, {"--method", "gauss", "--step", "0.02"}}) {
-        std::vector<std::string> more = {"--no-estimate", "--duration", fmt::format("{:.17g}", first + 20 * M_PI / omega + rise)};
+    for (const std::vector<std::string>& method : {std::vector<std::string>{},
+                                                   {"--method", "taylor"},
+                                                   {"--method", "radau"},
+                                                   {"--method", "gauss", "--step", "0.02"}}) {
+        std::vector<std::string> more = {"--no-estimate", "--duration",
+                                         fmt::format("{:.17g}", first + 20 * M_PI / omega + rise)};
         more.insert(more.end(), method.begin(), method.end());
         const Json motion = simulated(scene, more);
         INFO(motion["method"]);
@@ -99,9 +106,11 @@ TEST_CASE("kicks: the escapement of a linear oscillator has the times, the energ
     }
 }
 
-// Of a swing A = θ'/ω = 0.05 the pendulum takes A²/16 of its period more: the limit of small swings is met to some 2e-4.
+// Of a swing A = θ'/ω = 0.05 the pendulum takes A²/16 of its period more: the limit of small swings is met to some
+// 2e-4.
 TEST_CASE("kicks: the clock of the gallery comes to the swing of its formula from below and from above") {
-    const double m = 1, l = 0.994, c = 0.062, P = 0.0048, d = std::exp(-M_PI * c / std::sqrt(4 * m * m * g * l * l * l - c * c));
+    const double m = 1, l = 0.994, c = 0.062, P = 0.0048,
+                 d = std::exp(-M_PI * c / std::sqrt(4 * m * m * g * l * l * l - c * c));
     for (const char* start : {"0.02", "0.08"}) {
         std::ifstream file(source_path("scenes/gallery/clock.toml"));
         std::string text(std::istreambuf_iterator<char>(file), {});
@@ -114,12 +123,16 @@ TEST_CASE("kicks: the clock of the gallery comes to the swing of its formula fro
 }
 
 // From 2 to 1 in √(2/g); then flights of 2 eᵏ v/g, v² = 2g.
-TEST_CASE("kicks: a body thrown back at a height has the flights of free fall by every method, and direction tells the zeros that count") {
+TEST_CASE(
+    "kicks: a body thrown back at a height has the flights of free fall by every method, and direction tells the "
+    "zeros that count") {
     const double e = 0.8, v = std::sqrt(2 * g);
     const std::string scene = batted(e, 1, 2.5);
-    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "taylor", "abm", "bdf", "radau", "rk4", "gauss", "rattle", "rattle8", "verlet", "kahanli8"}) {
+    for (const std::string method : {"dopri5", "dop853", "verner76", "verner98", "taylor", "abm", "bdf", "radau",
+                                     "rk4", "gauss", "rattle", "rattle8", "verlet", "kahanli8"}) {
         std::vector<std::string> more = {"--no-estimate", "--method", method};
-        const bool fixed = method[0] == 'k' || method[0] == 'g' || method.starts_with("rk") || method.starts_with("rat") || method == "verlet";
+        const bool fixed = method[0] == 'k' || method[0] == 'g' || method.starts_with("rk") ||
+                           method.starts_with("rat") || method == "verlet";
         if (fixed) more.insert(more.end(), {"--step", "0.01"});
         const Json motion = simulated(scene, more);
         INFO(method);
@@ -130,7 +143,9 @@ TEST_CASE("kicks: a body thrown back at a height has the flights of free fall by
         CHECK(motion["events"][0]["name"] == "mark");
         CHECK(motion["events"][1]["name"] == "bat");
         double time = std::sqrt(2 / g), speed = v;
-        const double allowed = method == "bdf" || method == "verlet" ? 1e-9 : 2e-12;  // bdf: to its tolerance; verlet: its dense output is cubic
+        const double allowed = method == "bdf" || method == "verlet"
+                                   ? 1e-9
+                                   : 2e-12;  // bdf: to its tolerance; verlet: its dense output is cubic
         for (std::size_t k = 0; k < bats.size(); ++k) {
             CHECK(std::abs(value(bats[k], "time") - time) < allowed);
             CHECK(std::abs(value(marks[k], "time") - time) < allowed);
@@ -156,8 +171,11 @@ TEST_CASE("kicks: where rates jump the table has two rows, and speeds of the sce
     CHECK(std::abs(after + before / 2) < 1e-11);
 }
 
-// One pendulum: its angle; the speed w = 3 θ' + θ/10; Cartesian coordinates on a rod, where an impulse P along θ is P ∂r/∂θ.
-TEST_CASE("kicks: a pendulum is kicked alike in its angle, in a generalized speed and in coordinates with a constraint") {
+// One pendulum: its angle; the speed w = 3 θ' + θ/10; Cartesian coordinates on a rod, where an impulse P along θ
+// is P ∂r/∂θ.
+TEST_CASE(
+    "kicks: a pendulum is kicked alike in its angle, in a generalized speed and in coordinates with a "
+    "constraint") {
     const std::string angle = R"toml(
 gravity = [0, -9.81]
 [coordinates]
@@ -206,18 +224,23 @@ tolerance = 1e-13
         REQUIRE((*other)["events"].size() == one["events"].size());
         for (std::size_t k = 0; k < one["events"].size(); ++k) {
             CHECK(std::abs(value(one["events"][k], "time") - value((*other)["events"][k], "time")) < 1e-11);
-            CHECK(std::abs(value(one["events"][k], "energy_gain") - value((*other)["events"][k], "energy_gain")) < 1e-11);
+            CHECK(std::abs(value(one["events"][k], "energy_gain") - value((*other)["events"][k], "energy_gain")) <
+                  1e-11);
         }
         CHECK((*other)["work_balance"].get<double>() < 1e-12);
     }
     CHECK(std::abs(coordinate(one, "theta") - coordinate(speed, "theta")) < 1e-11);
-    CHECK(std::abs(speed["final"]["speeds"]["w"].get<double>() - 3 * rate(one, "theta") - coordinate(one, "theta") / 10) < 1e-10);
+    CHECK(std::abs(speed["final"]["speeds"]["w"].get<double>() - 3 * rate(one, "theta") -
+                   coordinate(one, "theta") / 10) < 1e-10);
     CHECK(std::abs(std::sin(coordinate(one, "theta")) - coordinate(rod, "x")) < 1e-11);
     CHECK(rod["constraint_drift"].get<double>() < 1e-13);
 }
 
-// With v along the blade and w = φ', T = (m v² + (J + m a²) w²)/2, here (v² + 1.25 w²)/2, which is conserved between kicks.
-TEST_CASE("kicks: a blade that does not slip takes up what pushes across it, in rates with a multiplier and in speeds without") {
+// With v along the blade and w = φ', T = (m v² + (J + m a²) w²)/2, here (v² + 1.25 w²)/2, which is conserved
+// between kicks.
+TEST_CASE(
+    "kicks: a blade that does not slip takes up what pushes across it, in rates with a multiplier and in speeds "
+    "without") {
     const std::string sleigh = R"toml(
 [coordinates]
 x = {0}
@@ -249,17 +272,21 @@ impulses = {{ phi = 1.5, x = "-0.2*cos(phi) + 3*sin(phi)", y = "-0.2*sin(phi) - 
 duration = 10
 tolerance = 1e-12
 )toml";
-    const Json rates = simulated(temporary("sleigh.toml", fmt::format(fmt::runtime(sleigh), "{ initial = 0, rate = 0.5 }", "{ initial = 0, rate = 2 }")));
-    const Json speeds = simulated(temporary("sleigh_speeds.toml", fmt::format(fmt::runtime(sleigh), "0", "0") +
-                                                                      "[speeds]\nv = { form = \"x'*cos(phi) + y'*sin(phi)\", initial = 0.5 }\n"
-                                                                      "w = { form = \"phi'\", initial = 2 }\n"));
+    const Json rates =
+        simulated(temporary("sleigh.toml", fmt::format(fmt::runtime(sleigh), "{ initial = 0, rate = 0.5 }",
+                                                       "{ initial = 0, rate = 2 }")));
+    const Json speeds = simulated(temporary(
+        "sleigh_speeds.toml", fmt::format(fmt::runtime(sleigh), "0", "0") +
+                                  "[speeds]\nv = { form = \"x'*cos(phi) + y'*sin(phi)\", initial = 0.5 }\n"
+                                  "w = { form = \"phi'\", initial = 2 }\n"));
     REQUIRE(rates["events"].size() == 6);
     REQUIRE(speeds["events"].size() == 6);
     double v = 0.5, w = 2;
     for (std::size_t k = 0; k < 6; ++k) {
         v = std::sqrt(v * v + 1.25 * (w * w - 0.09));
         const double gain = -0.2 * (v - 0.1) + 1.5 * 0.9;
-        for (const Json* motion : {&rates, &speeds}) CHECK(std::abs(value((*motion)["events"][k], "energy_gain") - gain) < 1e-10);
+        for (const Json* motion : {&rates, &speeds})
+            CHECK(std::abs(value((*motion)["events"][k], "energy_gain") - gain) < 1e-10);
         CHECK(std::abs(value(rates["events"][k], "time") - value(speeds["events"][k], "time")) < 1e-10);
         v -= 0.2;
         w = 0.3 + 1.5 / 1.25;
@@ -270,7 +297,9 @@ tolerance = 1e-12
 }
 
 // a and b touch. Together: 3 on a, 1 on b, −2 on c; a contact at rest is hard, so a and b go on with 4/3.
-TEST_CASE("kicks: all that is zero at one instant is told in the scene's order, acts as one impact with the closed contacts, and then stops") {
+TEST_CASE(
+    "kicks: all that is zero at one instant is told in the scene's order, acts as one impact with the closed "
+    "contacts, and then stops") {
     const Json motion = simulated(temporary("together.toml", R"toml(
 [coordinates]
 a = 0
@@ -318,7 +347,9 @@ duration = 20
     CHECK(std::abs(value(motion["events"][1], "energy_gain") - 8.0 / 3) < 1e-14);
 }
 
-TEST_CASE("kicks: a body that lies is lifted by an impulse, not pressed through the floor, and bounces as it falls back") {
+TEST_CASE(
+    "kicks: a body that lies is lifted by an impulse, not pressed through the floor, and bounces as it falls "
+    "back") {
     const Json motion = simulated(temporary("hop.toml", R"toml(
 gravity = [0, -9.81]
 [coordinates]
@@ -351,13 +382,17 @@ tolerance = 1e-12
     CHECK(std::abs(value(named(motion, "lift")[0], "energy_gain") - 9) < 1e-13);
     const std::vector<Json> falls = named(motion, "down");
     REQUIRE(falls.size() > 3);
-    for (int k = 0; k < 3; ++k) CHECK(std::abs(value(falls[static_cast<std::size_t>(k)], "time") - 1 - 6 / g * (2 - std::ldexp(1, -k))) < 1e-11);
+    for (int k = 0; k < 3; ++k)
+        CHECK(std::abs(value(falls[static_cast<std::size_t>(k)], "time") - 1 - 6 / g * (2 - std::ldexp(1, -k))) <
+              1e-11);
     CHECK(std::abs(motion["impact_loss"].get<double>() - 9) < 1e-10);
     CHECK(coordinate(motion, "y") < 1e-12);
     CHECK(motion["work_balance"].get<double>() < 1e-11);
 }
 
-TEST_CASE("kicks: an event whose value the closed contact keeps at zero is silent, and a stiff companion changes nothing") {
+TEST_CASE(
+    "kicks: an event whose value the closed contact keeps at zero is silent, and a stiff companion changes "
+    "nothing") {
     const Json motion = simulated(temporary("wavy.toml", R"toml(
 gravity = [0, -9.81]
 [coordinates]
@@ -384,14 +419,18 @@ duration = 5
     CHECK(value(motion["events"].back(), "time") < rest);
     CHECK(motion["final"]["time"] == 5);
 
-    const auto oscillator = [](const std::string& coordinate, const std::string& kinetic, const std::string& force) {
-        return simulated(temporary("companion.toml", "[coordinates]\nx = 0.2\n" + coordinate + "[energy]\nkinetic = \"x'^2/2" + kinetic +
-                                                         "\"\npotential = \"2*x^2\"\n[forces]\nx = \"-0.2*x'\"\n" + force +
-                                                         "[[event]]\nname = \"tick\"\nwhen = \"x\"\nimpulses = { x = \"0.3*sign(x')\" }\n"
-                                                         "[simulation]\nduration = 20\ntolerance = 1e-10\n"),
-                         {"--no-estimate"});
+    const auto oscillator = [](const std::string& coordinate, const std::string& kinetic,
+                               const std::string& force) {
+        return simulated(
+            temporary("companion.toml",
+                      "[coordinates]\nx = 0.2\n" + coordinate + "[energy]\nkinetic = \"x'^2/2" + kinetic +
+                          "\"\npotential = \"2*x^2\"\n[forces]\nx = \"-0.2*x'\"\n" + force +
+                          "[[event]]\nname = \"tick\"\nwhen = \"x\"\nimpulses = { x = \"0.3*sign(x')\" }\n"
+                          "[simulation]\nduration = 20\ntolerance = 1e-10\n"),
+            {"--no-estimate"});
     };
-    const Json alone = oscillator("", "", ""), stiff = oscillator("z = 0.2\n", " + z'^2/2", "z = \"-1e5*z' - 1e7*(z - x)\"\n");
+    const Json alone = oscillator("", "", ""),
+               stiff = oscillator("z = 0.2\n", " + z'^2/2", "z = \"-1e5*z' - 1e7*(z - x)\"\n");
     CHECK(stiff["switched"]["method"] == "radau");
     REQUIRE(stiff["events"].size() == alone["events"].size());
     for (std::size_t k = 0; k < alone["events"].size(); ++k)
@@ -415,7 +454,8 @@ TEST_CASE("kicks: infinitely many in finite time end with a message, however fas
             const auto result = run({"simulate", batted(e, h, 1000), "--no-estimate"});
             INFO(e << " " << h << " " << result.err);
             CHECK(result.exit == 4);
-            CHECK(result.err.find("the impulses of event 'bat' follow each other without end") != std::string::npos);
+            CHECK(result.err.find("the impulses of event 'bat' follow each other without end") !=
+                  std::string::npos);
         }
 }
 

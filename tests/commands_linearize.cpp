@@ -41,8 +41,9 @@ Eigen::MatrixXd matrix(const Json& rows) {
 TEST_CASE("linearize: JSON has the matrices, the states and the eigenvalues") {
     const Json near = json_of({"linearize", bicycle, "--json", "--at", "kick=0", "--at", "v=5"});
     for (const char* key : {"M", "C", "G", "K", "N", "A", "B"}) CHECK(near["matrices"].contains(key));
-    const Eigen::MatrixXd C = matrix(near["matrices"]["C"]), G = matrix(near["matrices"]["G"]), K = matrix(near["matrices"]["K"]),
-                          N = matrix(near["matrices"]["N"]), A = matrix(near["matrices"]["A"]);
+    const Eigen::MatrixXd C = matrix(near["matrices"]["C"]), G = matrix(near["matrices"]["G"]),
+                          K = matrix(near["matrices"]["K"]), N = matrix(near["matrices"]["N"]),
+                          A = matrix(near["matrices"]["A"]);
     CHECK(C == C.transpose());
     CHECK(G == -G.transpose());
     CHECK(K == K.transpose());
@@ -65,7 +66,8 @@ TEST_CASE("linearize: a state that is not steady exits with 3 and says what is l
 
 // With the mass centre on the blade: v' = 0, J phi'' = 0.
 TEST_CASE("linearize: a blade that runs on a circle is steady in speeds that the program finds") {
-    const Json near = json_of({"linearize", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--at", "a=0"});
+    const Json near =
+        json_of({"linearize", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--at", "a=0"});
     CHECK(near["formalism"] == "kane");
     CHECK(near["moving"] == Json{"x", "phi"});
     CHECK(near["states"] == Json{"u1", "phi'"});
@@ -77,7 +79,8 @@ TEST_CASE("bicycle: energy and constraints are kept, and the speed settles") {
     const Json run = json_of({"simulate", bicycle, "--json", "--duration", "20"});
     CHECK(run["energy_drift"].get<double>() < 1e-10);
     CHECK(run["constraint_drift"].get<double>() < 1e-10);
-    // All energy of the kick that does not come back into the lean has become forward motion: weave and capsize are stable at 4.6 m/s.
+    // All energy of the kick that does not come back into the lean has become forward motion: weave and capsize
+    // are stable at 4.6 m/s.
     const Json& rates = run["final"]["rates"];
     CHECK(std::abs(rates["lean"].get<double>()) < 1e-3);
     CHECK(-0.3 * rates["rear"].get<double>() > 4.6);
@@ -92,7 +95,8 @@ TEST_CASE("bicycle: after a small kick it moves as the eigenvalues say") {
     const std::string kick = "kick = { value = 0.5,";
     REQUIRE(scene.find(kick) != std::string::npos);
     scene.replace(scene.find(kick), kick.size(), "kick = { value = 1e-5,");
-    const Json end = json_of({"simulate", temporary("bicycle.toml", scene), "--json", "--duration", "2", "--tolerance", "1e-13"})["final"];
+    const Json end = json_of({"simulate", temporary("bicycle.toml", scene), "--json", "--duration", "2",
+                              "--tolerance", "1e-13"})["final"];
     const Json near = json_of({"linearize", bicycle, "--json", "--at", "kick=0"});
     const Eigen::MatrixXd A = matrix(near["matrices"]["A"]);
     const auto state = [&](const std::string& name) {
@@ -150,14 +154,20 @@ y = "n*x"
     CHECK(symbols["M"] == Json::parse(R"([["m","0"],["0","m"]])"));
     CHECK(symbols["C"] == Json::parse(R"([["c","0"],["0","0"]])"));
     CHECK(symbols["N"] == Json::parse(R"([["0","n"],["-n","0"]])"));
-    const Json pendulum = json_of({"linearize", source_path("scenes/textbook/double_pendulum.toml"), "--at", "theta1=0", "--at", "theta2=0", "--json"});
-    for (const auto& [scene, near] : {std::pair(text, turning), std::pair(std::string("[parameters]\nm1 = 1.0\nm2 = 1.0\nl1 = 1.0\nl2 = 0.8\ng = 9.81\n[coordinates]\nx = 0\n"
-                                                                                      "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"),
-                                                                          pendulum)}) {
+    const Json pendulum = json_of({"linearize", source_path("scenes/textbook/double_pendulum.toml"), "--at",
+                                   "theta1=0", "--at", "theta2=0", "--json"});
+    for (const auto& [scene, near] :
+         {std::pair(text, turning),
+          std::pair(
+              std::string("[parameters]\nm1 = 1.0\nm2 = 1.0\nl1 = 1.0\nl2 = 0.8\ng = 9.81\n[coordinates]\nx = 0\n"
+                          "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"),
+              pendulum)}) {
         for (const char* letter : {"M", "C", "G", "K", "N"}) {
             std::string outputs = scene + "\n[outputs]\n";
             for (int i = 0; i < 2; ++i)
-                for (int j = 0; j < 2; ++j) outputs += "e" + std::to_string(2 * i + j) + " = \"" + near["symbolic"][letter][i][j].get<std::string>() + "\"\n";
+                for (int j = 0; j < 2; ++j)
+                    outputs += "e" + std::to_string(2 * i + j) + " = \"" +
+                               near["symbolic"][letter][i][j].get<std::string>() + "\"\n";
             const Json values = json_of({"eval", temporary("entries.toml", outputs), "--json"})["outputs"];
             const Eigen::MatrixXd numbers = matrix(near["matrices"][letter]);
             for (int i = 0; i < 2; ++i)
@@ -172,9 +182,11 @@ y = "n*x"
     CHECK_FALSE(json_of({"linearize", bicycle, "--at", "kick=0", "--json"}).contains("symbolic"));
 }
 
-TEST_CASE("linearize: a kink at the state exits with 3 and names the function, and beside it the scene is linearized") {
-    const std::string text = "[parameters]\nk = 2\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
-                             "[[force]]\nat = \"P\"\nvector = [\"k*(1 - abs(x)) - k*max(1 - 2*abs(x), 0)\", 0]\n";
+TEST_CASE(
+    "linearize: a kink at the state exits with 3 and names the function, and beside it the scene is linearized") {
+    const std::string text =
+        "[parameters]\nk = 2\n[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n"
+        "[[force]]\nat = \"P\"\nvector = [\"k*(1 - abs(x)) - k*max(1 - 2*abs(x), 0)\", 0]\n";
     const std::string scene = temporary("kink.toml", text);
     const auto result = run({"linearize", scene, "--json"});
     CHECK(result.exit == 3);
@@ -182,22 +194,29 @@ TEST_CASE("linearize: a kink at the state exits with 3 and names the function, a
     CHECK(result.err.find("abs(x)") != std::string::npos);
     const Json beside = json_of({"linearize", scene, "--at", "x=-1", "--json"});
     CHECK(beside["matrices"]["A"][1][0] == 2);
-    const std::string drag = temporary("drag.toml", "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
-                                                    "[[force]]\nat = \"P\"\nvector = [\"-x'*sqrt(x'^2+y'^2)-4*x\", \"-y\"]\n");
+    const std::string drag =
+        temporary("drag.toml",
+                  "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
+                  "[[force]]\nat = \"P\"\nvector = [\"-x'*sqrt(x'^2+y'^2)-4*x\", \"-y\"]\n");
     const Json near = json_of({"linearize", drag, "--json"});
     CHECK(near["matrices"]["K"] == Json::parse("[[4.0, 0.0], [0.0, 1.0]]"));
     CHECK(near["matrices"]["C"] == Json::parse("[[0.0, 0.0], [0.0, 0.0]]"));
 }
 
-// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards and returns from a bounce.
+// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards and
+// returns from a bounce.
 TEST_CASE("linearize: a contact that presses is a constraint, and one that touches without a force is refused") {
     const auto scene = [](const std::string& weight) {
         return temporary("floor" + weight + ".toml",
-                         "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n[[force]]\n"
-                         "at = \"P\"\nvector = [\"-4*x\", \"-3*y - " + weight + "\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n"
-                         "restitution = 0.5\n");
+                         "[coordinates]\nx = 0\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", "
+                         "\"y\"]\n[[force]]\n"
+                         "at = \"P\"\nvector = [\"-4*x\", \"-3*y - " +
+                             weight +
+                             "\"]\n[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n"
+                             "restitution = 0.5\n");
     };
-    CHECK(json_of({"linearize", scene("1"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-4.0, 0.0]]"));
+    CHECK(json_of({"linearize", scene("1"), "--json"})["matrices"]["A"] ==
+          Json::parse("[[0.0, 1.0], [-4.0, 0.0]]"));
     const auto open = run({"linearize", scene("-3"), "--at", "y=1", "--json"});  // above the floor: y'' = -3 y + 3
     CHECK(open.exit == 0);
     CHECK(Json::parse(open.out)["matrices"]["A"][3][1] == -3);
@@ -206,14 +225,21 @@ TEST_CASE("linearize: a contact that presses is a constraint, and one that touch
     CHECK(touching.err.find("contact floor touches at this state without a force") != std::string::npos);
 }
 
-// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force takes part in the slope, and |y| = x² has no kink on the curve.
+// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force takes part in the slope, and |y| =
+// x² has no kink on the curve.
 TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, and not where it runs along it") {
     const auto bead = [](const std::string& name, const std::string& force) {
-        return temporary(name + ".toml", "[coordinates]\nx = 0\ny = { guess = 0 }\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n"
-                                         "[[force]]\nat = \"P\"\nvector = [\"" + force + "\", \"-1\"]\n[[constraint]]\nname = \"curve\"\n"
-                                         "holonomic = \"y - x^2\"\n");
+        return temporary(name + ".toml",
+                         "[coordinates]\nx = 0\ny = { guess = 0 }\n[[particle]]\nname = \"P\"\nmass = 1\nposition "
+                         "= [\"x\", \"y\"]\n"
+                         "[[force]]\nat = \"P\"\nvector = [\"" +
+                             force +
+                             "\", \"-1\"]\n[[constraint]]\nname = \"curve\"\n"
+                             "holonomic = \"y - x^2\"\n");
     };
-    CHECK(json_of({"linearize", bead("along", "-abs(y)"), "--json"})["matrices"]["A"] == Json::parse("[[0.0, 1.0], [-2.0, 0.0]]"));
-    CHECK(run({"linearize", bead("across", "-abs(x)")}).err.find("the slope -3 in x where x grows, and -1 where it falls") != std::string::npos);
+    CHECK(json_of({"linearize", bead("along", "-abs(y)"), "--json"})["matrices"]["A"] ==
+          Json::parse("[[0.0, 1.0], [-2.0, 0.0]]"));
+    CHECK(run({"linearize", bead("across", "-abs(x)")})
+              .err.find("the slope -3 in x where x grows, and -1 where it falls") != std::string::npos);
     CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
 }

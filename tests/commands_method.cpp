@@ -66,19 +66,25 @@ TEST_CASE("auto: tolerance, step, structure and length choose the method, and th
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
 }
 
-TEST_CASE("auto: in a scene without a power series, or one that is too long for it, tight tolerances take verner98") {
-    const std::string kink = temporary("kink.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-abs(x)*x\"\n[simulation]\nduration = 1\n");
+TEST_CASE(
+    "auto: in a scene without a power series, or one that is too long for it, tight tolerances take verner98") {
+    const std::string kink = temporary("kink.toml",
+                                       "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                                       "\"-abs(x)*x\"\n[simulation]\nduration = 1\n");
     CHECK(simulated(kink, {"--tolerance", "1e-14"})["method"] == "verner98");
 }
 
 TEST_CASE("auto: forces with rates keep a long run with a fixed step from being symplectic") {
-    const std::string damped = temporary("damped.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-x - 0.01*x'\"\n[simulation]\nduration = 20\n");
+    const std::string damped = temporary("damped.toml",
+                                         "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                                         "\"-x - 0.01*x'\"\n[simulation]\nduration = 20\n");
     CHECK(simulated(damped, {"--step", "0.001"})["method"] == "rk4");
 }
 
 TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and ends where radau alone ends") {
     const std::string scene = temporary("stiff.toml", stiff);
-    const Json result = simulated(scene, {"--tolerance", "1e-8"}), radau = simulated(scene, {"--tolerance", "1e-10", "--method", "radau"});
+    const Json result = simulated(scene, {"--tolerance", "1e-8"}),
+               radau = simulated(scene, {"--tolerance", "1e-10", "--method", "radau"});
     REQUIRE(result.contains("switched"));
     CHECK(result["method"] == "dop853");
     CHECK(result["switched"]["method"] == "radau");
@@ -87,7 +93,8 @@ TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and en
     CHECK(std::abs(result["switched"]["largest_eigenvalue"].get<double>() / 1e5 - 1) < 0.1);
     CHECK(result.contains("jacobian_operations"));
     CHECK(result["evaluations"].get<long>() < 200000);  // dop853 alone: 20 s · 1e5/s / 6 steps of 12, 4 000 000
-    CHECK(std::abs(result["final"]["coordinates"]["x"].get<double>() - radau["final"]["coordinates"]["x"].get<double>()) < 1e-6);
+    CHECK(std::abs(result["final"]["coordinates"]["x"].get<double>() -
+                   radau["final"]["coordinates"]["x"].get<double>()) < 1e-6);
     CHECK(std::abs(result["final"]["time"].get<double>() - 20) == 0);
     const auto text = run({"simulate", scene, "--tolerance", "1e-8", "--no-estimate"});
     CHECK(text.out.find("the system is stiff there") != std::string::npos);
@@ -101,14 +108,22 @@ TEST_CASE("auto: taylor too gives way to radau where stiffness holds its steps")
     CHECK(result["evaluations"].get<long>() < 200000);
 }
 
-TEST_CASE("no hang: stiff, singular and chattering scenes end within the budget with a result or a message, by every method") {
-    const std::string chattering = temporary("chattering.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-sign(x)-5*sign(x')\"\n[simulation]\nduration = 20\n");
-    const std::string collision = temporary("collision.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-1/sqrt(x^2)\"\n[simulation]\nduration = 20\n");
+TEST_CASE(
+    "no hang: stiff, singular and chattering scenes end within the budget with a result or a message, by every "
+    "method") {
+    const std::string chattering = temporary("chattering.toml",
+                                             "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                                             "\"-sign(x)-5*sign(x')\"\n[simulation]\nduration = 20\n");
+    const std::string collision = temporary("collision.toml",
+                                            "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
+                                            "\"-1/sqrt(x^2)\"\n[simulation]\nduration = 20\n");
     for (const std::string& scene : {chattering, collision, temporary("stiff.toml", stiff)})
         for (const std::string method : {"auto", "dop853", "taylor", "radau", "bdf"}) {
-            const auto result = run({"simulate", scene, "--method", method, "--tolerance", "1e-13", "--budget", "30000", "--no-estimate"});
+            const auto result = run({"simulate", scene, "--method", method, "--tolerance", "1e-13", "--budget",
+                                     "30000", "--no-estimate"});
             INFO(scene << " " << method << " " << result.err);
-            CHECK((result.exit == 0 || result.exit == 4 || (result.exit == 3 && method == "taylor" && scene == chattering)));
+            CHECK((result.exit == 0 || result.exit == 4 ||
+                   (result.exit == 3 && method == "taylor" && scene == chattering)));
             if (result.exit != 0) CHECK(result.err.size() > 40);
         }
 }

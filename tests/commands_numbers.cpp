@@ -17,11 +17,14 @@ namespace {
 
 /// A mass on a spring, with this force.
 std::string oscillator(const std::string& force, const std::string& start = "0.1") {
-    return "[parameters]\nm1 = 1\n[coordinates]\nx = " + start + "\n[[particle]]\nname = \"A\"\nmass = \"m1\"\nposition = [\"x\", 0]\n[forces]\nx = \"" +
-           force + "\"\n[simulation]\nduration = 1\n";
+    return "[parameters]\nm1 = 1\n[coordinates]\nx = " + start +
+           "\n[[particle]]\nname = \"A\"\nmass = \"m1\"\nposition = [\"x\", 0]\n[forces]\nx = \"" + force +
+           "\"\n[simulation]\nduration = 1\n";
 }
 
-bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool says(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -33,11 +36,13 @@ TEST_CASE("numbers: the root of a negative number inside max, min or sign stops 
         CHECK(says(at_once.err, "sqrt(-0.1)"));
         CHECK(run({"eval", temporary("root.toml", oscillator(force))}).exit == 4);
         // x passes zero on the way.
-        CHECK(run({"simulate", temporary("later.toml", oscillator(force, "{ initial = -0.1, rate = 1 }"))}).exit == 4);
+        CHECK(run({"simulate", temporary("later.toml", oscillator(force, "{ initial = -0.1, rate = 1 }"))}).exit ==
+              4);
     }
 }
 
-TEST_CASE("numbers: a negative mass is refused in --at and --vary as in the scene, by the particle's name and place") {
+TEST_CASE(
+    "numbers: a negative mass is refused in --at and --vary as in the scene, by the particle's name and place") {
     const std::string scene = temporary("mass.toml", oscillator("-x"));
     for (const char* verb : {"eval", "linearize", "inverse"}) {
         CAPTURE(verb);
@@ -79,8 +84,11 @@ duration = 0.1
     CHECK(result.err.find("triangle inequality", first + 1) == std::string::npos);
 }
 
-TEST_CASE("numbers: what has no value or none in double precision is told with its place, in scenes, claims and options") {
-    for (const char* force : {"x*0^0", "x^(0^0)", "1/0", "log(0)", "x/(1-1)", "1e400*x", "x*log(m1-m1)", "x/(m1-m1)"}) {
+TEST_CASE(
+    "numbers: what has no value or none in double precision is told with its place, in scenes, claims and "
+    "options") {
+    for (const char* force :
+         {"x*0^0", "x^(0^0)", "1/0", "log(0)", "x/(1-1)", "1e400*x", "x*log(m1-m1)", "x/(m1-m1)"}) {
         CAPTURE(force);
         const std::string scene = temporary("none.toml", oscillator(force));
         for (const char* verb : {"derive", "eval", "audit", "check", "linearize", "impact", "agree"}) {
@@ -89,7 +97,8 @@ TEST_CASE("numbers: what has no value or none in double precision is told with i
             CHECK(result.exit == 3);
             CHECK(says(result.err, "none.toml:10:"));
         }
-        const auto claim = run({"check", temporary("fine.toml", oscillator("-x")), temporary("claim.txt", std::string("x'' = ") + force + "\n")});
+        const auto claim = run({"check", temporary("fine.toml", oscillator("-x")),
+                                temporary("claim.txt", std::string("x'' = ") + force + "\n")});
         CHECK(claim.exit == 3);
         CHECK(says(claim.err, "claim.txt:1:"));
     }
@@ -101,7 +110,9 @@ TEST_CASE("numbers: what has no value or none in double precision is told with i
 TEST_CASE("numbers: impact without a blow leaves the motion of a scene that gives speeds as it is") {
     const auto result = run({"impact", source_path("scenes/textbook/rattleback.toml"), "--json"});
     REQUIRE(result.exit == 0);
-    const Json json = Json::parse(result.out), before = Json::parse(run({"eval", source_path("scenes/textbook/rattleback.toml"), "--json"}).out)["rates"];
+    const Json json = Json::parse(result.out),
+               before = Json::parse(
+                   run({"eval", source_path("scenes/textbook/rattleback.toml"), "--json"}).out)["rates"];
     for (const auto& [name, value] : before.items()) {
         CAPTURE(name);
         CHECK(json["before"][name].get<double>() == doctest::Approx(value.get<double>()).epsilon(1e-12));
@@ -111,13 +122,16 @@ TEST_CASE("numbers: impact without a blow leaves the motion of a scene that give
 
 TEST_CASE("numbers: powers that are no whole ones do not keep the derivation from its end") {
     // In a^(1/1250), a common denominator of the exponents, this inertia is of degree 3927.
-    const std::string body = "[parameters]\nm1 = 2\na = 0.66\n[coordinates]\ntheta = 0.3\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", \"theta\"]]\n"
-                             "[[body]]\nname = \"B\"\nframe = \"F\"\nmass = \"m1\"\ninertia = \"m1*(a^3.1416/12 + a^2/4 + 1)\"\n"
-                             "position = [\"a^1.5*sin(theta)\", \"a*cos(theta)\"]\n";
+    const std::string body =
+        "[parameters]\nm1 = 2\na = 0.66\n[coordinates]\ntheta = 0.3\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", "
+        "\"theta\"]]\n"
+        "[[body]]\nname = \"B\"\nframe = \"F\"\nmass = \"m1\"\ninertia = \"m1*(a^3.1416/12 + a^2/4 + 1)\"\n"
+        "position = [\"a^1.5*sin(theta)\", \"a*cos(theta)\"]\n";
     const auto derived = run({"derive", temporary("power.toml", body)});
     CHECK(derived.exit == 0);
     const auto eval = run({"eval", temporary("power.toml", body), "--json", "--at", "theta'=1", "theta=0"});
     REQUIRE(eval.exit == 0);
     const double a = 0.66;
-    CHECK(Json::parse(eval.out)["kinetic"].get<double>() == doctest::Approx(std::pow(a, 3.1416) / 12 + a * a / 4 + 1 + a * a * a).epsilon(1e-14));
+    CHECK(Json::parse(eval.out)["kinetic"].get<double>() ==
+          doctest::Approx(std::pow(a, 3.1416) / 12 + a * a / 4 + 1 + a * a * a).epsilon(1e-14));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `--method rattle` and `rattle8` on scenes, against dop853 on the same motion in other coordinates or by other equations; and the
-// methods of SUNDIALS, `cvode` and `ida`, against dop853 too.
+// `--method rattle` and `rattle8` on scenes, against dop853 on the same motion in other coordinates or by other
+// equations; and the methods of SUNDIALS, `cvode` and `ida`, against dop853 too.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,7 +27,9 @@ Json simulated(const std::string& scene, std::vector<std::string> more) {
     return Json::parse(result.out);
 }
 
-std::string textbook(const std::string& name) { return source_path("scenes/textbook/" + name + ".toml"); }
+std::string textbook(const std::string& name) {
+    return source_path("scenes/textbook/" + name + ".toml");
+}
 
 /// The largest difference of coordinates and rates at the end.
 double apart(const Json& a, const Json& b) {
@@ -53,7 +55,8 @@ position = ["l*sin(phi)", "-l*cos(phi)"]
 duration = 10
 )toml";
 
-// In polar coordinates, M = diag(m, m r²), on an ellipse whose centre is moved about; with a damper, and a load that is no potential.
+// In polar coordinates, M = diag(m, m r²), on an ellipse whose centre is moved about; with a damper, and a load
+// that is no potential.
 const char* const driven = R"toml(
 gravity = [0, "-g"]
 [parameters]
@@ -85,18 +88,22 @@ duration = 3
 
 TEST_CASE("rattle: the Cartesian pendulum keeps its length and its energy, and is where its angle says") {
     const std::string scene = source_path("scenes/benchmark/cartesian_pendulum.toml");
-    const Json angle = simulated(temporary("angle.toml", by_angle), {"--tolerance", "1e-13", "--method", "dop853"});
+    const Json angle =
+        simulated(temporary("angle.toml", by_angle), {"--tolerance", "1e-13", "--method", "dop853"});
     const double phi = angle["final"]["coordinates"]["phi"], rate = angle["final"]["rates"]["phi"];
     const auto error = [&](const Json& end) {
         const Json& q = end["final"]["coordinates"];
         const Json& u = end["final"]["rates"];
-        return std::max({std::abs(q["x"].get<double>() - std::sin(phi)), std::abs(q["y"].get<double>() + std::cos(phi)),
-                         std::abs(u["x"].get<double>() - rate * std::cos(phi)), std::abs(u["y"].get<double>() - rate * std::sin(phi))});
+        return std::max({std::abs(q["x"].get<double>() - std::sin(phi)),
+                         std::abs(q["y"].get<double>() + std::cos(phi)),
+                         std::abs(u["x"].get<double>() - rate * std::cos(phi)),
+                         std::abs(u["y"].get<double>() - rate * std::sin(phi))});
     };
     const auto runs = [&](const std::string& method, const std::string& step, const std::string& duration) {
         return simulated(scene, {"--method", method, "--step", step, "--duration", duration, "--sample", "10"});
     };
-    const Json coarse = runs("rattle", "0.002", "10"), fine = runs("rattle", "0.001", "10"), high = runs("rattle8", "0.05", "10");
+    const Json coarse = runs("rattle", "0.002", "10"), fine = runs("rattle", "0.001", "10"),
+               high = runs("rattle8", "0.05", "10");
     CHECK(std::abs(std::log2(error(coarse) / error(fine)) - 2) < 0.1);
     CHECK(error(high) < 1e-8);
     CHECK(fine["method"] == "rattle");
@@ -109,8 +116,10 @@ TEST_CASE("rattle: the Cartesian pendulum keeps its length and its energy, and i
 
 TEST_CASE("rattle: linkages, whose mass matrix changes and whose loops are constraints, end where dop853 ends") {
     for (const std::string name : {"four_bar", "slider_crank"}) {
-        const Json exact = simulated(textbook(name), {"--tolerance", "1e-13", "--method", "dop853", "--duration", "1"});
-        const Json coarse = simulated(textbook(name), {"--method", "rattle", "--step", "0.001", "--duration", "1"});
+        const Json exact =
+            simulated(textbook(name), {"--tolerance", "1e-13", "--method", "dop853", "--duration", "1"});
+        const Json coarse =
+            simulated(textbook(name), {"--method", "rattle", "--step", "0.001", "--duration", "1"});
         const Json fine = simulated(textbook(name), {"--method", "rattle", "--step", "0.0005", "--duration", "1"});
         const Json high = simulated(textbook(name), {"--method", "rattle8", "--step", "0.005", "--duration", "1"});
         INFO(name << " " << apart(coarse, exact) << " " << apart(fine, exact) << " " << apart(high, exact));
@@ -123,17 +132,21 @@ TEST_CASE("rattle: linkages, whose mass matrix changes and whose loops are const
 TEST_CASE("rattle: moving constraints, dampers and loads keep the order, and the work balance with it") {
     const std::string scene = temporary("driven.toml", driven);
     const Json exact = simulated(scene, {"--tolerance", "1e-13", "--method", "dop853"});
-    const Json coarse = simulated(scene, {"--method", "rattle", "--step", "0.002"}), fine = simulated(scene, {"--method", "rattle", "--step", "0.001"});
+    const Json coarse = simulated(scene, {"--method", "rattle", "--step", "0.002"}),
+               fine = simulated(scene, {"--method", "rattle", "--step", "0.001"});
     CHECK(std::abs(std::log2(apart(coarse, exact) / apart(fine, exact)) - 2) < 0.1);
-    CHECK(std::abs(std::log2(coarse["work_balance"].get<double>() / fine["work_balance"].get<double>()) - 2) < 0.2);
+    CHECK(std::abs(std::log2(coarse["work_balance"].get<double>() / fine["work_balance"].get<double>()) - 2) <
+          0.2);
     CHECK(apart(simulated(scene, {"--method", "rattle8", "--step", "0.05"}), exact) < 1e-8);
     // The power of what moves the centre has accelerations in it: so has the row of the work in radau's Jacobian.
     CHECK(apart(simulated(scene, {"--method", "radau", "--tolerance", "1e-11"}), exact) < 1e-8);
 }
 
-// By quaternions no inertia resists the direction of e: L has the constraint's share there (alembert/canonical.hpp).
-// sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall on ends of steps up to rounding: steps of no length to there.
-TEST_CASE("rattle: a slider-crank without a degree of freedom goes where its drive takes it, with rows on its steps") {
+// By quaternions no inertia resists the direction of e: L has the constraint's share there
+// (alembert/canonical.hpp). sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall on ends of
+// steps up to rounding: steps of no length to there.
+TEST_CASE(
+    "rattle: a slider-crank without a degree of freedom goes where its drive takes it, with rows on its steps") {
     const std::string driven_crank = temporary("driven_crank.toml", R"toml(
 gravity = [0, -9.81]
 [coordinates]
@@ -172,12 +185,15 @@ holonomic = "0.2*sin(phi) = 0.5*sin(beta)"
 }
 
 TEST_CASE("rattle: a body turned by a quaternion spins as Euler's equations have it") {
-    const Json exact = simulated(textbook("free_body_quaternion"), {"--tolerance", "1e-13", "--method", "dop853", "--duration", "5"});
-    const Json high = simulated(textbook("free_body_quaternion"), {"--method", "rattle8", "--step", "0.05", "--duration", "5", "--by", "routh"});
+    const Json exact = simulated(textbook("free_body_quaternion"),
+                                 {"--tolerance", "1e-13", "--method", "dop853", "--duration", "5"});
+    const Json high = simulated(textbook("free_body_quaternion"),
+                                {"--method", "rattle8", "--step", "0.05", "--duration", "5", "--by", "routh"});
     INFO(apart(high, exact));
     CHECK(apart(high, exact) < 1e-9);
     CHECK(high["constraint_drift"].get<double>() < 1e-12);
-    CHECK(run({"simulate", textbook("free_body_quaternion"), "--method", "rattle", "--step", "0.1"}).err.find("generalized speeds") != std::string::npos);
+    CHECK(run({"simulate", textbook("free_body_quaternion"), "--method", "rattle", "--step", "0.1"})
+              .err.find("generalized speeds") != std::string::npos);
 }
 
 TEST_CASE("rattle: constraints of rates are refused with the name of one, and a step is asked for") {
@@ -185,23 +201,29 @@ TEST_CASE("rattle: constraints of rates are refused with the name of one, and a 
     CHECK(sled.exit == 3);
     CHECK(sled.err.find("one of rates") != std::string::npos);
     CHECK(run({"simulate", textbook("cartesian_pendulum"), "--method", "rattle"}).exit == 3);
-    CHECK(run({"sweep", textbook("cartesian_pendulum"), "--vary", "m=1:2:3", "--method", "rattle", "--step", "0.01"}).exit == 3);
+    CHECK(
+        run({"sweep", textbook("cartesian_pendulum"), "--vary", "m=1:2:3", "--method", "rattle", "--step", "0.01"})
+            .exit == 3);
 }
 
 namespace {
 
 /// The back end is built where SUNDIALS is.
-bool has_sundials() { return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so"); }
+bool has_sundials() {
+    return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so");
+}
 
 }  // namespace
 
 TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, driven and stiff") {
     if (!has_sundials()) return;
     const std::string slider = textbook("slider_crank"), moved = temporary("driven.toml", driven);
-    for (const std::string& scene : {textbook("double_pendulum"), textbook("cartesian_pendulum"), slider, moved, textbook("free_body_quaternion")}) {
+    for (const std::string& scene : {textbook("double_pendulum"), textbook("cartesian_pendulum"), slider, moved,
+                                     textbook("free_body_quaternion")}) {
         const Json exact = simulated(scene, {"--tolerance", "1e-13", "--method", "dop853", "--duration", "1"});
         for (const std::string method : {"cvode", "ida"}) {
-            if (method == "ida" && scene == textbook("free_body_quaternion")) continue;  // speeds, and a constraint
+            if (method == "ida" && scene == textbook("free_body_quaternion"))
+                continue;  // speeds, and a constraint
             const Json result = simulated(scene, {"--tolerance", "1e-10", "--method", method, "--duration", "1"});
             INFO(scene << " " << method << " " << apart(result, exact) << " " << result["steps"]);
             CHECK(result["method"] == method);
@@ -211,7 +233,8 @@ TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, dri
         }
     }
     const std::string flyball = source_path("scenes/benchmark/flyball_governor.toml");
-    const Json exact = simulated(flyball, {"--tolerance", "1e-12", "--method", "radau"}), stiff = simulated(flyball, {"--tolerance", "1e-9", "--method", "cvode"});
+    const Json exact = simulated(flyball, {"--tolerance", "1e-12", "--method", "radau"}),
+               stiff = simulated(flyball, {"--tolerance", "1e-9", "--method", "cvode"});
     CHECK(apart(stiff, exact) < 1e-5);
     CHECK(stiff["evaluations"].get<long>() < 200000);
     CHECK(stiff.contains("jacobian_operations"));
@@ -220,7 +243,8 @@ TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, dri
 TEST_CASE("sundials: rows fall on the grid, the estimate is made, and budgets end a run with what there is") {
     if (!has_sundials()) return;
     const std::string scene = textbook("cartesian_pendulum"), file = temporary("rows.csv", "");
-    const auto result = run({"simulate", scene, "--method", "cvode", "--duration", "1", "--sample", "0.25", "-o", file, "--json"});
+    const auto result =
+        run({"simulate", scene, "--method", "cvode", "--duration", "1", "--sample", "0.25", "-o", file, "--json"});
     REQUIRE(result.exit == 0);
     CHECK(Json::parse(result.out)["error_estimate"]["value"].get<double>() < 1e-5);
     CHECK(std::filesystem::file_size(file) > 100);
@@ -238,7 +262,8 @@ TEST_CASE("sundials: a program without the back end beside it says what to insta
     const std::filesystem::path alone = temporary("alembert-alone", "");
     std::filesystem::copy_file(ALEMBERT_PROGRAM, alone, std::filesystem::copy_options::overwrite_existing);
     std::filesystem::permissions(alone, std::filesystem::perms::owner_all);
-    const std::string command = alone.string() + " simulate " + textbook("cartesian_pendulum") + " --method cvode 2> " + alone.string() + ".err";
+    const std::string command = alone.string() + " simulate " + textbook("cartesian_pendulum") +
+                                " --method cvode 2> " + alone.string() + ".err";
     const int status = std::system(command.c_str());
     CHECK(WEXITSTATUS(status) == 5);
     std::ifstream in(alone.string() + ".err");

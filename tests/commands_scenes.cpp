@@ -20,7 +20,9 @@ using Json = nlohmann::json;
 
 namespace {
 
-std::string scene(const std::string& name) { return source_path("scenes/textbook/" + name + ".toml"); }
+std::string scene(const std::string& name) {
+    return source_path("scenes/textbook/" + name + ".toml");
+}
 
 Json simulated(const std::string& name, const std::string& duration) {
     const auto result = run({"simulate", scene(name), "--json", "--tolerance", "1e-13", "--duration", duration});
@@ -37,7 +39,8 @@ Json evaluated(const std::string& name, std::vector<std::string> at = {}) {
 
 double distance(const Json& found, const std::map<std::string, double>& expected) {
     double worst = 0;
-    for (const auto& [name, value] : expected) worst = std::max(worst, std::abs(found[name].get<double>() - value));
+    for (const auto& [name, value] : expected)
+        worst = std::max(worst, std::abs(found[name].get<double>() - value));
     return worst;
 }
 
@@ -61,32 +64,38 @@ std::vector<std::map<std::string, double>> rows_of(const std::string& file) {
 
 }  // namespace
 
-// v along the blade and w are constant: a circle of radius v/w. The side force is m v w, to the left of the heading.
-// Some hundred steps with local errors of 1e-13 each.
+// v along the blade and w are constant: a circle of radius v/w. The side force is m v w, to the left of the
+// heading. Some hundred steps with local errors of 1e-13 each.
 TEST_CASE("commands: the sled runs in a circle, through the headings at which tan is infinite") {
     const double v = 1.2, w = 1, t = 10;
     const Json json = simulated("sled_regular", "10");
     CHECK(distance(json["final"]["coordinates"],
-                   {{"xC", v / w * std::sin(w * t)}, {"yC", v / w * (1 - std::cos(w * t))}, {"phi", w * t}}) < 1e-10);
-    CHECK(distance(json["final"]["rates"], {{"xC", v * std::cos(w * t)}, {"yC", v * std::sin(w * t)}, {"phi", w}}) < 1e-10);
+                   {{"xC", v / w * std::sin(w * t)}, {"yC", v / w * (1 - std::cos(w * t))}, {"phi", w * t}}) <
+          1e-10);
+    CHECK(distance(json["final"]["rates"],
+                   {{"xC", v * std::cos(w * t)}, {"yC", v * std::sin(w * t)}, {"phi", w}}) < 1e-10);
     CHECK(json["constraint_drift"].get<double>() < 1e-13);
-    CHECK(evaluated("sled_regular")["multipliers"]["lambda1"].get<double>() == doctest::Approx(-4 * v * w).epsilon(1e-14));
+    CHECK(evaluated("sled_regular")["multipliers"]["lambda1"].get<double>() ==
+          doctest::Approx(-4 * v * w).epsilon(1e-14));
 }
 
-// The same circle with the constraint as the book writes it, short of the quarter turn: at phi = 1.5 an error of the
-// constraint is multiplied by tan(phi) = 14.
+// The same circle with the constraint as the book writes it, short of the quarter turn: at phi = 1.5 an error of
+// the constraint is multiplied by tan(phi) = 14.
 TEST_CASE("commands: the sled with tan(phi) in its constraint runs in the same circle, up to a quarter turn") {
     const double v = 1.2, w = 0.3, t = 5;
     const Json json = simulated("sled", "5");
     CHECK(distance(json["final"]["coordinates"],
-                   {{"xC", v / w * std::sin(w * t)}, {"yC", v / w * (1 - std::cos(w * t))}, {"phi", w * t}}) < 1e-10);
-    CHECK(distance(json["final"]["rates"], {{"xC", v * std::cos(w * t)}, {"yC", v * std::sin(w * t)}, {"phi", w}}) < 1e-10);
+                   {{"xC", v / w * std::sin(w * t)}, {"yC", v / w * (1 - std::cos(w * t))}, {"phi", w * t}}) <
+          1e-10);
+    CHECK(distance(json["final"]["rates"],
+                   {{"xC", v * std::cos(w * t)}, {"yC", v * std::sin(w * t)}, {"phi", w}}) < 1e-10);
 }
 
 // x'' = −2/7 Ω y', y'' = 2/7 Ω x' with 2/7 Ω = 1: a circle of radius 0.5 about (0.03, 0), once in 2 pi.
 TEST_CASE("commands: the ball on a turntable runs in a circle at 2/7 of the table's rate and keeps its spin") {
     const std::string file = temporary("ball.csv", "");
-    const auto result = run({"simulate", scene("turntable_ball"), "--tolerance", "1e-13", "--sample", "0.5", "-o", file});
+    const auto result =
+        run({"simulate", scene("turntable_ball"), "--tolerance", "1e-13", "--sample", "0.5", "-o", file});
     REQUIRE(result.exit == 0);
     const auto rows = rows_of(file);
     REQUIRE(rows.size() == 41);
@@ -106,7 +115,8 @@ TEST_CASE("commands: the double Atwood machine moves as if the lower machine wer
     const double a = (m1 - effective) / (m1 + effective) * g;
     const Json free = evaluated("double_atwood", {"--at", "m1=3", "m2=1.7", "m3=0.4"});
     CHECK(free["accelerations"]["x"].get<double>() == doctest::Approx(a).epsilon(1e-13));
-    CHECK(free["accelerations"]["y"].get<double>() == doctest::Approx((m2 - m3) / (m2 + m3) * (g + a)).epsilon(1e-13));
+    CHECK(free["accelerations"]["y"].get<double>() ==
+          doctest::Approx((m2 - m3) / (m2 + m3) * (g + a)).epsilon(1e-13));
 
     const double heavy = (m1 - mp - effective) / (m1 + mp + effective) * g;
     const double pull = 2 * m2 * m3 / (m2 + m3) * (g + heavy);
@@ -142,9 +152,11 @@ TEST_CASE("commands: two bodies obey Kepler's third law and his equation") {
         double E = mean;
         for (int k = 0; k < 20; ++k) E -= (E - e * std::sin(E) - mean) / (1 - e * std::cos(E));
         const double turns = 2 * M_PI * std::round(E / (2 * M_PI));
-        const double phi = turns + 2 * std::atan2(std::sqrt(1 + e) * std::sin((E - turns) / 2), std::sqrt(1 - e) * std::cos((E - turns) / 2));
+        const double phi = turns + 2 * std::atan2(std::sqrt(1 + e) * std::sin((E - turns) / 2),
+                                                  std::sqrt(1 - e) * std::cos((E - turns) / 2));
         const Json json = simulated("two_body", duration);
-        CHECK(distance(json["final"]["coordinates"], {{"X", 0.4 * t}, {"Y", -0.1 * t}, {"r", 2 * (1 - e * std::cos(E))}, {"phi", phi}}) < 1e-10);
+        CHECK(distance(json["final"]["coordinates"],
+                       {{"X", 0.4 * t}, {"Y", -0.1 * t}, {"r", 2 * (1 - e * std::cos(E))}, {"phi", phi}}) < 1e-10);
         CHECK(json["energy_drift"].get<double>() < 1e-12);
     }
 }
@@ -156,6 +168,7 @@ TEST_CASE("commands: the coin on an incline does not run down but wanders across
     const auto x = [&](double th) { return r / w * (c * std::sin(th) + K * std::sin(th) * std::sin(th) / 2); };
     const auto y = [&](double th) { return r / w * (-c * std::cos(th) + K * (th / 2 - std::sin(2 * th) / 4)); };
     const Json json = simulated("coin", "5");
-    CHECK(distance(json["final"]["coordinates"], {{"x", x(theta) - x(theta0)}, {"y", y(theta) - y(theta0)}, {"theta", theta}}) < 1e-11);
+    CHECK(distance(json["final"]["coordinates"],
+                   {{"x", x(theta) - x(theta0)}, {"y", y(theta) - y(theta0)}, {"theta", theta}}) < 1e-11);
     CHECK(json["final"]["rates"]["phi"].get<double>() == doctest::Approx(c + K * std::sin(theta)).epsilon(1e-11));
 }

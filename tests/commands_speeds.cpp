@@ -23,7 +23,9 @@ Json json_of(const std::vector<std::string>& args) {
     return Json::parse(result.out);
 }
 
-double number(const Json& object, const char* group, const char* name) { return object[group][name].get<double>(); }
+double number(const Json& object, const char* group, const char* name) {
+    return object[group][name].get<double>();
+}
 
 }  // namespace
 
@@ -33,9 +35,10 @@ TEST_CASE("commands: the sleigh in v and w follows its closed form without a mul
     const double c = std::sqrt(v0 * v0 + w0 * w0 * K / m), l = a * m * c / K, b = std::atanh(v0 / c);
     for (const char* t : {"1", "3", "10"}) {
         CAPTURE(t);
-        const Json json = json_of({"simulate", source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml"), "--json", "--tolerance",
-                                   "1e-13", "--duration", t});
-        const double phase = l * std::stod(t) + b, v = c * std::tanh(phase), w = c * std::sqrt(m / K) / std::cosh(phase);
+        const Json json = json_of({"simulate", source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml"),
+                                   "--json", "--tolerance", "1e-13", "--duration", t});
+        const double phase = l * std::stod(t) + b, v = c * std::tanh(phase),
+                     w = c * std::sqrt(m / K) / std::cosh(phase);
         const Json& end = json["final"];
         CHECK(std::abs(number(end, "speeds", "v") - v) < 1e-10);
         CHECK(std::abs(number(end, "speeds", "w") - w) < 1e-10);
@@ -53,7 +56,8 @@ TEST_CASE("commands: the sleigh in v and w follows its closed form without a mul
 }
 
 TEST_CASE("commands: the sleigh without speeds is reduced by Kane's equations too, at every heading") {
-    const Json json = json_of({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--by", "kane", "--tolerance", "1e-13"});
+    const Json json = json_of({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--by",
+                               "kane", "--tolerance", "1e-13"});
     CHECK(std::abs(number(json["final"], "coordinates", "x") + 18.23918484310695690258495) < 1e-10);
     CHECK(std::abs(number(json["final"], "rates", "phi") - 0.00034352657603529491905111653790) < 1e-10);
     CHECK(!json["final"].contains("speeds"));
@@ -63,8 +67,8 @@ TEST_CASE("commands: the sleigh without speeds is reduced by Kane's equations to
 TEST_CASE("commands: a ball on a turntable runs on a circle") {
     const std::string scene = source_path("scenes/textbook/ball_on_turntable.toml");
     const Json start = json_of({"eval", scene, "--json"});
-    const double x = number(start, "coordinates", "x"), y = number(start, "coordinates", "y"), vx = number(start, "rates", "x"),
-                 vy = number(start, "rates", "y"), k = 2 * 3.0 / 7, t = 2;
+    const double x = number(start, "coordinates", "x"), y = number(start, "coordinates", "y"),
+                 vx = number(start, "rates", "x"), vy = number(start, "rates", "y"), k = 2 * 3.0 / 7, t = 2;
     CHECK(std::abs(vx - (0.05 * 4.0 - 3.0 * y)) < 1e-13);
     for (const char* by : {"kane", "routh"}) {
         CAPTURE(by);
@@ -82,16 +86,19 @@ TEST_CASE("commands: a free body in body components keeps its energy and moves a
                lagrange = json_of({"simulate", scene, "--json", "--by", "lagrange", "--tolerance", "1e-12"});
     CHECK(kane["energy_drift"].get<double>() < 1e-12);
     for (const char* q : {"psi", "theta", "phi"}) {
-        CHECK(std::abs(number(kane["final"], "coordinates", q) - number(lagrange["final"], "coordinates", q)) < 1e-9);
+        CHECK(std::abs(number(kane["final"], "coordinates", q) - number(lagrange["final"], "coordinates", q)) <
+              1e-9);
         CHECK(std::abs(number(kane["final"], "rates", q) - number(lagrange["final"], "rates", q)) < 1e-9);
     }
 }
 
 TEST_CASE("commands: all ways of elimination give the same motion, multipliers and speeds") {
-    for (const char* file : {"tests/odd/speeds_oblique.toml", "tests/odd/speeds_with_multipliers.toml", "tests/odd/speeds_all_eliminated.toml"}) {
+    for (const char* file : {"tests/odd/speeds_oblique.toml", "tests/odd/speeds_with_multipliers.toml",
+                             "tests/odd/speeds_all_eliminated.toml"}) {
         CAPTURE(file);
         const std::string other = std::string(file).find("oblique") != std::string::npos ? "lagrange" : "routh";
-        const Json a = json_of({"eval", source_path(file), "--json"}), b = json_of({"eval", source_path(file), "--json", "--by", other});
+        const Json a = json_of({"eval", source_path(file), "--json"}),
+                   b = json_of({"eval", source_path(file), "--json", "--by", other});
         for (const char* group : {"rates", "accelerations", "speeds", "speed_rates", "multipliers", "outputs"})
             for (const auto& item : b[group].items()) {
                 const std::string name = item.key();
@@ -100,11 +107,14 @@ TEST_CASE("commands: all ways of elimination give the same motion, multipliers a
                 CAPTURE(name);
                 CHECK(std::abs(a[group][name].get<double>() - value) < 1e-11 * (1 + std::abs(value)));
             }
-        const Json first = json_of({"simulate", source_path(file), "--json", "--duration", "1", "--tolerance", "1e-11"}),
-                   second = json_of({"simulate", source_path(file), "--json", "--duration", "1", "--tolerance", "1e-11", "--by", other});
+        const Json first = json_of(
+                       {"simulate", source_path(file), "--json", "--duration", "1", "--tolerance", "1e-11"}),
+                   second = json_of({"simulate", source_path(file), "--json", "--duration", "1", "--tolerance",
+                                     "1e-11", "--by", other});
         CHECK(first["formulation"].get<std::string>().rfind("kane", 0) == 0);
         for (const auto& item : second["final"]["coordinates"].items())
-            CHECK(std::abs(number(first["final"], "coordinates", item.key().c_str()) - item.value().get<double>()) < 1e-8);
+            CHECK(std::abs(number(first["final"], "coordinates", item.key().c_str()) -
+                           item.value().get<double>()) < 1e-8);
     }
 }
 
@@ -125,9 +135,12 @@ TEST_CASE("commands: eval and simulate give speeds by name, rates still by coord
 }
 
 TEST_CASE("commands: wrong speeds are refused with the reason") {
-    const auto fails = [](const std::string& speeds, const std::vector<std::string>& more, int exit, const std::string& message) {
-        std::vector<std::string> args{"eval", temporary("speeds.toml", "[coordinates]\nx = 0.1\ny = 0.2\n[speeds]\n" + speeds +
-                                                                           "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n")};
+    const auto fails = [](const std::string& speeds, const std::vector<std::string>& more, int exit,
+                          const std::string& message) {
+        std::vector<std::string> args{
+            "eval",
+            temporary("speeds.toml", "[coordinates]\nx = 0.1\ny = 0.2\n[speeds]\n" + speeds +
+                                         "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\"]\n")};
         args.insert(args.end(), more.begin(), more.end());
         const auto result = run(args);
         CAPTURE(result.err);
@@ -137,7 +150,8 @@ TEST_CASE("commands: wrong speeds are refused with the reason") {
     fails("u = \"x'\"\n", {}, 3, "there is 1 generalized speed");
     fails("u = \"x'\"\nv = \"x'*y\"\n", {}, 3, "speeds.toml:6:1: speed 'v' is a combination");
     fails("u = \"x'\"\nv = \"y'\"\n", {"--at", "u=1"}, 3, "the scene gives rates");
-    fails("u = { form = \"x'\", initial = 2 }\nv = \"y'\"\n", {"--at", "x'=1"}, 3, "the rates follow from the speeds");
+    fails("u = { form = \"x'\", initial = 2 }\nv = \"y'\"\n", {"--at", "x'=1"}, 3,
+          "the rates follow from the speeds");
     fails("u = { form = \"(x-0.1)*x'\", initial = 2 }\nv = \"y'\"\n", {}, 4, "lose rank at these coordinates");
     fails("u = \"(x-0.1)*x'\"\nv = \"y'\"\n", {}, 4, "there are no finite accelerations");
 }

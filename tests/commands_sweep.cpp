@@ -52,7 +52,8 @@ Json sweep(std::vector<std::string> words, int exit = 0) {
 
 TEST_CASE("sweep: each row is what simulate gives from that state") {
     const std::string scene = source_path("scenes/benchmark/double_pendulum_regular.toml");
-    const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary", "theta2'=-0.5:0.5:2", "--duration", "3"});
+    const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary",
+                              "theta2'=-0.5:0.5:2", "--duration", "3"});
     REQUIRE(table["rows"].size() == 12);
     for (const std::size_t k : {0UL, 5UL, 10UL}) {
         const Json& row = table["rows"][k];
@@ -69,7 +70,8 @@ TEST_CASE("sweep: each row is what simulate gives from that state") {
         // The energy of the row's start is kept until its end: both states belong to the same parameters.
         std::vector<std::string> words{"eval", scene, "--json", "--at", "l1=" + row["varied"]["l1"].dump()};
         for (const char* name : {"theta1", "theta2"}) {
-            words.insert(words.end(), {"--at", std::string(name) + "=" + row["final"]["coordinates"][name].dump()});
+            words.insert(words.end(),
+                         {"--at", std::string(name) + "=" + row["final"]["coordinates"][name].dump()});
             words.insert(words.end(), {"--at", std::string(name) + "'=" + row["final"]["rates"][name].dump()});
         }
         const auto end = run(words);
@@ -79,10 +81,12 @@ TEST_CASE("sweep: each row is what simulate gives from that state") {
         CHECK(row["status"] == "done");
     }
     const auto plain = run({"simulate", scene, "--json", "--duration", "3"});
-    const Json whole = Json::parse(plain.out), same = sweep({scene, "--vary", "t=0:0:1", "--duration", "3"})["rows"][0];
+    const Json whole = Json::parse(plain.out),
+               same = sweep({scene, "--vary", "t=0:0:1", "--duration", "3"})["rows"][0];
     for (const char* part : {"coordinates", "rates"})
         for (const char* name : {"theta1", "theta2"})
-            CHECK(std::abs(same["final"][part][name].get<double>() - whole["final"][part][name].get<double>()) < 1e-12);
+            CHECK(std::abs(same["final"][part][name].get<double>() - whole["final"][part][name].get<double>()) <
+                  1e-12);
     CHECK(same["steps"] == whole["steps"]);
 }
 
@@ -102,7 +106,8 @@ TEST_CASE("sweep: the table has a header and a row for each point, the same for 
     const auto many = run({"sweep", scene, "--vary", "k=1:9:17", "--vary", "x'=0:1:3", "--threads", "4"});
     CHECK(one.exit == 0);
     CHECK(one.out == many.out);
-    CHECK(one.out.starts_with("k,x',final_t,final_x,final_x',energy_drift,steps,rejected,evaluations,status\n1,0,3,"));
+    CHECK(one.out.starts_with(
+        "k,x',final_t,final_x,final_x',energy_drift,steps,rejected,evaluations,status\n1,0,3,"));
     CHECK(std::count(one.out.begin(), one.out.end(), '\n') == 52);
     const std::string file = temporary("table.csv", "");
     CHECK(run({"sweep", scene, "--vary", "k=1:9:17", "--vary", "x'=0:1:3", "-o", file}).exit == 0);
@@ -110,7 +115,9 @@ TEST_CASE("sweep: the table has a header and a row for each point, the same for 
     CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == one.out);
 }
 
-TEST_CASE("sweep: rows with constraints and from guesses are those of simulate; a start that cannot be had is told in its row") {
+TEST_CASE(
+    "sweep: rows with constraints and from guesses are those of simulate; a start that cannot be had is told in "
+    "its row") {
     const std::string scene = source_path("scenes/textbook/cartesian_pendulum.toml");
     const Json table = sweep({scene, "--vary", "g=5:9.81:2", "--duration", "1"});
     CHECK(table["side_by_side"] == 1);
@@ -125,19 +132,21 @@ TEST_CASE("sweep: rows with constraints and from guesses are those of simulate; 
 
 TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
     const std::string scene = temporary("spring.toml", spring);
-    for (const auto& [vary, words] : std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},
-                                                                                     {"k=0:1", "is no range"},
-                                                                                     {"k", "no NAME="},
-                                                                                     {"k=0:1:0", "nothing to do"},
-                                                                                     {"k=0:1:-3", "nothing to do"},
-                                                                                     {"k=0:inf:3", "no finite number"},
-                                                                                     {"k=0:1:2.5", "no whole number"},
-                                                                                     {"k=0:1:99999999", "more than 1000000"}}) {
+    for (const auto& [vary, words] :
+         std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},
+                                                          {"k=0:1", "is no range"},
+                                                          {"k", "no NAME="},
+                                                          {"k=0:1:0", "nothing to do"},
+                                                          {"k=0:1:-3", "nothing to do"},
+                                                          {"k=0:inf:3", "no finite number"},
+                                                          {"k=0:1:2.5", "no whole number"},
+                                                          {"k=0:1:99999999", "more than 1000000"}}) {
         const auto result = run({"sweep", scene, "--vary", vary});
         CHECK(result.exit == 3);
         CHECK(result.err.find(words) != std::string::npos);
     }
-    CHECK(run({"sweep", scene, "--vary", "k=1:2:3", "--vary", "k=1:2:3"}).err.find("varied twice") != std::string::npos);
+    CHECK(run({"sweep", scene, "--vary", "k=1:2:3", "--vary", "k=1:2:3"}).err.find("varied twice") !=
+          std::string::npos);
     CHECK(run({"sweep", source_path("scenes/textbook/bouncing_ball.toml"), "--vary", "g=9:10:2"}).exit == 3);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The method taylor in whole runs: against the digits of the cases' pages (Kepler's equation, 110-digit series), closed forms, and
-// the same pendulum in other coordinates.
+// The method taylor in whole runs: against the digits of the cases' pages (Kepler's equation, 110-digit series),
+// closed forms, and the same pendulum in other coordinates.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -27,10 +27,16 @@ Json simulated(const std::string& scene, std::vector<std::string> more, const ch
     return Json::parse(result.out);
 }
 
-double coordinate(const Json& run, const std::string& name) { return run["final"]["coordinates"][name].get<double>(); }
-double rate(const Json& run, const std::string& name) { return run["final"]["rates"][name].get<double>(); }
+double coordinate(const Json& run, const std::string& name) {
+    return run["final"]["coordinates"][name].get<double>();
+}
+double rate(const Json& run, const std::string& name) {
+    return run["final"]["rates"][name].get<double>();
+}
 
-std::string benchmark(const std::string& name) { return source_path("scenes/benchmark/" + name + ".toml"); }
+std::string benchmark(const std::string& name) {
+    return source_path("scenes/benchmark/" + name + ".toml");
+}
 
 const char* const oscillator = R"toml(
 [coordinates]
@@ -47,8 +53,8 @@ method = "taylor"
 }  // namespace
 
 TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where the pages say") {
-    // 10 orbits amplify a relative error of the energy about 100-fold in time, and the comet moves at 3.4: 1e-8 leaves room for 4e-11
-    // of it. A local error at pericentre of 1e-14 is 1e-10 there.
+    // 10 orbits amplify a relative error of the energy about 100-fold in time, and the comet moves at 3.4: 1e-8
+    // leaves room for 4e-11 of it. A local error at pericentre of 1e-14 is 1e-10 there.
     const Json comet = simulated(benchmark("kepler"), {"--tolerance", "1e-14"});
     CHECK(std::abs(coordinate(comet, "x") + 0.1351664773678210293925794571396607994198) < 1e-8);
     CHECK(std::abs(rate(comet, "y") - 0.7844989436495845826968187373479917536626) < 1e-8);
@@ -62,9 +68,11 @@ TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where 
     CHECK(std::abs(coordinate(planets, "zPluto") + 15.043469221823263493829179433668) < 1e-10);
 }
 
-// Lanes of a pack that wait for the accelerations or have other equal arguments, entries of M that no row needs but through it.
+// Lanes of a pack that wait for the accelerations or have other equal arguments, entries of M that no row needs
+// but through it.
 TEST_CASE("taylor: linkages and odd frames move as by Runge and Kutta") {
-    for (const std::string name : {"scenes/benchmark/bricard.toml", "tests/odd/space.toml", "tests/odd/turning.toml"}) {
+    for (const std::string name :
+         {"scenes/benchmark/bricard.toml", "tests/odd/space.toml", "tests/odd/turning.toml"}) {
         CAPTURE(name);
         const auto end = [&](const char* method) {
             return simulated(source_path(name), {"--duration", "0.3", "--tolerance", "1e-11"}, method)["final"];
@@ -73,7 +81,8 @@ TEST_CASE("taylor: linkages and odd frames move as by Runge and Kutta") {
         for (const char* const part : {"coordinates", "rates"})
             for (const auto& entry : stages[part].items()) {
                 const double expected = entry.value();
-                CHECK(std::abs(series[part][entry.key()].get<double>() - expected) < 1e-9 * std::max(1.0, std::abs(expected)));
+                CHECK(std::abs(series[part][entry.key()].get<double>() - expected) <
+                      1e-9 * std::max(1.0, std::abs(expected)));
             }
     }
 }
@@ -108,10 +117,13 @@ TEST_CASE("taylor: rows between steps are as good as their ends") {
 }
 
 TEST_CASE("taylor: events are found on its polynomial, to 1e-12") {
-    const std::string text = std::string(oscillator) + "[[event]]\nname = \"through\"\nwhen = \"x\"\n[[event]]\nname = \"end\"\nwhen = \"x' + x - 100*(t - 10)\"\nstop = true\n";
+    const std::string text = std::string(oscillator) +
+                             "[[event]]\nname = \"through\"\nwhen = \"x\"\n[[event]]\nname = \"end\"\nwhen = \"x' "
+                             "+ x - 100*(t - 10)\"\nstop = true\n";
     const Json result = simulated(temporary("events.toml", text), {});
     REQUIRE(result["events"].size() == 4);
-    for (int k = 0; k < 3; ++k) CHECK(std::abs(result["events"][k]["time"].get<double>() - (k + 0.5) * std::numbers::pi) < 1e-12);
+    for (int k = 0; k < 3; ++k)
+        CHECK(std::abs(result["events"][k]["time"].get<double>() - (k + 0.5) * std::numbers::pi) < 1e-12);
     const double t = result["final"]["time"];
     CHECK(std::abs(-std::sin(t) + std::cos(t) - 100 * (t - 10)) < 1e-10);
 }
@@ -152,7 +164,9 @@ duration = 10
 }
 
 TEST_CASE("taylor: a scene without a power series is refused with the function and what to take instead") {
-    const std::string scene = temporary("kink.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-abs(x)*x\"\n[simulation]\nduration = 1\n");
+    const std::string scene = temporary("kink.toml",
+                                        "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
+                                        "\"-abs(x)*x\"\n[simulation]\nduration = 1\n");
     const auto refused = run({"simulate", scene, "--method", "taylor"});
     CHECK(refused.exit == 3);
     CHECK(refused.err.find("abs") != std::string::npos);

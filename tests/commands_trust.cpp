@@ -103,7 +103,8 @@ TEST_CASE("simulate: no step is longer than max_step, of the scene or of the com
     }
     const auto refused = run({"simulate", scene, "--method", "rk4", "--step", "0.1", "--max-step", "0.01"});
     CHECK(refused.exit == 3);
-    CHECK(refused.err.find("a longest step of 0.01 s was asked for, but rk4 has a fixed step") != std::string::npos);
+    CHECK(refused.err.find("a longest step of 0.01 s was asked for, but rk4 has a fixed step") !=
+          std::string::npos);
     const std::string slow = written(
         "[coordinates]\nx = 1\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", "
         "0]\n[simulation]\nduration = 1\nmax_step = \"1/100\"\n");

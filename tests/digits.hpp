@@ -19,7 +19,7 @@ namespace alembert::test {
 class Digits {
 public:
     Digits(int n = 0) : x_(cln::cl_float(cln::cl_I(n), format())) {}  // NOLINT: a number is a number
-    Digits(bool b) : Digits(b ? 1 : 0) {}                              // NOLINT
+    Digits(bool b) : Digits(b ? 1 : 0) {}                             // NOLINT
     explicit Digits(double x) : x_(cln::cl_float(cln::rational(cln::cl_DF(x)), format())) {}
     explicit Digits(const cln::cl_R& x) : x_(cln::cl_float(x, format())) {}
 
@@ -29,7 +29,8 @@ public:
     double magnitude() const {
         if (is_zero()) return -1000;
         const auto exponent = static_cast<double>(cln::float_exponent(x_));
-        return std::log10(std::abs(cln::double_approx(cln::scale_float(x_, -cln::float_exponent(x_))))) + exponent * std::log10(2.0);
+        return std::log10(std::abs(cln::double_approx(cln::scale_float(x_, -cln::float_exponent(x_))))) +
+               exponent * std::log10(2.0);
     }
 
     friend Digits operator+(const Digits& a, const Digits& b) { return Digits(cln::cl_R(a.x_ + b.x_)); }

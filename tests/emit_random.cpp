@@ -31,7 +31,10 @@ struct Wishes {
 
 Choice chosen(const Mechanism& m, bool fold) {
     const bool in_speeds = !m.speeds.empty() && m.unilateral.empty() && masses_are_known(m);
-    std::vector<Equations> all{formalism(in_speeds ? "kane" : m.constraints.empty() ? "lagrange" : "routh").derive(m)};
+    std::vector<Equations> all{formalism(in_speeds               ? "kane"
+                                         : m.constraints.empty() ? "lagrange"
+                                                                 : "routh")
+                                   .derive(m)};
     try {
         if (!in_speeds) all.push_back(formalism("recursive").derive(m));
     } catch (const ModelError&) {  // it does not apply
@@ -39,7 +42,8 @@ Choice chosen(const Mechanism& m, bool fold) {
     return choose(m, all, {.fold = fold});
 }
 
-/// Several files of the same functions can stand in one when each has a name space and its own names for the loader.
+/// Several files of the same functions can stand in one when each has a name space and its own names for the
+/// loader.
 std::string apart(std::string text, const std::string& name) {
     for (std::size_t at = 0; (at = text.find("const void* alembert_", at)) != std::string::npos;)
         text.insert(at += std::string_view("const void* alembert_").size(), name + "_");
@@ -49,7 +53,8 @@ std::string apart(std::string text, const std::string& name) {
 std::string emitted(const std::string& scene, const std::string& name, const Wishes& wishes) {
     const Mechanism m = build(parse_scene(scene, "random.toml"));
     const Program program = chosen(m, wishes.fold).program;
-    const std::optional<Differentiated> d = wishes.jacobian ? differentiated(program, {.parameters = true, .power = true}) : std::nullopt;
+    const std::optional<Differentiated> d =
+        wishes.jacobian ? differentiated(program, {.parameters = true, .power = true}) : std::nullopt;
     std::string text = apart(emit(d ? d->program : program, {.batch = wishes.batch}).text, name);
     if (!wishes.taylor) return text;
     try {
@@ -61,10 +66,14 @@ std::string emitted(const std::string& scene, const std::string& name, const Wis
 
 /// What the compiler says of a text that it reads, instantiates and does not translate.
 std::string complaints(const std::string& text) {
-    const std::filesystem::path source = std::filesystem::temp_directory_path() / fmt::format("alembert_random_{}.cpp", getpid()), said = source.string() + ".txt";
+    const std::filesystem::path source = std::filesystem::temp_directory_path() /
+                                         fmt::format("alembert_random_{}.cpp", getpid()),
+                                said = source.string() + ".txt";
     std::ofstream(source) << text;
     const char* const compiler = std::getenv("CXX");
-    const std::string command = fmt::format("{} -std=c++20 -fsyntax-only -w '{}' > '{}' 2>&1", compiler != nullptr ? compiler : "g++", source.string(), said.string());
+    const std::string command =
+        fmt::format("{} -std=c++20 -fsyntax-only -w '{}' > '{}' 2>&1", compiler != nullptr ? compiler : "g++",
+                    source.string(), said.string());
     const int status = std::system(command.c_str());
     std::ifstream file(said);
     const std::string found{std::istreambuf_iterator<char>(file), {}};
@@ -84,7 +93,8 @@ TEST_CASE("emit: what is emitted for five hundred small scenes at random compile
         for (unsigned seed = first; seed < std::min(count, first + together); ++seed) {
             const std::string scene = test::random_scene(seed);
             CAPTURE(scene);
-            const Wishes wishes{.fold = seed % 5 == 0, .jacobian = seed % 3 == 0, .batch = seed % 4 == 0, .taylor = seed % 7 == 0};
+            const Wishes wishes{
+                .fold = seed % 5 == 0, .jacobian = seed % 3 == 0, .batch = seed % 4 == 0, .taylor = seed % 7 == 0};
             try {
                 text += emitted(scene, fmt::format("scene{}", seed), wishes);
             } catch (const ModelError&) {  // singular at every state

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The order of statements for registers: a permutation that respects what needs what, and how many values wait at once.
+// The order of statements for registers: a permutation that respects what needs what, and how many values wait at
+// once.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -64,9 +65,12 @@ TEST_CASE("register order: any order keeps what is needed first, and depends on 
     for (int round = 0; round < 50; ++round) {
         std::vector<Computation> statements;
         for (int k = 0; k < 300; ++k) {
-            Computation s{.needs = {}, .operations = 1 + static_cast<int>(random() % 9), .latency = 4 + static_cast<int>(random() % 20)};
+            Computation s{.needs = {},
+                          .operations = 1 + static_cast<int>(random() % 9),
+                          .latency = 4 + static_cast<int>(random() % 20)};
             for (int j = 0; j < 3; ++j)
-                if (k > 0 && random() % 3 != 0) s.needs.push_back(static_cast<int>(random() % static_cast<unsigned>(k)));
+                if (k > 0 && random() % 3 != 0)
+                    s.needs.push_back(static_cast<int>(random() % static_cast<unsigned>(k)));
             std::sort(s.needs.begin(), s.needs.end());
             s.needs.erase(std::unique(s.needs.begin(), s.needs.end()), s.needs.end());
             statements.push_back(std::move(s));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every formalism, by its own route, gives the same accelerations on every scene: numerically at random states, and exactly
-// modulo a prime. A formalism with one wrong entry is refuted.
+// Every formalism, by its own route, gives the same accelerations on every scene: numerically at random states,
+// and exactly modulo a prime. A formalism with one wrong entry is refuted.
 #include <doctest/doctest.h>
-
 
 #include "agree/agree.hpp"
 #include "formalism/dalembert.hpp"
@@ -52,8 +51,10 @@ void check_numerically(const Mechanism& m, const Equations& a, const Equations& 
             return result;
         };
         const auto u = group(first, x, Group::acceleration), lambda = group(first, x, Group::multiplier);
-        const auto M = group(second, y, Group::mass), f = group(second, y, Group::forcing), A = group(second, y, Group::row);
-        if (u.empty() || !std::all_of(u.begin(), u.end(), [](long double v) { return std::isfinite(v); })) continue;
+        const auto M = group(second, y, Group::mass), f = group(second, y, Group::forcing),
+                   A = group(second, y, Group::row);
+        if (u.empty() || !std::all_of(u.begin(), u.end(), [](long double v) { return std::isfinite(v); }))
+            continue;
         ++compared;
         const std::size_t n = u.size();
         // Terms inside f that cancel are as large as f elsewhere: the largest term of all rows.
@@ -77,7 +78,8 @@ void check_numerically(const Mechanism& m, const Equations& a, const Equations& 
     CHECK(compared > 0);
 }
 
-/// The same for equations in speeds: accelerations and multipliers at random speeds are those of `a` at their rates.
+/// The same for equations in speeds: accelerations and multipliers at random speeds are those of `a` at their
+/// rates.
 void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b) {
     CAPTURE(a.formalism);
     CAPTURE(b.formalism);
@@ -122,7 +124,8 @@ void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b)
         long double fastest = 1;
         for (const long double rate : plain.qdot) fastest = std::max(fastest, std::abs(rate));
         for (const Equations::Eliminated& gone : b.eliminated)
-            if (std::isfinite(fastest)) CHECK(std::abs(y[second.nodes_of(Group::velocity)[gone.constraint]]) <= 1e-12L * fastest);
+            if (std::isfinite(fastest))
+                CHECK(std::abs(y[second.nodes_of(Group::velocity)[gone.constraint]]) <= 1e-12L * fastest);
     }
     CHECK(compared > 0);
 }
@@ -156,11 +159,13 @@ TEST_CASE("agree: every scene is proved") {
     }
 }
 
-// Pleiades: 21 square roots, all of which exist at one point in two million; Kapitza: an angle of time by a number of 16 decimals.
+// Pleiades: 21 square roots, all of which exist at one point in two million; Kapitza: an angle of time by a number
+// of 16 decimals.
 TEST_CASE("agree: a root for each pair of bodies, and decimals in angles") {
     for (const char* const name : {"pleiades", "kapitza"}) {
         CAPTURE(name);
-        const Mechanism mechanism = build(read_scene(test::source_path(std::string("scenes/benchmark/") + name + ".toml")));
+        const Mechanism mechanism =
+            build(read_scene(test::source_path(std::string("scenes/benchmark/") + name + ".toml")));
         Derivations all = derive_all(mechanism);
         CHECK(agree(all.equations, mechanism).verdict == Agreement::Verdict::proved);
         all.equations.back().own.back() += mechanism.q.back();
@@ -198,7 +203,8 @@ TEST_CASE("dalembert: a factor of rest without sines begins with a plus, whateve
     const Mechanism m = build(read_scene(test::source_path("scenes/textbook/double_atwood.toml")));
     REQUIRE(m.parameters.size() >= 3);
     const ex difference = m.parameters[1].symbol - m.parameters[2].symbol;
-    const Phrase one = leading_positive(*fourier(difference, *m.symbols)), other = leading_positive(*fourier(-difference, *m.symbols));
+    const Phrase one = leading_positive(*fourier(difference, *m.symbols)),
+                 other = leading_positive(*fourier(-difference, *m.symbols));
     CHECK(text(one) == text(other));
 }
 
@@ -211,7 +217,8 @@ TEST_CASE("dalembert: the governor's condition of rest is equation (20)") {
         throw std::out_of_range(name);
     };
     const ex alpha = m.q[0], mass = parameter("m"), l = parameter("l"), Omega = parameter("Omega");
-    const ex expected = 2 * l * sin(alpha) * (mass * l * Omega * Omega * cos(alpha) - (mass + parameter("M")) * parameter("g"));
+    const ex expected =
+        2 * l * sin(alpha) * (mass * l * Omega * Omega * cos(alpha) - (mass + parameter("M")) * parameter("g"));
     CHECK(vanishes(condition - expected, m) == true);
 }
 
@@ -253,9 +260,12 @@ TEST_CASE("modular: identities of angles, roots and exponentials hold, and false
     const auto times = [&](int a, int b) { return p.product(1, {{a, 1}, {b, 1}}); };
     const int sum = p.sum(0, {{1, x}, {1, y}});
     const std::vector<std::pair<int, int>> equal{
-        {p.call(Op::sin, {sum}), p.sum(0, {{1, times(of(Op::sin, 1, x), of(Op::cos, 1, y))}, {1, times(of(Op::cos, 1, x), of(Op::sin, 1, y))}})},
-        {of(Op::sin, 1, x), p.sum(0, {{2, times(of(Op::sin, Rational(1) / 2, x), of(Op::cos, Rational(1) / 2, x))}})},
-        {of(Op::cos, 1, x), p.sum(0, {{4, p.product(1, {{of(Op::cos, Rational(1) / 3, x), 3}})}, {-3, of(Op::cos, Rational(1) / 3, x)}})},
+        {p.call(Op::sin, {sum}), p.sum(0, {{1, times(of(Op::sin, 1, x), of(Op::cos, 1, y))},
+                                           {1, times(of(Op::cos, 1, x), of(Op::sin, 1, y))}})},
+        {of(Op::sin, 1, x),
+         p.sum(0, {{2, times(of(Op::sin, Rational(1) / 2, x), of(Op::cos, Rational(1) / 2, x))}})},
+        {of(Op::cos, 1, x), p.sum(0, {{4, p.product(1, {{of(Op::cos, Rational(1) / 3, x), 3}})},
+                                      {-3, of(Op::cos, Rational(1) / 3, x)}})},
         {p.call(Op::sqrt, {p.product(1, {{x, 2}})}), p.call(Op::abs, {x})},
         {p.call(Op::exp, {sum}), times(p.call(Op::exp, {x}), p.call(Op::exp, {y}))},
         {p.call(Op::sin, {p.sum(0, {{1, x}, {Rational(1) / 2, p.pi()}})}), of(Op::cos, 1, x)},

@@ -6,8 +6,8 @@
 #include "formalism/appell.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/routh.hpp"
-#include "report/derivation.hpp"
 #include "notation/text.hpp"
+#include "report/derivation.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

@@ -26,10 +26,12 @@ BodyTree<S> random_chain(int n, int light, unsigned seed) {
         link.still = link.absolute = true;
         link.continues = j > 0;
         if (j > 0) link.p = {S(length(random)), S(offset(random)), S(0)};
-        const S m = S(length(random)) * (light > 0 && j % light == 0 ? S(1e-6) : S(1)), x = S(length(random)), y = S(offset(random));
+        const S m = S(length(random)) * (light > 0 && j % light == 0 ? S(1e-6) : S(1)), x = S(length(random)),
+                y = S(offset(random));
         link.body.mass = m;
         link.body.first = {m * x, m * y, S(0)};
-        link.body.second = {m * (x * x + S(length(random))), m * (y * y + S(length(random))), S(0), m * x * y, S(0), S(0)};
+        link.body.second = {
+            m * (x * x + S(length(random))), m * (y * y + S(length(random))), S(0), m * x * y, S(0), S(0)};
         tree.links.push_back(link);
     }
     return regrouped(tree);
@@ -75,12 +77,15 @@ TEST_CASE("recursive: a planar chain from both ends solves M w' = f of the compo
         const Column<double> f = random_loads(n, seed);
         const Column<double> w = chain_solution(tree, f);
         // The residual of a backward stable solve: n² roundings of |M| |w|.
-        const double allowed = n * n * std::numeric_limits<double>::epsilon() * (M.cwiseAbs() * w.cwiseAbs()).maxCoeff();
+        const double allowed =
+            n * n * std::numeric_limits<double>::epsilon() * (M.cwiseAbs() * w.cwiseAbs()).maxCoeff();
         CHECK((M * w - f).cwiseAbs().maxCoeff() <= allowed);
     }
 }
 
-TEST_CASE("recursive: with masses in a ratio of a million, a chain from both ends is as good as a pivoted solve to a factor of ten") {
+TEST_CASE(
+    "recursive: with masses in a ratio of a million, a chain from both ends is as good as a pivoted solve to a "
+    "factor of ten") {
     const unsigned seed = 19880113;
     CAPTURE(seed);
     const int n = 12;
@@ -88,10 +93,12 @@ TEST_CASE("recursive: with masses in a ratio of a million, a chain from both end
     for (unsigned k = 0; k < 20; ++k)
         for (const int light : {2, 3, 5}) {
             const Column<double> f = random_loads(n, seed + k);
-            const Column<long double> exact = matrix_of(random_chain<long double>(n, light, seed + k)).fullPivLu().solve(f.cast<long double>());
+            const Column<long double> exact =
+                matrix_of(random_chain<long double>(n, light, seed + k)).fullPivLu().solve(f.cast<long double>());
             const BodyTree<double> tree = random_chain<double>(n, light, seed + k);
             const auto error = [&](const Column<double>& w) {
-                return static_cast<double>((w.cast<long double>() - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff());
+                return static_cast<double>((w.cast<long double>() - exact).cwiseAbs().maxCoeff() /
+                                           exact.cwiseAbs().maxCoeff());
             };
             ours = std::max(ours, error(chain_solution(tree, f)));
             pivoted = std::max(pivoted, error(matrix_of(tree).fullPivLu().solve(f)));

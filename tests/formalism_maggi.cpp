@@ -5,8 +5,8 @@
 #include "agree/agree.hpp"
 #include "formalism/maggi.hpp"
 #include "formalism/routh.hpp"
-#include "report/derivation.hpp"
 #include "notation/text.hpp"
+#include "report/derivation.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Composite and articulated bodies in every form against Lagrange's equations (exactly, modulo a prime), against accelerations
-// computed elsewhere, and against each other over doubles.
+// Composite and articulated bodies in every form against Lagrange's equations (exactly, modulo a prime), against
+// accelerations computed elsewhere, and against each other over doubles.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -22,7 +22,9 @@ using namespace alembert;
 
 namespace {
 
-Mechanism from_text(const std::string& text) { return build(parse_scene(text, "scene.toml")); }
+Mechanism from_text(const std::string& text) {
+    return build(parse_scene(text, "scene.toml"));
+}
 
 /// By expressions (no form), and by the recursions over nodes.
 std::vector<Program> programs(const Mechanism& m, const Equations& e, bool composite = true) {
@@ -32,13 +34,16 @@ std::vector<Program> programs(const Mechanism& m, const Equations& e, bool compo
     using Solve = RecursionForm::Solve;
     for (const Solve solve : {Solve::matrix, Solve::articulated})
         for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still})
-            if (composite || solve != Solve::matrix) result.push_back(lower(m, e, energy, {.recursion = RecursionForm{axes, solve}}));
-    if (is_planar_chain(*e.tree)) result.push_back(lower(m, e, energy, {.recursion = RecursionForm{LinkAxes::still, Solve::both_ends}}));
+            if (composite || solve != Solve::matrix)
+                result.push_back(lower(m, e, energy, {.recursion = RecursionForm{axes, solve}}));
+    if (is_planar_chain(*e.tree))
+        result.push_back(lower(m, e, energy, {.recursion = RecursionForm{LinkAxes::still, Solve::both_ends}}));
     result.push_back(flattened(result.back()));
     return result;
 }
 
-/// The same accelerations, modulo 2⁶¹ − 1 at random states and parameters: a difference of degree d is missed with d·2⁻⁶¹.
+/// The same accelerations, modulo 2⁶¹ − 1 at random states and parameters: a difference of degree d is missed with
+/// d·2⁻⁶¹.
 void check_exactly(const Mechanism& m) {
     const Equations e = recursive(m);
     const Program expected = lower(m, lagrange(m), energy_of(m));
@@ -61,10 +66,15 @@ std::string chain(int n) {
     std::string text = "gravity = [0, 9.81]\n[parameters]\nm = 1\nl = 0.7\n[coordinates]\n";
     for (int k = 1; k <= n; ++k) text += fmt::format("q{} = 0.3\n", k);
     for (int k = 1; k <= n; ++k) {
-        const std::string up = k > 1 ? fmt::format("R{}", k - 1) : "N", from = k > 1 ? fmt::format("J{}", k - 1) : "O";
+        const std::string up = k > 1 ? fmt::format("R{}", k - 1) : "N",
+                          from = k > 1 ? fmt::format("J{}", k - 1) : "O";
         text += fmt::format("[[frame]]\nname = \"R{0}\"\nparent = \"{1}\"\nrotate = [[\"z\", \"q{0}\"]]\n", k, up);
-        text += fmt::format("[[point]]\nname = \"J{0}\"\nfrom = \"{1}\"\noffset = [0, \"l\"]\naxes = \"R{0}\"\n", k, from);
-        text += fmt::format("[[body]]\nname = \"B{0}\"\nmass = \"m\"\nframe = \"R{0}\"\nfrom = \"{1}\"\nposition = [0.1, \"l/2\"]\naxes = \"R{0}\"\ninertia = \"m*l^2/12\"\n", k, from);
+        text += fmt::format("[[point]]\nname = \"J{0}\"\nfrom = \"{1}\"\noffset = [0, \"l\"]\naxes = \"R{0}\"\n",
+                            k, from);
+        text += fmt::format(
+            "[[body]]\nname = \"B{0}\"\nmass = \"m\"\nframe = \"R{0}\"\nfrom = \"{1}\"\nposition = [0.1, "
+            "\"l/2\"]\naxes = \"R{0}\"\ninertia = \"m*l^2/12\"\n",
+            k, from);
     }
     return text;
 }
@@ -74,10 +84,15 @@ std::string tree_in_space(int n) {
     std::string text = "gravity = [1, 2, -9.81]\n";
     for (int k = 1; k <= n; ++k) {
         const int up = k % 3 == 0 ? k - 2 : k - 1;
-        text += fmt::format("[[body]]\nname = \"B{}\"\nmass = 1.5\ninertia = {{ xx = 0.3, yy = 0.2, zz = 0.25, xy = 0.01, yz = -0.02, zx = 0.03 }}\n", k);
-        text += fmt::format("[[joint]]\nname = \"J{0}\"\ntype = \"revolute\"\nparent = \"{1}\"\nchild = \"B{0}\"\nparent_point = [0.1, 0.2, 0.3]\n"
-                            "child_point = [-0.2, 0.1, -0.3]\naxis = \"{2}\"\ncoordinates = {{ q{0} = {{ initial = 0.2 }} }}\n",
-                            k, up > 0 ? fmt::format("B{}", up) : "N", "xyz"[k % 3]);
+        text += fmt::format(
+            "[[body]]\nname = \"B{}\"\nmass = 1.5\ninertia = {{ xx = 0.3, yy = 0.2, zz = 0.25, xy = 0.01, yz = "
+            "-0.02, zx = 0.03 }}\n",
+            k);
+        text += fmt::format(
+            "[[joint]]\nname = \"J{0}\"\ntype = \"revolute\"\nparent = \"{1}\"\nchild = \"B{0}\"\nparent_point = "
+            "[0.1, 0.2, 0.3]\n"
+            "child_point = [-0.2, 0.1, -0.3]\naxis = \"{2}\"\ncoordinates = {{ q{0} = {{ initial = 0.2 }} }}\n",
+            k, up > 0 ? fmt::format("B{}", up) : "N", "xyz"[k % 3]);
     }
     return text;
 }
@@ -233,13 +248,17 @@ inertia = [0.001, 0.002, 0.003]
 
 }  // namespace
 
-TEST_CASE("recursive: a branched planar mechanism with a cart, a slider and frames turned against N accelerates as by Lagrange, exactly") {
+TEST_CASE(
+    "recursive: a branched planar mechanism with a cart, a slider and frames turned against N accelerates as by "
+    "Lagrange, exactly") {
     check_exactly(from_text(absolute_frames));
 }
 
-// The angles of aligned axes are arcus tangents, which arithmetic modulo a prime does not know: exactly by expressions, in long
-// double by nodes.
-TEST_CASE("recursive: oblique, universal, cylindrical and sliding joints and a prescribed turn accelerate as by Lagrange") {
+// The angles of aligned axes are arcus tangents, which arithmetic modulo a prime does not know: exactly by
+// expressions, in long double by nodes.
+TEST_CASE(
+    "recursive: oblique, universal, cylindrical and sliding joints and a prescribed turn accelerate as by "
+    "Lagrange") {
     const Mechanism m = from_text(oblique);
     const Equations e = recursive(m);
     CHECK(agree({lagrange(m), e}, m).verdict == Agreement::Verdict::proved);
@@ -249,8 +268,11 @@ TEST_CASE("recursive: oblique, universal, cylindrical and sliding joints and a p
     std::mt19937_64 random(seed);
     for (int trial = 0; trial < 10; ++trial) {
         const State<double> at = test::random_state(start_of(m), random);
-        State<long double> state{.parameters = {at.parameters.begin(), at.parameters.end()}, .t = at.t, .q = {at.q.begin(), at.q.end()},
-                                 .qdot = {at.qdot.begin(), at.qdot.end()}, .qddot = {}};
+        State<long double> state{.parameters = {at.parameters.begin(), at.parameters.end()},
+                                 .t = at.t,
+                                 .q = {at.q.begin(), at.q.end()},
+                                 .qdot = {at.qdot.begin(), at.qdot.end()},
+                                 .qddot = {}};
         const auto accelerations = [&](const Program& program) {
             const std::vector<long double> value = interpret(program, state);
             std::vector<long double> result;
@@ -272,7 +294,9 @@ TEST_CASE("recursive: oblique, universal, cylindrical and sliding joints and a p
 TEST_CASE("recursive: chains and trees accelerate as by Lagrange, exactly") {
     check_exactly(from_text(chain(4)));
     check_exactly(from_text(tree_in_space(5)));
-    for (const char* name : {"scenes/gallery/gimballed_gyroscope.toml", "scenes/gallery/universal_double_pendulum.toml", "scenes/textbook/double_pendulum_joints.toml"}) {
+    for (const char* name :
+         {"scenes/gallery/gimballed_gyroscope.toml", "scenes/gallery/universal_double_pendulum.toml",
+          "scenes/textbook/double_pendulum_joints.toml"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(name)));
         if (m.constraints.empty()) check_exactly(m);
@@ -285,7 +309,8 @@ TEST_CASE("recursive: closed loops keep their multipliers") {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
         const Derivations all = derive_all(m);
-        CHECK(std::any_of(all.equations.begin(), all.equations.end(), [](const Equations& e) { return e.formalism == "recursive"; }));
+        CHECK(std::any_of(all.equations.begin(), all.equations.end(),
+                          [](const Equations& e) { return e.formalism == "recursive"; }));
         CHECK(agree(all.equations, m).verdict == Agreement::Verdict::proved);
     }
 }
@@ -309,7 +334,8 @@ TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhe
             CAPTURE(program.formulation);
             const std::vector<double> value = interpret(program, state);
             const std::vector<int> nodes = program.nodes_of(Group::acceleration);
-            for (std::size_t i = 0; i < expected.size(); ++i) CHECK(std::abs(value[nodes[i]] - expected[i]) < 1e-12 * largest);
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                CHECK(std::abs(value[nodes[i]] - expected[i]) < 1e-12 * largest);
             ++compared;
         }
     }
@@ -319,22 +345,27 @@ TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhe
 TEST_CASE("recursive: the operations of articulated bodies grow linearly with the bodies") {
     const auto operations = [](const std::string& text, LinkAxes axes) {
         const Mechanism m = from_text(text);
-        const Program p = lower(m, recursive(m), energy_of(m), {.recursion = RecursionForm{axes, RecursionForm::Solve::articulated}});
+        const Program p = lower(m, recursive(m), energy_of(m),
+                                {.recursion = RecursionForm{axes, RecursionForm::Solve::articulated}});
         return p.count(p.right_hand_side()).total();
     };
     for (const LinkAxes axes : {LinkAxes::own, LinkAxes::still}) {
-        const int eight = operations(chain(8), axes), sixteen = operations(chain(16), axes), twentyfour = operations(chain(24), axes);
+        const int eight = operations(chain(8), axes), sixteen = operations(chain(16), axes),
+                  twentyfour = operations(chain(24), axes);
         CHECK(twentyfour - sixteen == sixteen - eight);
     }
     // The pattern of axes and branches repeats every three bodies.
-    const int nine = operations(tree_in_space(9), LinkAxes::own), eighteen = operations(tree_in_space(18), LinkAxes::own), all = operations(tree_in_space(27), LinkAxes::own);
+    const int nine = operations(tree_in_space(9), LinkAxes::own),
+              eighteen = operations(tree_in_space(18), LinkAxes::own),
+              all = operations(tree_in_space(27), LinkAxes::own);
     CHECK(all - eighteen == eighteen - nine);
 }
 
 TEST_CASE("recursive: without the mass matrix, the same accelerations") {
     for (const std::string& text : {chain(5), tree_in_space(6)}) {
         const Mechanism m = from_text(text);
-        const Program expected = lower(m, lagrange(m), energy_of(m)), found = choose(m, recursive_without_matrix(m)).program;
+        const Program expected = lower(m, lagrange(m), energy_of(m)),
+                      found = choose(m, recursive_without_matrix(m)).program;
         CHECK(found.nodes_of(Group::mass).empty());
         CHECK(emit(found).text.find("void mass_forcing") == std::string::npos);
         const std::vector<int> a = expected.nodes_of(Group::acceleration), b = found.nodes_of(Group::acceleration);
@@ -355,10 +386,15 @@ TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, wi
     for (int trial = 0; trial < 20; ++trial) {
         BodyTree<double> tree{.links = {}, .gravity = triple()};
         for (int j = 0; j < 9; ++j) {
-            TreeLink<double> link{.parent = j == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(j)), .slides = random() % 3 == 0, .p = triple(), .slide = triple()};
+            TreeLink<double> link{.parent = j == 0 ? -1 : static_cast<int>(random() % static_cast<unsigned>(j)),
+                                  .slides = random() % 3 == 0,
+                                  .p = triple(),
+                                  .slide = triple()};
             const double a = number(random), b = number(random), c = number(random);
-            const Matrix<double> turn{Triple<double>{std::cos(a), -std::sin(a), 0}, Triple<double>{std::sin(a), std::cos(a), 0}, Triple<double>{0, 0, 1}};
-            link.R = turn * Matrix<double>{Triple<double>{1, 0, 0}, Triple<double>{0, std::cos(b), -std::sin(b)}, Triple<double>{0, std::sin(b), std::cos(b)}};
+            const Matrix<double> turn{Triple<double>{std::cos(a), -std::sin(a), 0},
+                                      Triple<double>{std::sin(a), std::cos(a), 0}, Triple<double>{0, 0, 1}};
+            link.R = turn * Matrix<double>{Triple<double>{1, 0, 0}, Triple<double>{0, std::cos(b), -std::sin(b)},
+                                           Triple<double>{0, std::sin(b), std::cos(b)}};
             link.cosine = std::cos(c);
             link.sine = std::sin(c);
             link.shift = number(random);
@@ -406,14 +442,18 @@ TEST_CASE("recursive: scenes that are no tree of joints are refused with what is
         }
         return "";
     };
-    CHECK(reason("scenes/textbook/double_pendulum.toml").find("is on a point shifted by 'l1*sin(theta1)', which is not linear") != std::string::npos);
+    CHECK(reason("scenes/textbook/double_pendulum.toml")
+              .find("is on a point shifted by 'l1*sin(theta1)', which is not linear") != std::string::npos);
     CHECK(reason("scenes/textbook/heavy_top_quaternion.toml").find("turns by a quaternion") != std::string::npos);
 }
 
-TEST_CASE("recursive: what is chosen depends on the system: the textbook's form for two rods, composite bodies for an arm, both ends of a long chain") {
+TEST_CASE(
+    "recursive: what is chosen depends on the system: the textbook's form for two rods, composite bodies for an "
+    "arm, both ends of a long chain") {
     const auto chosen = [](const Mechanism& m) { return choose(m, {lagrange(m), recursive(m)}); };
     CHECK(chosen(from_text(chain(2))).program.formulation.find("textbook form") != std::string::npos);
-    CHECK(chosen(build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")))).program.formulation.find("composite bodies") != std::string::npos);
+    CHECK(chosen(build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"))))
+              .program.formulation.find("composite bodies") != std::string::npos);
     const Choice many = chosen(from_text(chain(24)));
     CHECK(many.program.formulation.find("chain from both ends") != std::string::npos);
     REQUIRE(many.runner_up);

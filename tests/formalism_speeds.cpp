@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "agree/agree.hpp"
 #include "alembert/compile.hpp"
 #include "alembert/rhs.hpp"
-#include "agree/agree.hpp"
-#include "state/speeds.hpp"
+#include "derive/derivation.hpp"
 #include "emit/emit.hpp"
 #include "formalism/cancel.hpp"
 #include "formalism/kane.hpp"
@@ -16,16 +16,18 @@
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "model/energy.hpp"
-#include "derive/derivation.hpp"
 #include "notation/text.hpp"
 #include "scenes.hpp"
+#include "state/speeds.hpp"
 
 using namespace alembert;
 using GiNaC::ex;
 
 namespace {
 
-Mechanism textbook(const std::string& name) { return build(read_scene(test::source_path("scenes/textbook/" + name + ".toml"))); }
+Mechanism textbook(const std::string& name) {
+    return build(read_scene(test::source_path("scenes/textbook/" + name + ".toml")));
+}
 
 std::string equations_of(const Mechanism& m) {
     const Derivation shown = derivation_of(m, kane(m));
@@ -38,22 +40,25 @@ std::string equations_of(const Mechanism& m) {
 }  // namespace
 
 TEST_CASE("kane: Euler's equations come out in the components of the angular velocity") {
-    CHECK(equations_of(textbook("free_body")).find("I1*w1' - (I2-I3)*w2*w3 = 0\n"
-                                                   "I2*w2' - (I3-I1)*w3*w1 = 0\n"
-                                                   "I3*w3' - (I1-I2)*w1*w2 = 0\n") == 0);
+    CHECK(equations_of(textbook("free_body"))
+              .find("I1*w1' - (I2-I3)*w2*w3 = 0\n"
+                    "I2*w2' - (I3-I1)*w3*w1 = 0\n"
+                    "I3*w3' - (I1-I2)*w1*w2 = 0\n") == 0);
 }
 
 TEST_CASE("kane: the sleigh's equations in v and w have no multiplier") {
     const Mechanism m = textbook("chaplygin_sleigh_in_speeds");
     CHECK(kane(m).A.empty());
-    CHECK(equations_of(m) == "v' - a*w^2 = 0\n(J+m*a^2)*w' + m*a*v*w = 0\nx' = v*cos(phi)\ny' = v*sin(phi)\nphi' = w\n");
+    CHECK(equations_of(m) ==
+          "v' - a*w^2 = 0\n(J+m*a^2)*w' + m*a*v*w = 0\nx' = v*cos(phi)\ny' = v*sin(phi)\nphi' = w\n");
 }
 
 TEST_CASE("kane: the ball's angular velocity on a turntable turns with 2/7 of the table's") {
     // From 7 x'' = −2 Ω y', 7 y'' = 2 Ω x' with x' = r wy − Ω y, y' = Ω x − r wx.
-    CHECK(equations_of(textbook("ball_on_turntable")).find("7*r*wx' - 5*r*Omega*wy + 5*Omega^2*y = 0\n"
-                                                         "7*r*wy' + 5*r*Omega*wx - 5*Omega^2*x = 0\n"
-                                                         "wz' = 0\n") == 0);
+    CHECK(equations_of(textbook("ball_on_turntable"))
+              .find("7*r*wx' - 5*r*Omega*wy + 5*Omega^2*y = 0\n"
+                    "7*r*wy' + 5*r*Omega*wx - 5*Omega^2*x = 0\n"
+                    "wz' = 0\n") == 0);
 }
 
 TEST_CASE("kane: without speeds nonholonomic constraints are solved for a rate whose coefficient is a number") {
@@ -75,7 +80,8 @@ TEST_CASE("kane: without speeds a blade leaves the one combination of rates that
     const Derivation shown = derivation_of(m, kane(m));
     REQUIRE(shown.speeds.size() == 1);
     CHECK(text(shown.speeds[0].second) == "x'*cos(phi) + y'*sin(phi)");
-    CHECK(equations_of(m) == "u1' - a*phi'^2 = 0\n(J+m*a^2)*phi'' + m*a*u1*phi' = 0\nx' = u1*cos(phi)\ny' = u1*sin(phi)\n");
+    CHECK(equations_of(m) ==
+          "u1' - a*phi'^2 = 0\n(J+m*a^2)*phi'' + m*a*u1*phi' = 0\nx' = u1*cos(phi)\ny' = u1*sin(phi)\n");
     CHECK(kane(m).poles.empty());
     CHECK(kane(m).u == kane(m).u);  // the same symbols each time
     CHECK(agree({routh(m), kane(m)}, m).verdict == Agreement::Verdict::proved);
@@ -94,8 +100,9 @@ TEST_CASE("kane: speeds whose number is n keep the multipliers, and agree with R
 }
 
 TEST_CASE("agree: one wrong entry in equations in speeds is refuted") {
-    for (const char* name : {"scenes/textbook/chaplygin_sleigh_in_speeds.toml", "scenes/textbook/ball_on_turntable.toml",
-                             "tests/odd/speeds_oblique.toml", "tests/odd/speeds_with_multipliers.toml"}) {
+    for (const char* name :
+         {"scenes/textbook/chaplygin_sleigh_in_speeds.toml", "scenes/textbook/ball_on_turntable.toml",
+          "tests/odd/speeds_oblique.toml", "tests/odd/speeds_with_multipliers.toml"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(name)));
         const Equations right = kane(m), reference = derive_all(m).equations[0];
@@ -108,7 +115,8 @@ TEST_CASE("agree: one wrong entry in equations in speeds is refuted") {
             if (kind == 1) wrong.own[0] = m.z->name(wrong.own[0] + wrong.u.back() / 1000);
             if (kind == 2) wrong.h[0] = m.z->name(wrong.h[0] * (1 + m.q[0]));
             if (kind == 3) wrong.applied.back() = m.z->name(wrong.applied.back() + sin(m.q[0]) / 1000);
-            if (kind == 0 && std::string(name).find("ball") != std::string::npos) wrong.own[0] = m.z->name(wrong.own[0] + m.q[0]);
+            if (kind == 0 && std::string(name).find("ball") != std::string::npos)
+                wrong.own[0] = m.z->name(wrong.own[0] + m.q[0]);
             CHECK(agree({reference, wrong}, m).verdict == Agreement::Verdict::refuted);
             CHECK(agree({wrong, reference}, m).verdict == Agreement::Verdict::refuted);
         }
@@ -117,25 +125,30 @@ TEST_CASE("agree: one wrong entry in equations in speeds is refuted") {
 
 TEST_CASE("speeds: too many, dependent ones and ones that a constraint fixes are told apart") {
     const auto mistake = [](const std::string& speeds) {
-        const Mechanism m = build(parse_scene("[coordinates]\nx = 0.1\ny = 0.2\nz = 0.3\n[speeds]\n" + speeds +
-                                                  "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\", \"z\"]\n"
-                                                  "[[constraint]]\nname = \"c\"\nnonholonomic = \"x' - y*z'\"\n",
-                                              "p.toml"));
+        const Mechanism m =
+            build(parse_scene("[coordinates]\nx = 0.1\ny = 0.2\nz = 0.3\n[speeds]\n" + speeds +
+                                  "[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", \"y\", \"z\"]\n"
+                                  "[[constraint]]\nname = \"c\"\nnonholonomic = \"x' - y*z'\"\n",
+                              "p.toml"));
         const std::optional<Diagnostic> found = mistake_in_speeds(m);
         return found ? found->message : "";
     };
     CHECK(mistake("u = \"x'\"\nv = \"y'\"\n").empty());
     CHECK(mistake("u = \"x'\"\nv = \"y' + x'\"\nw = \"y*z'\"\n").empty());
-    CHECK(mistake("u = \"x'\"\n").find("there is 1 generalized speed, and 3 coordinates with 1 independent constraint; expected 3 or 2") == 0);
+    CHECK(mistake("u = \"x'\"\n")
+              .find("there is 1 generalized speed, and 3 coordinates with 1 independent constraint; expected 3 or "
+                    "2") == 0);
     CHECK(mistake("u = \"x'\"\nv = \"z*x'\"\n").find("speed 'v' is a combination") == 0);
-    CHECK(mistake("u = \"x' - y*z'\"\nv = \"y'\"\n").find("the speeds and the constraints do not determine the rates: constraint 'c'") == 0);
+    CHECK(mistake("u = \"x' - y*z'\"\nv = \"y'\"\n")
+              .find("the speeds and the constraints do not determine the rates: constraint 'c'") == 0);
 }
 
 TEST_CASE("speeds: a form that is not linear in the rates, and one without any, are refused") {
     const auto built = [](const std::string& form) {
         build(parse_scene("[coordinates]\nx = 0.1\n[speeds]\nu = \"" + form + "\"\n", "p.toml"));
     };
-    CHECK_THROWS_WITH_AS(built("x'^2"), doctest::Contains("p.toml:4:6: speed 'u' is not linear in the rates"), SceneError);
+    CHECK_THROWS_WITH_AS(built("x'^2"), doctest::Contains("p.toml:4:6: speed 'u' is not linear in the rates"),
+                         SceneError);
     CHECK_THROWS_WITH_AS(built("3*x"), doctest::Contains("p.toml:4:6: speed 'u' contains no rate"), SceneError);
     CHECK_NOTHROW(built("(1+x^2)*x' + t"));
 }
@@ -153,12 +166,14 @@ TEST_CASE("kinematics: q' = h(q,u,t) inverts the forms and obeys what was elimin
             // Divisions that the Fourier form does not see through: at numbers.
             GiNaC::exmap numbers{{m.t, ex(7) / 5}};
             for (int i = 0; i < m.size(); ++i) numbers[m.q[i]] = ex(i + 3) / 10;
-            for (std::size_t j = 0; j < m.speeds.size(); ++j) numbers[m.speeds[j].u] = ex(static_cast<int>(j) + 2) / 7;
+            for (std::size_t j = 0; j < m.speeds.size(); ++j)
+                numbers[m.speeds[j].u] = ex(static_cast<int>(j) + 2) / 7;
             for (const Mechanism::Parameter& p : m.parameters) numbers[p.symbol] = p.value;
             for (const Mechanism::Input& input : m.inputs)
                 for (int order = 0; order < 3; ++order) numbers[input.derivative[order]] = ex(order + 1) / 3;
             const auto zero = [&](const ex& value) {
-                return std::abs(GiNaC::ex_to<GiNaC::numeric>(at_h(value).subs(numbers).evalf()).to_double()) < 1e-12;
+                return std::abs(GiNaC::ex_to<GiNaC::numeric>(at_h(value).subs(numbers).evalf()).to_double()) <
+                       1e-12;
             };
             CHECK(zero(m.speeds[k].form - m.speeds[k].u));
             for (const Equations::Eliminated& gone : e.eliminated) {
@@ -195,21 +210,25 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
             value = interpret(program, state);
             y.insert(y.end(), state.qdot.begin(), state.qdot.end());
             rhs(state.t, y.data(), rate.data());
-            std::vector<double> found = rate, expected, position(c), velocity(c), rows(c * (n + s)), lambda(c), mass(s * s), forcing(s);
+            std::vector<double> found = rate, expected, position(c), velocity(c), rows(c * (n + s)), lambda(c),
+                                mass(s * s), forcing(s);
             const auto expect = [&](Group group) {
                 for (const int id : program.nodes_of(group)) expected.push_back(value[id]);
             };
-            const auto take = [&](const std::vector<double>& numbers) { found.insert(found.end(), numbers.begin(), numbers.end()); };
+            const auto take = [&](const std::vector<double>& numbers) {
+                found.insert(found.end(), numbers.begin(), numbers.end());
+            };
             expect(Group::rate);
             expect(Group::acceleration);
-            module.table().constraints_at(state.t, y.data(), par.data(), position.data(), velocity.data(), rows.data());
+            module.table().constraints_at(state.t, y.data(), par.data(), position.data(), velocity.data(),
+                                          rows.data());
             module.table().multipliers_at(state.t, y.data(), par.data(), lambda.data());
             module.table().mass_forcing(state.t, y.data(), par.data(), mass.data(), forcing.data());
             std::vector<double> outputs(program.nodes_of(Group::output).size() + m.speeds.size());
             module.table().outputs_at(state.t, y.data(), rate.data(), par.data(), outputs.data());
             for (const auto* numbers : {&position, &velocity, &rows, &lambda, &forcing, &outputs}) take(*numbers);
-            for (const Group group : {Group::position, Group::velocity, Group::row, Group::speed_row, Group::multiplier, Group::forcing,
-                                      Group::output, Group::speed})
+            for (const Group group : {Group::position, Group::velocity, Group::row, Group::speed_row,
+                                      Group::multiplier, Group::forcing, Group::output, Group::speed})
                 expect(group);
             REQUIRE(found.size() == expected.size());
             double size = 1;
@@ -230,8 +249,10 @@ TEST_CASE("cancelled: poles that are none disappear, others stay, and the value 
     CHECK(result(sin(2 * x) / cos(x)).is_equal(2 * sin(x)));
     CHECK(result(y * pow(sin(x), 3) / cos(x) + y * sin(x) * cos(x)).has(pow(cos(x), -1)));
     CHECK(result((cos(3 * y) - cos(y)) / (sin(y) * sin(x))).has(pow(sin(x), -1)));
-    for (const ex& e : {(1 - pow(cos(x), 2)) / sin(x), sin(2 * x) / cos(x), y * pow(sin(x), 3) / cos(x) + y * sin(x) * cos(x),
-                        (cos(3 * y) - cos(y)) / (sin(y) * sin(x)), (1 + cos(x)) / sin(x), 1 / (2 + sin(x)) - sin(-2 * y) / cos(y)}) {
+    for (const ex& e :
+         {(1 - pow(cos(x), 2)) / sin(x), sin(2 * x) / cos(x), y * pow(sin(x), 3) / cos(x) + y * sin(x) * cos(x),
+          (cos(3 * y) - cos(y)) / (sin(y) * sin(x)), (1 + cos(x)) / sin(x),
+          1 / (2 + sin(x)) - sin(-2 * y) / cos(y)}) {
         CAPTURE(e);
         const GiNaC::exmap at{{x, ex(3) / 10}, {y, ex(7) / 10}};
         const ex difference = (result(e) - e).subs(at).evalf();
@@ -249,7 +270,8 @@ TEST_CASE("lagrange1: Newton's law with multipliers, and what is missing elsewhe
     const auto refuses = [](const Mechanism& mechanism, const char* reason) {
         CHECK_THROWS_WITH_AS(lagrange1(mechanism), doctest::Contains(reason), ModelError);
     };
-    refuses(textbook("double_pendulum"), "particle M1 is at (l1*sin(theta1), l1*cos(theta1)); give it coordinates x, y");
+    refuses(textbook("double_pendulum"),
+            "particle M1 is at (l1*sin(theta1), l1*cos(theta1)); give it coordinates x, y");
     refuses(textbook("falling_ladder"), "body ladder turns");
     refuses(textbook("magnetic_field"), "[energy] lagrangian");
     const auto scene = [](const char* positions) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For every scene: the emitted function, the interpreter, and Lagrange's equations made by plain GiNaC derivatives of L
-// without any intermediate symbol are one and the same.
+// For every scene: the emitted function, the interpreter, and Lagrange's equations made by plain GiNaC derivatives
+// of L without any intermediate symbol are one and the same.
 #include <doctest/doctest.h>
 
 #include "alembert/compile.hpp"
@@ -17,7 +17,8 @@ namespace {
 
 constexpr int states = 64;
 
-/// d/dt ∂L/∂q' − ∂L/∂q − Q by GiNaC's own derivatives on expanded trees: another way than pull_back and push_forward.
+/// d/dt ∂L/∂q' − ∂L/∂q − Q by GiNaC's own derivatives on expanded trees: another way than pull_back and
+/// push_forward.
 class PlainLagrange {
 public:
     explicit PlainLagrange(const Mechanism& m) : m_(m) {
@@ -106,8 +107,8 @@ void check_energy(const Module& module, const Program& program, State<double> st
     for (const int id : program.nodes_of(Group::forcing)) expected.push_back(value[id]);
     double size = 1;  // sums of terms of about this size
     for (const double x : expected) size = std::max(size, std::abs(x));
-    // The power may hold multipliers: they come with the accelerations from one solve, whose errors are in proportion to
-    // its largest result (near theta = 0 Euler's angles have accelerations that grow without bound).
+    // The power may hold multipliers: they come with the accelerations from one solve, whose errors are in
+    // proportion to its largest result (near theta = 0 Euler's angles have accelerations that grow without bound).
     double solved = size;
     for (const double a : state.qddot) solved = std::max(solved, std::abs(a));
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -150,7 +151,8 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         for (const double side : {10.0, 0.1}) {
             State<double> beside = state;
             for (auto* list : {&beside.q, &beside.qdot})
-                for (std::size_t i = 0; i < list->size(); ++i) (*list)[i] = std::nextafter((*list)[i], (i % 2 == 0 ? side : 1 / side) * (*list)[i]);
+                for (std::size_t i = 0; i < list->size(); ++i)
+                    (*list)[i] = std::nextafter((*list)[i], (i % 2 == 0 ? side : 1 / side) * (*list)[i]);
             const std::vector<double> nearby = accelerations(beside, program);
             for (int i = 0; i < n; ++i) moved = std::max(moved, std::abs(nearby[i] - a[i]));
         }
@@ -163,11 +165,13 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         largest *= harder;  // where a rounding of the state alone moves them more, no more can be asked
         check_energy(module, program, state, y, rate);
         std::vector<double> multipliers;
-        for (const int id : program.nodes_of(Group::multiplier)) multipliers.push_back(interpret(program, state)[id]);
+        for (const int id : program.nodes_of(Group::multiplier))
+            multipliers.push_back(interpret(program, state)[id]);
         for (int i = 0; i < n; ++i) {
             emitted_error = std::max(emitted_error, std::abs(rate[n + i] - a[i]) / largest);
             form_error = std::max(form_error, std::abs(b[i] - a[i]) / largest);
-            if (plain && k < 8) plain_error = std::max(plain_error, plain->relative_residual(i, state, a, multipliers) / harder);
+            if (plain && k < 8)
+                plain_error = std::max(plain_error, plain->relative_residual(i, state, a, multipliers) / harder);
         }
     }
     CAPTURE(program.formulation);
@@ -192,7 +196,8 @@ TEST_CASE("generator: every node of a program says whose term it is") {
         const Program program = choose(mechanism, routh(mechanism)).program;
         for (int id = 0; id < program.size(); ++id) CHECK_FALSE(program[id].sources.empty());
         int named = 0;  // more than "the scene"
-        for (const int id : program.needed(program.nodes_of(Group::forcing))) named += program[id].sources[0] != 0 ? 1 : 0;
+        for (const int id : program.needed(program.nodes_of(Group::forcing)))
+            named += program[id].sources[0] != 0 ? 1 : 0;
         CHECK(named > 0);
     }
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// The second route: the equations and integrals that the scenes' authors derived by hand, which the scenes carry as
-// claims, hold with the accelerations that the program derives, at random states.
+// The second route: the equations and integrals that the scenes' authors derived by hand, which the scenes carry
+// as claims, hold with the accelerations that the program derives, at random states.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
 
-#include "state/assemble.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
 
 using namespace alembert;
 
 namespace {
 
-/// The largest |lhs − rhs| over the sum of the sizes of its terms, at 32 random states, for each claim that speaks of
-/// motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is held against the largest
+/// The largest |lhs − rhs| over the sum of the sizes of its terms, at 32 random states, for each claim that speaks
+/// of motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is held against the largest
 /// acceleration of the state; one that no state could be found for gives −1.
 std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::string text = scene.text;
@@ -23,7 +23,8 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::vector<std::string> claims;
     for (const Claim& claim : scene.claims) {
         if (claim.at != "motion" || !claim.unknowns.empty() || !claim.constants.empty()) continue;
-        outputs += fmt::format("claim{} = \"({}) - ({})\"\n", claims.size(), claim.equation.lhs.text, claim.equation.rhs.text);
+        outputs += fmt::format("claim{} = \"({}) - ({})\"\n", claims.size(), claim.equation.lhs.text,
+                               claim.equation.rhs.text);
         claims.push_back(claim.equation.lhs.text + " = " + claim.equation.rhs.text);
     }
     if (const std::size_t table = text.find("[outputs]\n"); table != std::string::npos)
@@ -67,7 +68,8 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
             if (node->args.empty())
                 for (const double a : state.qddot) size = std::max(size, std::abs(a));
             if (std::isfinite(value[root.node]))
-                result[claim].second = std::max(result[claim].second, std::abs(value[root.node]) / std::max(size, 1e-300));
+                result[claim].second =
+                    std::max(result[claim].second, std::abs(value[root.node]) / std::max(size, 1e-300));
             ++claim;
         }
     }

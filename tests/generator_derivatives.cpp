@@ -30,8 +30,11 @@ std::vector<double> flat(const State<double>& s) {
 
 /// (q', u'), and the power last, with the derivatives along component j of the state, or of the parameters.
 std::vector<Dual> along(const Program& p, const State<double>& s, bool parameter, std::size_t j) {
-    State<Dual> at{.parameters = {s.parameters.begin(), s.parameters.end()}, .t = s.t, .q = {s.q.begin(), s.q.end()},
-                   .qdot = {s.qdot.begin(), s.qdot.end()}, .qddot = {}};
+    State<Dual> at{.parameters = {s.parameters.begin(), s.parameters.end()},
+                   .t = s.t,
+                   .q = {s.q.begin(), s.q.end()},
+                   .qdot = {s.qdot.begin(), s.qdot.end()},
+                   .qddot = {}};
     (parameter ? at.parameters[j] : j < s.q.size() ? at.q[j] : at.qdot[j - s.q.size()]).d = 1;
     std::vector<Dual> rates, value = interpret(p, at);
     if (p.speeds.empty()) rates = at.qdot;
@@ -43,22 +46,25 @@ std::vector<Dual> along(const Program& p, const State<double>& s, bool parameter
     return rates;
 }
 
-/// The largest difference over the largest entry, of a matrix whose columns are `along` and whose rows are roots; −1 where the
-/// state has no finite rates.
+/// The largest difference over the largest entry, of a matrix whose columns are `along` and whose rows are roots;
+/// −1 where the state has no finite rates.
 double misfit(const Program& program, const Differentiated& d, const State<double>& s) {
     const std::vector<double> y = flat(s);
     State<double> at = s;
     std::vector<double> value = interpret(d.program, at);
-    for (const int id : d.program.nodes_of(Group::acceleration)) at.qddot.push_back(value[static_cast<std::size_t>(id)]);
+    for (const int id : d.program.nodes_of(Group::acceleration))
+        at.qddot.push_back(value[static_cast<std::size_t>(id)]);
     value = interpret(d.program, at);
     double worst = 0;
     const auto compare = [&](Group group, std::optional<Group> last, bool parameter, std::size_t columns) {
-        const std::vector<int> nodes = d.program.nodes_of(group), tail = last ? d.program.nodes_of(*last) : std::vector<int>();
+        const std::vector<int> nodes = d.program.nodes_of(group),
+                               tail = last ? d.program.nodes_of(*last) : std::vector<int>();
         double difference = 0, largest = 1e-3;
         for (std::size_t j = 0; j < columns; ++j) {
             const std::vector<Dual> exact = along(program, s, parameter, j);
             for (std::size_t i = 0; i < y.size() + (tail.empty() ? 0 : 1); ++i) {
-                const double ours = value[static_cast<std::size_t>(i < y.size() ? nodes[i * columns + j] : tail[j])];
+                const double ours =
+                    value[static_cast<std::size_t>(i < y.size() ? nodes[i * columns + j] : tail[j])];
                 difference = std::max(difference, std::isfinite(exact[i].d) ? std::abs(ours - exact[i].d) : 0);
                 largest = std::max(largest, std::abs(exact[i].d));
                 if (!std::isfinite(exact[i].v)) return;
@@ -67,21 +73,26 @@ double misfit(const Program& program, const Differentiated& d, const State<doubl
         worst = std::max(worst, difference / largest);
     };
     compare(Group::jacobian, Group::power_gradient, false, y.size());
-    if (!d.program.nodes_of(Group::parameter_jacobian).empty()) compare(Group::parameter_jacobian, std::nullopt, true, s.parameters.size());
+    if (!d.program.nodes_of(Group::parameter_jacobian).empty())
+        compare(Group::parameter_jacobian, std::nullopt, true, s.parameters.size());
     return worst;
 }
 
 /// n uniform rods, one hanging from the other, by relative angles.
 std::string chain(int n) {
-    std::string coordinates = "title = \"chain\"\ngravity = [0, \"g\"]\n[parameters]\nm = 1.0\nl = 1.0\ng = 9.81\n[coordinates]\n", bodies;
+    std::string
+        coordinates =
+            "title = \"chain\"\ngravity = [0, \"g\"]\n[parameters]\nm = 1.0\nl = 1.0\ng = 9.81\n[coordinates]\n",
+        bodies;
     std::string frame = "N", joint = "O";
     for (int k = 1; k <= n; ++k) {
         const std::string i = std::to_string(k);
         coordinates += "q" + i + " = 0.3\n";
-        bodies += "[[frame]]\nname = \"R" + i + "\"\nparent = \"" + frame + "\"\nrotate = [[\"z\", \"q" + i + "\"]]\n[[point]]\nname = \"J" + i +
-                  "\"\nfrom = \"" + joint + "\"\noffset = [0, \"l\"]\naxes = \"R" + i + "\"\n[[body]]\nname = \"B" + i +
-                  "\"\nmass = \"m\"\nframe = \"R" + i + "\"\nfrom = \"" + joint + "\"\nposition = [0, \"l/2\"]\naxes = \"R" + i +
-                  "\"\ninertia = \"m*l^2/12\"\n";
+        bodies += "[[frame]]\nname = \"R" + i + "\"\nparent = \"" + frame + "\"\nrotate = [[\"z\", \"q" + i +
+                  "\"]]\n[[point]]\nname = \"J" + i + "\"\nfrom = \"" + joint +
+                  "\"\noffset = [0, \"l\"]\naxes = \"R" + i + "\"\n[[body]]\nname = \"B" + i +
+                  "\"\nmass = \"m\"\nframe = \"R" + i + "\"\nfrom = \"" + joint +
+                  "\"\nposition = [0, \"l/2\"]\naxes = \"R" + i + "\"\ninertia = \"m*l^2/12\"\n";
         frame = "R" + i;
         joint = "J" + i;
     }
@@ -96,10 +107,11 @@ TEST_CASE("partials: forward, reverse and least fill give what dual numbers give
     const int x = p.variable({Variable::Kind::coordinate, 0}), y = p.variable({Variable::Kind::coordinate, 1});
     const int small = p.product(Rational(1) / 3, {{x, 1}, {y, 1}});
     std::vector<int> outputs;
-    for (const Op op : {Op::sin, Op::cos, Op::tan, Op::asin, Op::acos, Op::atan, Op::sinh, Op::cosh, Op::tanh, Op::exp, Op::log, Op::sqrt, Op::abs,
-                        Op::sign})
+    for (const Op op : {Op::sin, Op::cos, Op::tan, Op::asin, Op::acos, Op::atan, Op::sinh, Op::cosh, Op::tanh,
+                        Op::exp, Op::log, Op::sqrt, Op::abs, Op::sign})
         outputs.push_back(p.call(op, {small}));
-    for (const Op op : {Op::pow, Op::atan2, Op::min, Op::max}) outputs.push_back(p.call(op, {p.sum(1, {{1, y}}), p.call(Op::sin, {x})}));
+    for (const Op op : {Op::pow, Op::atan2, Op::min, Op::max})
+        outputs.push_back(p.call(op, {p.sum(1, {{1, y}}), p.call(Op::sin, {x})}));
     const int quotient = p.product(1, {{outputs[0], 2}, {p.sum(2, {{1, y}, {1, small}}), -3}, {x, 7}});
     outputs.push_back(quotient);
     outputs.push_back(p.sum(3, {{2, quotient}, {-1, outputs[1]}, {5, x}}));
@@ -111,17 +123,24 @@ TEST_CASE("partials: forward, reverse and least fill give what dual numbers give
         const auto found = partials(q, outputs, inputs, order);
         REQUIRE(found);
         for (const double a : {0.7, -0.4}) {
-            const std::vector<double> value = interpret<double>(q, {.parameters = {}, .q = {a, 0.9}, .qdot = {}, .qddot = {}});
+            const std::vector<double> value =
+                interpret<double>(q, {.parameters = {}, .q = {a, 0.9}, .qdot = {}, .qddot = {}});
             for (int j = 0; j < 2; ++j) {
-                const std::vector<Dual> exact = interpret<Dual>(
-                    p, {.parameters = {}, .q = {{a, j == 0 ? 1. : 0.}, {0.9, j == 1 ? 1. : 0.}}, .qdot = {}, .qddot = {}});
+                const std::vector<Dual> exact =
+                    interpret<Dual>(p, {.parameters = {},
+                                        .q = {{a, j == 0 ? 1. : 0.}, {0.9, j == 1 ? 1. : 0.}},
+                                        .qdot = {},
+                                        .qddot = {}});
                 for (std::size_t k = 0; k < outputs.size(); ++k) {
                     double ours = 0;
                     for (const Partial& part : *found)
-                        if (part.output == static_cast<int>(k) && part.input == j) ours = value[static_cast<std::size_t>(part.node)];
+                        if (part.output == static_cast<int>(k) && part.input == j)
+                            ours = value[static_cast<std::size_t>(part.node)];
                     const double theirs = exact[static_cast<std::size_t>(outputs[k])].d;
                     INFO("output " << k << " by " << j << " at " << a);
-                    CHECK((std::isnan(theirs) ? std::isnan(ours) : std::abs(ours - theirs) <= 1e-14 * std::max(1., std::abs(theirs))));
+                    CHECK((std::isnan(theirs)
+                               ? std::isnan(ours)
+                               : std::abs(ours - theirs) <= 1e-14 * std::max(1., std::abs(theirs))));
                 }
             }
         }
@@ -147,7 +166,8 @@ TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most fou
         const auto d = differentiated(program);
         REQUIRE(d);
         const int rhs = program.count(program.right_hand_side()).total();
-        MESSAGE(n << " rods: " << rhs << " operations, the Jacobian " << d->operations.total() << " by " << d->route);
+        MESSAGE(n << " rods: " << rhs << " operations, the Jacobian " << d->operations.total() << " by "
+                  << d->route);
         CHECK(d->operations.total() <= 4 * rhs);
         State<double> s = start_of(m).state();
         for (double& u : s.qdot) u = 0.5;
@@ -156,7 +176,8 @@ TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most fou
 }
 
 TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and with the row of the power") {
-    for (const char* name : {"double_pendulum", "cartesian_pendulum", "ball_on_turntable", "chaplygin_sleigh_in_speeds"}) {
+    for (const char* name :
+         {"double_pendulum", "cartesian_pendulum", "ball_on_turntable", "chaplygin_sleigh_in_speeds"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path("scenes/textbook/") + name + ".toml"));
         const Equations equations = formalism(m.speeds.empty() ? "routh" : "kane").derive(m);
@@ -169,7 +190,8 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
         State<double> s = state_of(start_of(m), m, equations);
         for (double& u : s.qdot) u += 0.3;
         std::vector<double> y = flat(s), value = interpret(d->program, s);
-        for (const int id : d->program.nodes_of(Group::acceleration)) s.qddot.push_back(value[static_cast<std::size_t>(id)]);
+        for (const int id : d->program.nodes_of(Group::acceleration))
+            s.qddot.push_back(value[static_cast<std::size_t>(id)]);
         value = interpret(d->program, s);
         const std::size_t n = y.size();
         const Rhs driven = make_rhs(module, s.parameters, Work::integrated);
@@ -184,7 +206,8 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
         for (const int id : nodes) largest = std::max(largest, std::abs(value[static_cast<std::size_t>(id)]));
         for (std::size_t i = 0; i <= n; ++i)
             for (std::size_t j = 0; j <= n; ++j)
-                CHECK(std::abs(J[j * (n + 1) + i] - (j < n ? value[static_cast<std::size_t>(nodes[i * n + j])] : 0)) <= 1e-13 * largest);
+                CHECK(std::abs(J[j * (n + 1) + i] - (j < n ? value[static_cast<std::size_t>(nodes[i * n + j])]
+                                                           : 0)) <= 1e-13 * largest);
         // The parameters' pattern is that of the entries.
         const std::vector<double> par = prepared(module, s.parameters);
         std::vector<double> entries(static_cast<std::size_t>(module.derivatives()->parameter_entries));
@@ -219,7 +242,8 @@ TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") 
                 std::uniform_real_distribution<double> near(-0.3, 0.3);
                 for (int k = 0; k < 4; ++k) {
                     INFO(path << " by " << f.name << ", seed 20240917, state " << k << ": " << d->route);
-                    // Rounding: the accelerations' own, and that of the differences of large terms in their derivatives.
+                    // Rounding: the accelerations' own, and that of the differences of large terms in their
+                    // derivatives.
                     CHECK(misfit(program, *d, s) < 1e-10);
                     ++checked;
                     s.t += 0.1;

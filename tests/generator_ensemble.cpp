@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ensembles against the ordinary integrator, one member at a time, and against themselves: a member's result depends on nothing
-// but the member.
+// Ensembles against the ordinary integrator, one member at a time, and against themselves: a member's result
+// depends on nothing but the member.
 #include <doctest/doctest.h>
 
 #include "alembert/compile.hpp"
@@ -17,7 +17,9 @@ namespace {
 
 Module module_of(const std::string& scene, bool batch = true) {
     const Mechanism mechanism = build(read_scene(test::source_path(scene)));
-    const Program program = choose(mechanism, formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism)).program;
+    const Program program =
+        choose(mechanism, formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism))
+            .program;
     return load(compile(emit(program, {.batch = batch}).text, program.name, {}).object);
 }
 
@@ -29,7 +31,8 @@ Ensemble random_members(const Module& module, int count) {
     const alembert_solver_table& table = module.table();
     for (int k = 0; k < count; ++k) {
         for (int i = 0; i < table.coordinates + table.speeds; ++i) e.states.push_back(turn(random));
-        for (int i = 0; i < table.parameters; ++i) e.parameters.push_back(table.parameter_values[i] * factor(random));
+        for (int i = 0; i < table.parameters; ++i)
+            e.parameters.push_back(table.parameter_values[i] * factor(random));
         e.starts.push_back(time(random));
         e.durations.push_back(k == 3 ? 0 : time(random));
     }
@@ -49,7 +52,9 @@ Trajectory alone(const Ensemble& e, std::size_t k, Options options, Drift* drift
     if (e.work == Work::integrated) state.push_back(0);
     const std::vector<double> par = prepared(e.module, part(e.parameters, table.parameters));
     if (drift != nullptr)
-        options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) { (*drift)(table, par, t, y, rate); };
+        options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
+            (*drift)(table, par, t, y, rate);
+        };
     return integrate(make_rhs(e.module, part(e.parameters, table.parameters), e.work), state, options);
 }
 
@@ -60,17 +65,19 @@ double distance(std::span<const double> a, std::span<const double> b) {
 }
 
 bool same(const Outcome& a, const Outcome& b) {
-    return a.time == b.time && a.steps == b.steps && a.rejected == b.rejected && a.evaluations == b.evaluations && a.energy_drift == b.energy_drift &&
-           a.work_balance == b.work_balance && a.failure == b.failure;
+    return a.time == b.time && a.steps == b.steps && a.rejected == b.rejected && a.evaluations == b.evaluations &&
+           a.energy_drift == b.energy_drift && a.work_balance == b.work_balance && a.failure == b.failure;
 }
 
 }  // namespace
 
-TEST_CASE("ensemble: each member ends where the ordinary integrator brings it, with as many steps, by every method") {
+TEST_CASE(
+    "ensemble: each member ends where the ordinary integrator brings it, with as many steps, by every method") {
     const Module module = module_of("scenes/textbook/double_pendulum.toml");  // driven: its energy changes
     Ensemble e = random_members(module, 21);
     e.work = Work::integrated;
-    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::radau}) {
+    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853,
+                                Method::verner76, Method::verner98, Method::gauss, Method::radau}) {
         CAPTURE(name(method));
         const Options options{.method = method, .tolerance = 1e-9, .step = has_fixed_step(method) ? 0.01 : 0};
         const Outcomes ends = integrate(e, options);
@@ -79,7 +86,8 @@ TEST_CASE("ensemble: each member ends where the ordinary integrator brings it, w
             Drift drift(module.table().coordinates, module.table().speeds, true);
             const Trajectory one = alone(e, k, options, &drift);
             const Outcome& outcome = ends.members[k];
-            // Rounding alone tells them apart: it grows with the motion, and shifts a step's length by the same ratio.
+            // Rounding alone tells them apart: it grows with the motion, and shifts a step's length by the same
+            // ratio.
             CHECK(distance(ends.state(k), one.final_state().first(ends.state(k).size())) < 1e-10);
             CHECK(outcome.failure.empty());
             CHECK(outcome.time == e.starts[k] + e.durations[k]);
@@ -104,7 +112,8 @@ TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbour
         CHECK(std::equal(ends.members.begin(), ends.members.end(), reference.members.begin(), same));
     }
     for (const std::size_t k : {0UL, 5UL, 36UL}) {  // by itself in a pack
-        const auto width = static_cast<std::ptrdiff_t>(reference.dimension), p = static_cast<std::ptrdiff_t>(module.table().parameters);
+        const auto width = static_cast<std::ptrdiff_t>(reference.dimension),
+                   p = static_cast<std::ptrdiff_t>(module.table().parameters);
         const auto at = static_cast<std::ptrdiff_t>(k);
         const Ensemble one{.module = module,
                            .states = {e.states.begin() + at * width, e.states.begin() + (at + 1) * width},
@@ -154,7 +163,8 @@ TEST_CASE("ensemble: constraints, and modules without packs, are integrated one 
     const Ensemble other = random_members(plain, 4);
     const Outcomes ends = integrate(other, options);
     CHECK(!ends.packed);
-    for (std::size_t k = 0; k < 4; ++k) CHECK(distance(ends.state(k), alone(other, k, options).final_state()) == 0);
+    for (std::size_t k = 0; k < 4; ++k)
+        CHECK(distance(ends.state(k), alone(other, k, options).final_state()) == 0);
 }
 
 TEST_CASE("ensemble: sizes and options that do not fit are refused") {

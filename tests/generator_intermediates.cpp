@@ -35,10 +35,16 @@ TEST_CASE_FIXTURE(Fixture, "intermediates: the same expression gets the same sym
 }
 
 TEST_CASE_FIXTURE(Fixture, "intermediates: reverse and forward derivatives equal GiNaC's on the expanded tree") {
-    const std::vector<ex> cases{
-        sin(x * y) + cos(a * x), sqrt(x * x + y * y + a), pow(x * x + 1, GiNaC::numeric(-3, 2)) * y,
-        exp(-x * y) * log(2 + x * x), tan(x / 4) * atan(y), asin(x / 9) + acos(y / 9), sinh(x) * cosh(y) * tanh(a * x),
-        pow(1 + x * x, y), x / (1 + y * y), *apply_function("atan2", {x, 1 + y})};
+    const std::vector<ex> cases{sin(x * y) + cos(a * x),
+                                sqrt(x * x + y * y + a),
+                                pow(x * x + 1, GiNaC::numeric(-3, 2)) * y,
+                                exp(-x * y) * log(2 + x * x),
+                                tan(x / 4) * atan(y),
+                                asin(x / 9) + acos(y / 9),
+                                sinh(x) * cosh(y) * tanh(a * x),
+                                pow(1 + x * x, y),
+                                x / (1 + y * y),
+                                *apply_function("atan2", {x, 1 + y})};
     for (const ex& e : cases) {
         CAPTURE(e);
         const ex named = z.name(e);

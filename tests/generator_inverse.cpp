@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loads for given accelerations: Newton-Euler along the tree against M q'' − f of Schiehlen's projection, which shares nothing with
-// it but the mechanism.
+// Loads for given accelerations: Newton-Euler along the tree against M q'' − f of Schiehlen's projection, which
+// shares nothing with it but the mechanism.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -29,7 +29,8 @@ Expected by_schiehlen(const Mechanism& m, const State<double>& state) {
     }
     Program program;
     std::vector<std::pair<GiNaC::symbol, int>> open;
-    for (const Mechanism::Unilateral& contact : m.unilateral) open.emplace_back(contact.gap.multiplier, program.number(0));
+    for (const Mechanism::Unilateral& contact : m.unilateral)
+        open.emplace_back(contact.gap.multiplier, program.number(0));
     const std::vector<int> nodes = lower_expressions(program, m, list, open);
     const std::vector<double> value = interpret(program, state);
     Expected result;
@@ -52,8 +53,10 @@ Expected by_schiehlen(const Mechanism& m, const State<double>& state) {
 
 TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternions and prescribed motions too") {
     std::vector<std::string> files = test::scenes_in("scenes/textbook");
-    for (const char* name : {"trees/arm7", "trees/pend8"}) files.push_back(test::source_path(std::string("scenes/benchmark/") + name + ".toml"));
-    for (const char* name : {"six_joint_arm", "four_bar_joints", "rssr", "gimballed_gyroscope", "universal_double_pendulum", "furuta_joints"})
+    for (const char* name : {"trees/arm7", "trees/pend8"})
+        files.push_back(test::source_path(std::string("scenes/benchmark/") + name + ".toml"));
+    for (const char* name : {"six_joint_arm", "four_bar_joints", "rssr", "gimballed_gyroscope",
+                             "universal_double_pendulum", "furuta_joints"})
         files.push_back(test::source_path(std::string("scenes/gallery/") + name + ".toml"));
     const unsigned seed = 20261121;
     CAPTURE(seed);
@@ -63,7 +66,8 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
         CAPTURE(file);
         const Mechanism m = build(read_scene(file));
         State<double> state = test::random_state(start_of(m), random);
-        for (int i = 0; i < m.size(); ++i) state.qddot.push_back(std::uniform_real_distribution<double>(-3, 3)(random));
+        for (int i = 0; i < m.size(); ++i)
+            state.qddot.push_back(std::uniform_real_distribution<double>(-3, 3)(random));
         std::optional<Expected> expected;
         try {
             expected = by_schiehlen(m, state);
@@ -74,7 +78,8 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
         const std::vector<int> loads = program.nodes_of(Group::load);
         REQUIRE(static_cast<int>(loads.size()) == m.size());
         const std::vector<double> value = interpret(program, state);
-        for (std::size_t i = 0; i < loads.size(); ++i) CHECK(std::abs(value[loads[i]] - expected->load[i]) < 1e-11 * expected->size[i]);
+        for (std::size_t i = 0; i < loads.size(); ++i)
+            CHECK(std::abs(value[loads[i]] - expected->load[i]) < 1e-11 * expected->size[i]);
         ++(loaded_tree(m).exists() ? trees : others);
     }
     CHECK(trees > 20);
@@ -84,7 +89,8 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
 TEST_CASE("inverse: along a tree the operations grow linearly") {
     std::vector<int> operations;
     for (const int n : {8, 16, 32}) {
-        const Program program = lower_inverse(build(read_scene(test::source_path("scenes/benchmark/trees/pend" + std::to_string(n) + ".toml"))));
+        const Program program = lower_inverse(
+            build(read_scene(test::source_path("scenes/benchmark/trees/pend" + std::to_string(n) + ".toml"))));
         operations.push_back(program.count(program.nodes_of(Group::load)).total());
     }
     CHECK(std::abs((operations[2] - operations[1]) - 2 * (operations[1] - operations[0])) < operations[0] / 4);

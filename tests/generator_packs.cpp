@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Functions over packs against the scalar functions of the same file, which generator_agreement.cpp holds against the
-// interpreter: M, f, energies and outputs to 4 ulp of the largest term, accelerations to 4 ulp times the condition of M.
+// Functions over packs against the scalar functions of the same file, which generator_agreement.cpp holds against
+// the interpreter: M, f, energies and outputs to 4 ulp of the largest term, accelerations to 4 ulp times the
+// condition of M.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -26,7 +27,8 @@ std::vector<double> sizes_of(const Program& program, const std::vector<double>& 
         size[id] = std::abs(value[id]);
         if (node.op == Op::sum) {
             size[id] = std::abs(real_of<double>(node.number));
-            for (std::size_t k = 0; k < node.args.size(); ++k) size[id] += std::abs(real_of<double>(node.coefficients[k])) * size[node.args[k]];
+            for (std::size_t k = 0; k < node.args.size(); ++k)
+                size[id] += std::abs(real_of<double>(node.coefficients[k])) * size[node.args[k]];
         } else if (node.op == Op::product) {
             size[id] = 1;
             for (std::size_t k = 0; k < node.args.size(); ++k)
@@ -67,7 +69,8 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
     const Mechanism mechanism = build(read_scene(scene));
     const Program program = choose(mechanism, formalism(by).derive(mechanism)).program;
     const Module module = load(compile(emit(program, {.batch = true}).text, program.name,
-                                       {.compiler = {}, .extra_flags = flags, .cache = {}}).object);
+                                       {.compiler = {}, .extra_flags = flags, .cache = {}})
+                                   .object);
     const alembert_solver_table& one = module.table();
     const alembert_pack_table& eight = *module.pack();
     REQUIRE(eight.lanes == lanes);
@@ -77,65 +80,82 @@ void agrees(const std::string& scene, const std::string& by, const std::vector<s
     std::uniform_real_distribution<double> factor(0.8, 1.2);
     for (int round = 0; round < 4; ++round) {
         std::vector<State<double>> states;
-        std::vector<Lanes> y(2 * n), par(static_cast<std::size_t>(one.parameters + one.constants)), mass(n * n), forcing(n), rate(2 * n), energy(5);
+        std::vector<Lanes> y(2 * n), par(static_cast<std::size_t>(one.parameters + one.constants)), mass(n * n),
+            forcing(n), rate(2 * n), energy(5);
         Lanes t;
         for (int lane = 0; lane < lanes; ++lane) {
             states.push_back(test::random_state(start, random));
             State<double>& state = states.back();
-            for (std::size_t i = 0; i < state.parameters.size(); ++i) par[i][lane] = state.parameters[i] *= factor(random);
+            for (std::size_t i = 0; i < state.parameters.size(); ++i)
+                par[i][lane] = state.parameters[i] *= factor(random);
             for (std::size_t i = 0; i < n; ++i) y[i][lane] = state.q[i], y[n + i][lane] = state.qdot[i];
             t[lane] = state.t;
         }
         eight.prepare(reals(par.data()));
         eight.rhs(reals(&t), reals(y.data()), reals(par.data()), reals(rate.data()));
-        eight.mass_forcing(reals(&t), reals(y.data()), reals(par.data()), reals(mass.data()), reals(forcing.data()));
-        eight.energy(reals(&t), reals(y.data()), reals(rate.data()), reals(par.data()), reals(energy.data()), reals(&energy[4]));
+        eight.mass_forcing(reals(&t), reals(y.data()), reals(par.data()), reals(mass.data()),
+                           reals(forcing.data()));
+        eight.energy(reals(&t), reals(y.data()), reals(rate.data()), reals(par.data()), reals(energy.data()),
+                     reals(&energy[4]));
         for (int lane = 0; lane < lanes; ++lane) {
             const State<double>& state = states[lane];
             const std::vector<double> p = prepared(module, state.parameters), s = lane_of(y, lane);
             Values expected(n);
             one.rhs(state.t, s.data(), p.data(), expected.rate.data());
             one.mass_forcing(state.t, s.data(), p.data(), expected.mass.data(), expected.forcing.data());
-            one.energy(state.t, s.data(), lane_of(rate, lane).data(), p.data(), expected.energy.data(), &expected.energy[4]);
+            one.energy(state.t, s.data(), lane_of(rate, lane).data(), p.data(), expected.energy.data(),
+                       &expected.energy[4]);
             CHECK(distance(lane_of(par, lane), p) <= four_ulp * distance(p, std::vector<double>(p.size())));
 
             State<double> full = state;
             full.qddot.assign(expected.rate.begin() + static_cast<std::ptrdiff_t>(n), expected.rate.end());
             const std::vector<double> size = sizes_of(program, interpret(program, full));
             CHECK(distance(lane_of(mass, lane), expected.mass) <= four_ulp * largest(program, size, Group::mass));
-            CHECK(distance(lane_of(forcing, lane), expected.forcing) <= four_ulp * largest(program, size, Group::forcing));
+            CHECK(distance(lane_of(forcing, lane), expected.forcing) <=
+                  four_ulp * largest(program, size, Group::forcing));
             const std::vector<double> e = lane_of(energy, lane);
-            for (std::size_t i = 0; const Group group : {Group::kinetic, Group::potential, Group::energy, Group::power, Group::jacobi}) {
-                CHECK(std::abs(e[i] - expected.energy[i]) <= four_ulp * std::max(largest(program, size, group), std::abs(expected.energy[i])));
+            for (std::size_t i = 0; const Group group : {Group::kinetic, Group::potential, Group::energy,
+                                                         Group::power, Group::jacobi}) {
+                CHECK(std::abs(e[i] - expected.energy[i]) <=
+                      four_ulp * std::max(largest(program, size, group), std::abs(expected.energy[i])));
                 ++i;
             }
-            const Eigen::Map<const Eigen::MatrixXd> M(expected.mass.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+            const Eigen::Map<const Eigen::MatrixXd> M(expected.mass.data(), static_cast<Eigen::Index>(n),
+                                                      static_cast<Eigen::Index>(n));
             const Eigen::VectorXd sigma = M.jacobiSvd().singularValues();
-            const double condition = sigma[0] / sigma[sigma.size() - 1], scale = largest(program, size, Group::forcing) / sigma[sigma.size() - 1];
-            if (condition < 1e6) CHECK(distance(lane_of(rate, lane), expected.rate) <= four_ulp * std::max(scale, condition * 3));
+            const double condition = sigma[0] / sigma[sigma.size() - 1],
+                         scale = largest(program, size, Group::forcing) / sigma[sigma.size() - 1];
+            if (condition < 1e6)
+                CHECK(distance(lane_of(rate, lane), expected.rate) <= four_ulp * std::max(scale, condition * 3));
         }
     }
 }
 
 }  // namespace
 
-TEST_CASE("packs: scalar and packed functions agree to 4 ulp of the largest term, accelerations to that times the condition") {
-    for (const char* name : {"double_pendulum", "elastic_pendulum", "spherical_pendulum", "watt_governor", "two_body", "double_pendulum_joints"})
+TEST_CASE(
+    "packs: scalar and packed functions agree to 4 ulp of the largest term, accelerations to that times the "
+    "condition") {
+    for (const char* name : {"double_pendulum", "elastic_pendulum", "spherical_pendulum", "watt_governor",
+                             "two_body", "double_pendulum_joints"})
         agrees(test::source_path(std::string("scenes/textbook/") + name + ".toml"), "lagrange", {});
     agrees(test::source_path("scenes/benchmark/trees/pend4.toml"), "kane", {});
-    agrees(test::source_path("scenes/benchmark/trees/arm7g.toml"), "recursive", {});  // M and f one system after the other
+    agrees(test::source_path("scenes/benchmark/trees/arm7g.toml"), "recursive",
+           {});  // M and f one system after the other
     agrees(test::source_path("scenes/textbook/double_pendulum.toml"), "lagrange", {"-march=x86-64"});
 }
 
 TEST_CASE("packs: sines of sums by addition theorems give M and f as sines of their own do") {
     for (const char* name : {"double_pendulum", "double_pendulum_joints"}) {
         CAPTURE(name);
-        const Mechanism mechanism = build(read_scene(test::source_path(std::string("scenes/textbook/") + name + ".toml")));
+        const Mechanism mechanism =
+            build(read_scene(test::source_path(std::string("scenes/textbook/") + name + ".toml")));
         const Program program = choose(mechanism, formalism("lagrange").derive(mechanism)).program;
         const std::string with = emit(program, {.batch = true}).text, without = emit(program).text;
         CHECK(with.find("sin_phi0 = sin_") != std::string::npos);
         CHECK(without.find("sin_phi0 = sin_") == std::string::npos);
-        const Module one = load(compile(with, "with", {}).object), other = load(compile(without, "without", {}).object);
+        const Module one = load(compile(with, "with", {}).object),
+                     other = load(compile(without, "without", {}).object);
         const auto n = static_cast<std::size_t>(mechanism.size());
         const Start start = start_of(mechanism);
         std::mt19937_64 random(12);
@@ -156,17 +176,22 @@ TEST_CASE("packs: sines of sums by addition theorems give M and f as sines of th
     }
 }
 
-TEST_CASE("packs: every function and comparison goes lane by lane, with zeros, infinities and NaN as in the scalar code") {
+TEST_CASE(
+    "packs: every function and comparison goes lane by lane, with zeros, infinities and NaN as in the scalar "
+    "code") {
     Program program;
     program.name = "functions";
     program.coordinates = {{"x", "", 0}, {"y", "", 0}};
-    const int x = program.variable({Variable::Kind::coordinate, 0}), y = program.variable({Variable::Kind::coordinate, 1});
+    const int x = program.variable({Variable::Kind::coordinate, 0}),
+              y = program.variable({Variable::Kind::coordinate, 1});
     std::vector<int> outputs;
-    for (const Op op : {Op::sin, Op::cos, Op::tan, Op::asin, Op::acos, Op::atan, Op::sinh, Op::cosh, Op::tanh, Op::exp, Op::log, Op::sqrt, Op::abs, Op::sign})
+    for (const Op op : {Op::sin, Op::cos, Op::tan, Op::asin, Op::acos, Op::atan, Op::sinh, Op::cosh, Op::tanh,
+                        Op::exp, Op::log, Op::sqrt, Op::abs, Op::sign})
         outputs.push_back(program.call(op, {x}));
     for (const Op op : {Op::pow, Op::atan2, Op::min, Op::max}) outputs.push_back(program.call(op, {x, y}));
     outputs.push_back(program.product(1, {{x, 1}, {program.power(y, -1), 1}}));
-    for (std::size_t i = 0; i < outputs.size(); ++i) program.roots.push_back({Group::output, "o" + std::to_string(i), outputs[i]});
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        program.roots.push_back({Group::output, "o" + std::to_string(i), outputs[i]});
     for (int i = 0; i < 2; ++i) {
         for (int j = 0; j <= i; ++j) program.roots.push_back({Group::mass, "M", program.number(i == j ? 1 : 0)});
         program.roots.push_back({Group::forcing, "f", program.number(0)});
@@ -175,12 +200,14 @@ TEST_CASE("packs: every function and comparison goes lane by lane, with zeros, i
     const Module module = load(compile(emit(program, {.batch = true}).text, "functions", {}).object);
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> values{0.0, -0.0, 0.5, -0.75, 1.0, -2.0, 1e-310, 1e9, -1e300, infinity, -infinity, std::nan("")};
+    const std::vector<double> values{0.0,    -0.0, 0.5,    -0.75,    1.0,       -2.0,
+                                     1e-310, 1e9,  -1e300, infinity, -infinity, std::nan("")};
     int lane = 0;
     for (const double a : values)
         for (const double b : values) {
             std::vector<Lanes> state(4), found(outputs.size());
-            for (int l = 0; l < lanes; ++l) state[0][l] = values[(l * 5) % values.size()], state[1][l] = values[(l * 7) % values.size()];
+            for (int l = 0; l < lanes; ++l)
+                state[0][l] = values[(l * 5) % values.size()], state[1][l] = values[(l * 7) % values.size()];
             state[0][lane] = a, state[1][lane] = b;
             const Lanes t;
             module.pack()->outputs_at(reals(&t), reals(state.data()), nullptr, nullptr, reals(found.data()));

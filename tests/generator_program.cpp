@@ -4,21 +4,25 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "program/interpret.hpp"
-#include "program/share.hpp"
-#include "program/solve.hpp"
 #include "emit/emit.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "program/constants.hpp"
+#include "program/interpret.hpp"
+#include "program/share.hpp"
+#include "program/solve.hpp"
 #include "scenes.hpp"
 
 using namespace alembert;
 
 namespace {
 
-int coordinate(Program& p, int index) { return p.variable({Variable::Kind::coordinate, index}); }
-int parameter(Program& p, int index) { return p.variable({Variable::Kind::parameter, index}); }
+int coordinate(Program& p, int index) {
+    return p.variable({Variable::Kind::coordinate, index});
+}
+int parameter(Program& p, int index) {
+    return p.variable({Variable::Kind::parameter, index});
+}
 
 }  // namespace
 
@@ -58,13 +62,16 @@ TEST_CASE("program: what depends on parameters alone is gathered and not counted
     CHECK(p.count(others).total() == 1);
 }
 
-TEST_CASE("program: a·(b·x) takes one multiplication with a·b known beforehand, and two where b·x is an acceleration too") {
+TEST_CASE(
+    "program: a·(b·x) takes one multiplication with a·b known beforehand, and two where b·x is an acceleration "
+    "too") {
     const State<double> state{.parameters = {0.7, 1.9}, .q = {1.3, -0.4}, .qdot = {}, .qddot = {}};
     for (const bool is_wanted : {false, true}) {
         Program p;
         const int x = coordinate(p, 0), y = coordinate(p, 1), a = parameter(p, 0), b = parameter(p, 1);
         const int force = p.product(-1, {{b, 2}, {x, 1}, {y, 1}});
-        p.roots = {{Group::forcing, "f0", force}, {Group::acceleration, "a0", p.product(1, {{force, 1}, {a, -1}})}};
+        p.roots = {{Group::forcing, "f0", force},
+                   {Group::acceleration, "a0", p.product(1, {{force, 1}, {a, -1}})}};
         if (is_wanted) p.roots.push_back({Group::acceleration, "a1", force});
         CHECK(p.count(p.right_hand_side()).total() == 3);  // b² x y, then by 1/a
 
@@ -72,7 +79,8 @@ TEST_CASE("program: a·(b·x) takes one multiplication with a·b known beforehan
         CHECK(result.count(result.right_hand_side()).total() == (is_wanted ? 3 : 2));
         const std::vector<double> values = interpret<double>(result, state);
         CHECK(values[result.nodes_of(Group::forcing)[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4).epsilon(1e-15));
-        CHECK(values[result.nodes_of(Group::acceleration)[0]] == doctest::Approx(1.9 * 1.9 * 1.3 * 0.4 / 0.7).epsilon(1e-15));
+        CHECK(values[result.nodes_of(Group::acceleration)[0]] ==
+              doctest::Approx(1.9 * 1.9 * 1.3 * 0.4 / 0.7).epsilon(1e-15));
     }
 }
 
@@ -81,7 +89,8 @@ TEST_CASE("program: high powers are repeated squares, and the interpreter's valu
     const int x = coordinate(p, 0);
     const std::vector<int> roots{p.product(1, {{x, 13}})};
     CHECK(p.count(roots).total() <= 6);
-    const std::vector<double> value = interpret<double>(p, {.parameters = {}, .q = {1.7}, .qdot = {}, .qddot = {}});
+    const std::vector<double> value =
+        interpret<double>(p, {.parameters = {}, .q = {1.7}, .qdot = {}, .qddot = {}});
     CHECK(value[roots[0]] == doctest::Approx(std::pow(1.7, 13)).epsilon(1e-14));
 }
 
@@ -94,8 +103,9 @@ TEST_CASE("solve: sparse, dense, indefinite and singular matrices against Eigen"
         double density;
         bool zero_diagonal;
     };
-    for (const Case& c : {Case{"dense", 5, 1, false}, Case{"sparse", 8, 0.3, false}, Case{"indefinite", 4, 1, true},
-                          Case{"one", 1, 1, false}, Case{"indefinite sparse", 6, 0.9, true}}) {
+    for (const Case& c :
+         {Case{"dense", 5, 1, false}, Case{"sparse", 8, 0.3, false}, Case{"indefinite", 4, 1, true},
+          Case{"one", 1, 1, false}, Case{"indefinite sparse", 6, 0.9, true}}) {
         CAPTURE(c.name);
         Eigen::MatrixXd M = Eigen::MatrixXd::Zero(c.n, c.n);
         Eigen::VectorXd f(c.n);
@@ -115,7 +125,8 @@ TEST_CASE("solve: sparse, dense, indefinite and singular matrices against Eigen"
         for (int i = 0; i < c.n; ++i) forcing.push_back(variable(f[i] = uniform(random)));
         const auto x = solve_symmetric(p, lower, forcing);
         REQUIRE(x);
-        const std::vector<double> value = interpret<double>(p, {.parameters = {}, .q = values, .qdot = {}, .qddot = {}});
+        const std::vector<double> value =
+            interpret<double>(p, {.parameters = {}, .q = values, .qdot = {}, .qddot = {}});
         const Eigen::VectorXd expected = M.fullPivLu().solve(f);
         for (int i = 0; i < c.n; ++i) CHECK(value[(*x)[i]] == doctest::Approx(expected[i]).epsilon(1e-11));
     }
@@ -133,17 +144,20 @@ TEST_CASE("constants: a sum of parameters has no terms that cancel, and a shared
                {Group::output, "b", p.product(1, {{rest, 1}, {q, 2}})}};
     const Program simple = with_simple_constants(p);
     const Node& a = simple[simple.nodes_of(Group::output)[0]];
-    CHECK(std::any_of(a.args.begin(), a.args.end(), [&](int arg) { return simple[arg].op == Op::sum && simple[arg].args.size() == 2; }));
+    CHECK(std::any_of(a.args.begin(), a.args.end(),
+                      [&](int arg) { return simple[arg].op == Op::sum && simple[arg].args.size() == 2; }));
     const State<double> s{.parameters = {1.7, 0.4, 1.3}, .t = 0, .q = {0.8}, .qdot = {}, .qddot = {}};
     const std::vector<double> before = interpret(p, s), after = interpret(simple, s);
     for (std::size_t k = 0; k < 2; ++k)
-        CHECK(after[simple.nodes_of(Group::output)[k]] == doctest::Approx(before[p.nodes_of(Group::output)[k]]).epsilon(1e-14));
+        CHECK(after[simple.nodes_of(Group::output)[k]] ==
+              doctest::Approx(before[p.nodes_of(Group::output)[k]]).epsilon(1e-14));
 }
 
 TEST_CASE("emit: M and f are there by name, and functions with nothing to do are not") {
     const Mechanism m = build(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml")));
     const std::string text = emit(choose(m, formalism("kane").derive(m)).program).text;
-    for (const char* part : {"// M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C", "const Real f0 = ", "const Real f1 = ", "// f2 = 0"})
+    for (const char* part : {"// M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C",
+                             "const Real f0 = ", "const Real f1 = ", "// f2 = 0"})
         CHECK_MESSAGE(text.find(part) != std::string::npos, part);
     for (const char* part : {"void events_at", "double tan(", "struct sines"})
         CHECK_MESSAGE(text.find(part) == std::string::npos, part);
@@ -157,7 +171,8 @@ TEST_CASE("energy: where the speeds are body rates, T is half the sum of moments
     s.qdot = {0.3, -1.1, 2.4};
     std::vector<double> inertia(2);  // A and C
     for (std::size_t k = 0; k < p.parameters.size(); ++k)
-        if (p.parameters[k].name == "A" || p.parameters[k].name == "C") inertia[p.parameters[k].name == "C" ? 1 : 0] = s.parameters[k];
+        if (p.parameters[k].name == "A" || p.parameters[k].name == "C")
+            inertia[p.parameters[k].name == "C" ? 1 : 0] = s.parameters[k];
     const double T = 0.5 * (inertia[0] * (0.3 * 0.3 + 1.1 * 1.1) + inertia[1] * 2.4 * 2.4);
     const std::vector<int> kinetic = p.nodes_of(Group::kinetic);
     CHECK(interpret(p, s)[kinetic[0]] == doctest::Approx(T).epsilon(1e-13));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The emitted step to the constraints against what defines it, from the other functions of the same file: A δq = f with M δq in the span
-// of the rows of A (the least change in the metric of M), rates likewise at the place arrived at.
+// The emitted step to the constraints against what defines it, from the other functions of the same file: A δq = f
+// with M δq in the span of the rows of A (the least change in the metric of M), rates likewise at the place
+// arrived at.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -8,12 +9,12 @@
 
 #include "alembert/compile.hpp"
 #include "alembert/project.hpp"
-#include "state/assemble.hpp"
 #include "emit/emit.hpp"
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
 
 using namespace alembert;
 using Eigen::MatrixXd;
@@ -33,7 +34,8 @@ Seen seen(const Module& module, const std::vector<double>& par, const std::vecto
     std::vector<double> rows(static_cast<std::size_t>(m * n)), forcing(static_cast<std::size_t>(n));
     table.constraints_at(0, state.data(), par.data(), s.position.data(), s.velocity.data(), rows.data());
     table.mass_forcing(0, state.data(), par.data(), s.M.data(), forcing.data());
-    s.A = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(), m, n);
+    s.A = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(), m,
+                                                                                                   n);
     return s;
 }
 
@@ -49,7 +51,8 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
     int scenes = 0;
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> off(-1e-3, 1e-3);
-    for (const char* file : {"scenes/textbook/four_bar.toml", "scenes/textbook/slider_crank.toml", "scenes/textbook/crane.toml", "scenes/textbook/coin.toml",
+    for (const char* file : {"scenes/textbook/four_bar.toml", "scenes/textbook/slider_crank.toml",
+                             "scenes/textbook/crane.toml", "scenes/textbook/coin.toml",
                              "scenes/benchmark/andrews.toml", "scenes/textbook/cartesian_pendulum.toml"}) {
         CAPTURE(file);
         const Mechanism m = build(read_scene(test::source_path(file)));
@@ -76,9 +79,11 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
         const Seen after = seen(module, par, between);
         CHECK((before.A * dq - before.position).norm() <= 1e-12 * before.A.norm());
         CHECK((before.A * du - after.velocity).norm() <= 1e-12 * before.A.norm());
-        if (before.position.norm() > 0) CHECK(off_span(before, dq) < 1e-8);  // dq has lost half of its digits as a difference
+        if (before.position.norm() > 0)
+            CHECK(off_span(before, dq) < 1e-8);  // dq has lost half of its digits as a difference
         CHECK(off_span(before, du) < 1e-8);
-        for (std::size_t k = 0; k < position.size(); ++k) CHECK(position[k] == doctest::Approx(before.position[static_cast<Eigen::Index>(k)]));
+        for (std::size_t k = 0; k < position.size(); ++k)
+            CHECK(position[k] == doctest::Approx(before.position[static_cast<Eigen::Index>(k)]));
         // In the end it obeys them.
         Projection project(module, start.parameters);
         project(0, state.data());
@@ -112,7 +117,8 @@ TEST_CASE("projection: a run that went astray is forgotten before the next") {
     CHECK(projection.residual(0, at.data()) < 1e-12);
 }
 
-TEST_CASE("projection: gamma is the rate of A q' that keeps it, and the careful accelerations are the emitted ones") {
+TEST_CASE(
+    "projection: gamma is the rate of A q' that keeps it, and the careful accelerations are the emitted ones") {
     const Mechanism m = build(read_scene(test::source_path("scenes/textbook/four_bar.toml")));
     const Program program = choose(m, routh(m)).program;
     const Module module = load(compile(emit(program).text, program.name, {}).object);
@@ -130,7 +136,8 @@ TEST_CASE("projection: gamma is the rate of A q' that keeps it, and the careful 
     const Seen here = seen(module, par, state);
     for (std::size_t k = 0; k < gamma.size(); ++k) {
         double sum = 0;
-        for (std::size_t i = 0; i < n; ++i) sum += here.A(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) * rate[n + i];
+        for (std::size_t i = 0; i < n; ++i)
+            sum += here.A(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) * rate[n + i];
         CHECK(sum == doctest::Approx(gamma[k]).epsilon(1e-10));
     }
 }

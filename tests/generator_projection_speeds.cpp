@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The emitted step to the constraints where the state is (q, u), against what defines it, from the other functions of the same file:
-// q' = S u + h0 by the right-hand side, A and B = A S by constraints_at, M by mass_forcing.
-//   δq = S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁻¹ f, or Aᵀ (A Aᵀ)⁻¹ f where u has eliminated all;   δu = M⁻¹Bᵀ (B M⁻¹Bᵀ)⁻¹ (A q' + b at q − δq)
+// The emitted step to the constraints where the state is (q, u), against what defines it, from the other functions
+// of the same file: q' = S u + h0 by the right-hand side, A and B = A S by constraints_at, M by mass_forcing.
+//   δq = S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁻¹ f, or Aᵀ (A Aᵀ)⁻¹ f where u has eliminated all;   δu = M⁻¹Bᵀ (B M⁻¹Bᵀ)⁻¹ (A q' + b at
+//   q − δq)
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -12,12 +13,12 @@
 #include "alembert/compile.hpp"
 #include "alembert/integrate.hpp"
 #include "alembert/project.hpp"
-#include "state/assemble.hpp"
 #include "emit/emit.hpp"
 #include "formalism/kane.hpp"
 #include "lower/choose.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
 
 using namespace alembert;
 using Eigen::MatrixXd;
@@ -49,7 +50,9 @@ Loaded loaded(const Scene& scene, bool without = false) {
     return {m, std::move(program), module, start, prepared(module, start.parameters), std::move(both)};
 }
 
-Loaded loaded(const char* file, bool without = false) { return loaded(read_scene(test::source_path(file)), without); }
+Loaded loaded(const char* file, bool without = false) {
+    return loaded(read_scene(test::source_path(file)), without);
+}
 
 struct Seen {
     VectorXd position, velocity;
@@ -63,7 +66,8 @@ Seen seen(const Loaded& here, double t, const VectorXd& state) {
     std::vector<double> rows(static_cast<std::size_t>(m * (n + s)));
     VectorXd forcing(s), at_rest = state, rate(n + s), rate_at_rest(n + s);
     Seen result{VectorXd(m), VectorXd(m), {}, {}, MatrixXd(n, s), MatrixXd(s, s)};
-    table.constraints_at(t, state.data(), here.par.data(), result.position.data(), result.velocity.data(), rows.data());
+    table.constraints_at(t, state.data(), here.par.data(), result.position.data(), result.velocity.data(),
+                         rows.data());
     table.mass_forcing(t, state.data(), here.par.data(), result.M.data(), forcing.data());
     result.A = Rows(rows.data(), m, n);
     result.B = Rows(rows.data() + m * n, m, s);
@@ -79,14 +83,18 @@ Seen seen(const Loaded& here, double t, const VectorXd& state) {
 }
 
 constexpr const char* in_speeds[] = {
-    "scenes/textbook/free_body_quaternion.toml", "scenes/textbook/heavy_top_quaternion.toml", "scenes/textbook/heavy_top_joint.toml",
-    "scenes/textbook/rolling_coin.toml",         "scenes/benchmark/free_body.toml",           "tests/odd/speeds_with_multipliers.toml",
+    "scenes/textbook/free_body_quaternion.toml", "scenes/textbook/heavy_top_quaternion.toml",
+    "scenes/textbook/heavy_top_joint.toml",      "scenes/textbook/rolling_coin.toml",
+    "scenes/benchmark/free_body.toml",           "tests/odd/speeds_with_multipliers.toml",
     "tests/odd/speeds_all_eliminated.toml",      "tests/odd/speeds_of_a_quaternion.toml"};
 
 Scene four_bars_in_speeds() {
     std::ifstream file(test::source_path("scenes/benchmark/four_bars_2.toml"));
     const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return parse_scene(text + "\n[speeds]\na = \"q0' + q1'\"\nb = \"q1' - p0'\"\nc = \"2*q2'\"\nd = \"p0' + 0.5*p1'\"\ne = \"p1'\"\n", "four_bars_in_speeds.toml");
+    return parse_scene(text +
+                           "\n[speeds]\na = \"q0' + q1'\"\nb = \"q1' - p0'\"\nc = \"2*q2'\"\nd = \"p0' + "
+                           "0.5*p1'\"\ne = \"p1'\"\n",
+                       "four_bars_in_speeds.toml");
 }
 
 }  // namespace
@@ -115,7 +123,8 @@ TEST_CASE("projection: in speeds the emitted step is the least change, at any st
             VectorXd state(n + s), moved(n + s), position(m), pivots(m);
             std::copy(random_state.q.begin(), random_state.q.end(), state.begin());
             std::copy_n(random_state.qdot.begin(), s, state.begin() + n);
-            here.module.projection()->project(t, state.data(), here.par.data(), moved.data(), position.data(), pivots.data());
+            here.module.projection()->project(t, state.data(), here.par.data(), moved.data(), position.data(),
+                                              pivots.data());
             const Seen before = seen(here, t, state);
             VectorXd arrived = state;
             arrived.head(n) = moved.head(n);
@@ -133,7 +142,9 @@ TEST_CASE("projection: in speeds the emitted step is the least change, at any st
             } else {
                 ++along;
                 const MatrixXd across_B = before.M.fullPivLu().solve(before.B.transpose());
-                const auto factors = (before.B * across_B).eval().completeOrthogonalDecomposition();  // zero rows of eliminated ones
+                const auto factors = (before.B * across_B)
+                                         .eval()
+                                         .completeOrthogonalDecomposition();  // zero rows of eliminated ones
                 dq = before.S * (across_B * factors.solve(position));
                 du = across_B * factors.solve(after.velocity);
                 CHECK((before.A * dq - position).norm() <= 1e-10 * (1 + before.A.norm() * dq.norm()));
@@ -163,7 +174,8 @@ TEST_CASE("projection: in speeds a file without its own step is projected to the
         CHECK_FALSE(emitted.is_near_singular());
         double size = 0;
         for (const double x : a) size = std::max(size, std::abs(x));
-        for (std::size_t i = 0; i < a.size(); ++i) CHECK(std::abs(a[i] - b[i]) < 1e-10 * (1 + size));  // the matrices of the two are 1e-6 apart
+        for (std::size_t i = 0; i < a.size(); ++i)
+            CHECK(std::abs(a[i] - b[i]) < 1e-10 * (1 + size));  // the matrices of the two are 1e-6 apart
         CHECK(emitted.residual(here.start.t, a.data()) < 1e-14 * (1 + size * size));
         CHECK(emitted.residual(here.start.t, b.data()) < 1e-14 * (1 + size * size));
         // What obeys is left as it is.
@@ -174,11 +186,13 @@ TEST_CASE("projection: in speeds a file without its own step is projected to the
 }
 
 TEST_CASE("projection: in speeds constraints hold to rounding along long runs, and energy to the tolerance") {
-    for (const char* file : {"scenes/textbook/heavy_top_quaternion.toml", "scenes/benchmark/free_body.toml", "tests/odd/speeds_of_a_quaternion.toml"}) {
+    for (const char* file : {"scenes/textbook/heavy_top_quaternion.toml", "scenes/benchmark/free_body.toml",
+                             "tests/odd/speeds_of_a_quaternion.toml"}) {
         CAPTURE(file);
         const Loaded here = loaded(file);
         Projection projection(here.module, here.start.parameters);
-        const bool conserved = here.mechanism.inputs.empty() && std::string(file).find("odd") == std::string::npos;  // its ring swells
+        const bool conserved = here.mechanism.inputs.empty() &&
+                               std::string(file).find("odd") == std::string::npos;  // its ring swells
         double worst = 0, first = 0, drift = 0;
         const auto on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             worst = std::max(worst, projection.residual(t, y.data()));
@@ -189,10 +203,16 @@ TEST_CASE("projection: in speeds constraints hold to rounding along long runs, a
         };
         for (const Method method : {Method::dop853, Method::dopri5, Method::abm}) {
             worst = drift = 0;
-            Options options{.method = method, .start = here.start.t, .duration = 40, .tolerance = 1e-9, .on_step = on_step, .project = projection.after_steps()};
+            Options options{.method = method,
+                            .start = here.start.t,
+                            .duration = 40,
+                            .tolerance = 1e-9,
+                            .on_step = on_step,
+                            .project = projection.after_steps()};
             if (method == Method::abm) options.step = 1e-3;
             projection.forget();
-            const Trajectory motion = integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
+            const Trajectory motion =
+                integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
             REQUIRE_FALSE(motion.failure);
             CHECK(worst < 1e-13);
             if (conserved) CHECK(drift < 1e-6);
@@ -205,12 +225,15 @@ TEST_CASE("projection: in speeds four-bars pass their flat poses on their branch
     REQUIRE(here.module.table().speed_names != nullptr);
     Projection projection(here.module, here.start.parameters);
     int near_singular = 0;
-    const Options options{.method = Method::dop853,
-                          .duration = 10,
-                          .tolerance = 1e-10,
-                          .on_step = [&](double, std::span<const double>, std::span<const double>) { near_singular += projection.is_near_singular() ? 1 : 0; },
-                          .project = projection.after_steps()};
-    const Trajectory motion = integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
+    const Options options{
+        .method = Method::dop853,
+        .duration = 10,
+        .tolerance = 1e-10,
+        .on_step = [&](double, std::span<const double>,
+                       std::span<const double>) { near_singular += projection.is_near_singular() ? 1 : 0; },
+        .project = projection.after_steps()};
+    const Trajectory motion =
+        integrate(projection.guarded(make_rhs(here.module, here.start.parameters)), here.state, options);
     REQUIRE_FALSE(motion.failure);
     CHECK(near_singular > 0);
     const auto end = motion.final_state();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Coefficients of emitted power series against routes that share nothing with their recurrences: closed forms by Cauchy's integral
-// over a circle in the complex plane, the interpreter along the polynomial, and the same file in 34 digits.
+// Coefficients of emitted power series against routes that share nothing with their recurrences: closed forms by
+// Cauchy's integral over a circle in the complex plane, the interpreter along the polynomial, and the same file in
+// 34 digits.
 #include <doctest/doctest.h>
 
 #include <complex>
@@ -11,12 +12,12 @@
 #include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "alembert/taylor.hpp"
-#include "state/assemble.hpp"
 #include "emit/taylor.hpp"
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "program/quad.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
 
 using namespace alembert;
 
@@ -25,7 +26,8 @@ namespace {
 using Complex = std::complex<long double>;
 
 /// f's coefficients about t by the trapezoidal rule on a circle (its error: the coefficients 200 orders higher).
-std::vector<long double> coefficients(const std::function<Complex(Complex)>& f, long double t, long double radius, int count) {
+std::vector<long double> coefficients(const std::function<Complex(Complex)>& f, long double t, long double radius,
+                                      int count) {
     constexpr int points = 200;
     std::vector<long double> result;
     for (int k = 0; k < count; ++k) {
@@ -51,13 +53,15 @@ Emitted emitted(const Scene& scene, bool quad) {
     Program program = choose(m, e).program;
     std::vector<std::string> flags{"-O1"};
     if (quad) flags.emplace_back("-DALEMBERT_QUAD");
-    const Compiled compiled = compile(emit_taylor(program).text, program.name + "_taylor", {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
+    const Compiled compiled = compile(emit_taylor(program).text, program.name + "_taylor",
+                                      {.compiler = {}, .extra_flags = flags, .fast_math = false, .cache = {}});
     return {std::move(m), std::move(program), load_series(compiled.object)};
 }
 
 std::vector<double> series_of(const SeriesModule& module, double t, const std::vector<double>& state, int order) {
     const Series series = make_series(module);
-    std::vector<double> out(static_cast<std::size_t>((order + 1) * series.width)), work(static_cast<std::size_t>(series.workspace));
+    std::vector<double> out(static_cast<std::size_t>((order + 1) * series.width)),
+        work(static_cast<std::size_t>(series.workspace));
     series(t, state.data(), order, out.data(), work.data());
     return out;
 }
@@ -65,62 +69,96 @@ std::vector<double> series_of(const SeriesModule& module, double t, const std::v
 /// x'' = f(t): the coefficients of x are those of f, integrated twice.
 void check_function(const std::string& text, const std::function<Complex(Complex)>& f, long double radius) {
     INFO(text);
-    const Scene scene = parse_scene("title = \"f\"\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"" + text + "\"\n", "f.toml");
+    const Scene scene = parse_scene(
+        "title = \"f\"\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"" + text + "\"\n",
+        "f.toml");
     const Emitted one = emitted(scene, false);
     constexpr double t = 0.7;
     constexpr int order = 24;
     const std::vector<double> out = series_of(one.module, t, {0, 0}, order);
     const std::vector<long double> expected = coefficients(f, t, radius, order - 1);
     long double largest = 0;
-    for (int j = 0; j < 200; ++j) largest = std::max(largest, std::abs(f(Complex(t) + std::polar(radius, 2 * std::numbers::pi_v<long double> * j / 200))));
+    for (int j = 0; j < 200; ++j)
+        largest = std::max(
+            largest, std::abs(f(Complex(t) + std::polar(radius, 2 * std::numbers::pi_v<long double> * j / 200))));
     for (int k = 0; k + 2 <= order; ++k) {
         CAPTURE(k);
-        // Cauchy's bound for a coefficient is largest/radius^k; recurrences of a few steps at each order keep 1e-13 of it.
+        // Cauchy's bound for a coefficient is largest/radius^k; recurrences of a few steps at each order keep
+        // 1e-13 of it.
         const long double found = static_cast<long double>(out[2 * (k + 2)]) * (k + 1) * (k + 2);
         CHECK(std::abs(found - expected[k]) * std::pow(radius, k) < 1e-13 * largest);
     }
 }
 
 /// What an inner function is made of, so that no recurrence is the trivial one.
-Complex g(Complex t) { return 0.3L + 0.2L * std::sin(t) + 0.1L * t; }
+Complex g(Complex t) {
+    return 0.3L + 0.2L * std::sin(t) + 0.1L * t;
+}
 const std::string g_text = "(0.3 + 0.2*sin(t) + 0.1*t)";
 
 }  // namespace
 
 TEST_CASE("taylor: the coefficients of every function are Cauchy's integrals") {
-    check_function("sin" + g_text, [](Complex t) { return std::sin(g(t)); }, 1);
-    check_function("cos" + g_text, [](Complex t) { return std::cos(g(t)); }, 1);
-    check_function("tan" + g_text, [](Complex t) { return std::tan(g(t)); }, 0.7L);
-    check_function("asin" + g_text, [](Complex t) { return std::asin(g(t)); }, 0.7L);
-    check_function("acos" + g_text, [](Complex t) { return std::acos(g(t)); }, 0.7L);
-    check_function("atan" + g_text, [](Complex t) { return std::atan(g(t)); }, 0.7L);
-    check_function("sinh" + g_text, [](Complex t) { return std::sinh(g(t)); }, 1);
-    check_function("cosh" + g_text, [](Complex t) { return std::cosh(g(t)); }, 1);
-    check_function("tanh" + g_text, [](Complex t) { return std::tanh(g(t)); }, 0.7L);
-    check_function("exp" + g_text, [](Complex t) { return std::exp(g(t)); }, 1);
-    check_function("log" + g_text, [](Complex t) { return std::log(g(t)); }, 0.7L);
-    check_function("sqrt" + g_text, [](Complex t) { return std::sqrt(g(t)); }, 0.7L);
-    check_function("atan2(" + g_text + ", cos(t))", [](Complex t) {
-        const Complex y = g(t), x = std::cos(t);
-        return -Complex(0, 1) * std::log((x + Complex(0, 1) * y) / std::sqrt(x * x + y * y));
-    }, 0.4L);
+    check_function(
+        "sin" + g_text, [](Complex t) { return std::sin(g(t)); }, 1);
+    check_function(
+        "cos" + g_text, [](Complex t) { return std::cos(g(t)); }, 1);
+    check_function(
+        "tan" + g_text, [](Complex t) { return std::tan(g(t)); }, 0.7L);
+    check_function(
+        "asin" + g_text, [](Complex t) { return std::asin(g(t)); }, 0.7L);
+    check_function(
+        "acos" + g_text, [](Complex t) { return std::acos(g(t)); }, 0.7L);
+    check_function(
+        "atan" + g_text, [](Complex t) { return std::atan(g(t)); }, 0.7L);
+    check_function(
+        "sinh" + g_text, [](Complex t) { return std::sinh(g(t)); }, 1);
+    check_function(
+        "cosh" + g_text, [](Complex t) { return std::cosh(g(t)); }, 1);
+    check_function(
+        "tanh" + g_text, [](Complex t) { return std::tanh(g(t)); }, 0.7L);
+    check_function(
+        "exp" + g_text, [](Complex t) { return std::exp(g(t)); }, 1);
+    check_function(
+        "log" + g_text, [](Complex t) { return std::log(g(t)); }, 0.7L);
+    check_function(
+        "sqrt" + g_text, [](Complex t) { return std::sqrt(g(t)); }, 0.7L);
+    check_function(
+        "atan2(" + g_text + ", cos(t))",
+        [](Complex t) {
+            const Complex y = g(t), x = std::cos(t);
+            return -Complex(0, 1) * std::log((x + Complex(0, 1) * y) / std::sqrt(x * x + y * y));
+        },
+        0.4L);
 }
 
 TEST_CASE("taylor: powers, quotients and products of roots are Cauchy's integrals") {
-    check_function("1/" + g_text, [](Complex t) { return 1.0L / g(t); }, 0.7L);
-    check_function("t*exp(-t)/" + g_text + "^3", [](Complex t) { return t * std::exp(-t) / (g(t) * g(t) * g(t)); }, 0.7L);
-    check_function(g_text + "^2.7", [](Complex t) { return std::pow(g(t), 2.7L); }, 0.7L);
-    check_function(g_text + "^t", [](Complex t) { return std::pow(g(t), t); }, 0.7L);
-    check_function("1.7^sin(t)", [](Complex t) { return std::pow(Complex(1.7L), std::sin(t)); }, 1);
-    check_function("t/sqrt" + g_text + "^3", [](Complex t) { return t / std::pow(g(t), 1.5L); }, 0.7L);
-    check_function("sqrt" + g_text + "*" + g_text, [](Complex t) { return std::pow(g(t), 1.5L); }, 0.7L);
-    check_function("exp(t)/(sqrt" + g_text + "*" + g_text + "^2)", [](Complex t) { return std::exp(t) / std::pow(g(t), 2.5L); }, 0.7L);
-    check_function("3*t^2/sqrt(2*" + g_text + ")", [](Complex t) { return 3.0L * t * t / std::sqrt(2.0L * g(t)); }, 0.7L);
+    check_function(
+        "1/" + g_text, [](Complex t) { return 1.0L / g(t); }, 0.7L);
+    check_function(
+        "t*exp(-t)/" + g_text + "^3", [](Complex t) { return t * std::exp(-t) / (g(t) * g(t) * g(t)); }, 0.7L);
+    check_function(
+        g_text + "^2.7", [](Complex t) { return std::pow(g(t), 2.7L); }, 0.7L);
+    check_function(
+        g_text + "^t", [](Complex t) { return std::pow(g(t), t); }, 0.7L);
+    check_function(
+        "1.7^sin(t)", [](Complex t) { return std::pow(Complex(1.7L), std::sin(t)); }, 1);
+    check_function(
+        "t/sqrt" + g_text + "^3", [](Complex t) { return t / std::pow(g(t), 1.5L); }, 0.7L);
+    check_function(
+        "sqrt" + g_text + "*" + g_text, [](Complex t) { return std::pow(g(t), 1.5L); }, 0.7L);
+    check_function(
+        "exp(t)/(sqrt" + g_text + "*" + g_text + "^2)",
+        [](Complex t) { return std::exp(t) / std::pow(g(t), 2.5L); }, 0.7L);
+    check_function(
+        "3*t^2/sqrt(2*" + g_text + ")", [](Complex t) { return 3.0L * t * t / std::sqrt(2.0L * g(t)); }, 0.7L);
 }
 
 TEST_CASE("taylor: functions with a kink are refused by name") {
     for (const std::string function : {"abs(x)", "sign(x)", "min(x, t)", "max(x, t)"}) {
-        const Mechanism m = build(parse_scene("[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-" + function + "\"\n", "k.toml"));
+        const Mechanism m = build(parse_scene(
+            "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-" + function + "\"\n",
+            "k.toml"));
         const Program program = choose(m, formalism("lagrange").derive(m)).program;
         try {
             emit_taylor(program);
@@ -134,19 +172,25 @@ TEST_CASE("taylor: functions with a kink are refused by name") {
     }
 }
 
-// P'(t + h) = f(t + h, P(t + h)) for the polynomial P of the emitted file: a wrong coefficient of any order k is off by k c_k h^(k−1)
-// there, with h as long as a step at tolerance 1e-14, where all terms are seen. The right side comes from the interpreter. Allowed:
-// rounding of 1e-12 of the largest rate, and the terms left out, (p + 1) c h^p < (p + 1) 1e-14/h.
-TEST_CASE("taylor: the derivative of the polynomial is the interpreter's rate at its value, for scenes of every kind") {
-    for (const std::string name : {"benchmark/pleiades", "benchmark/outer_solar_system", "benchmark/kepler", "benchmark/flyball_governor",
-                                   "textbook/double_pendulum", "textbook/cartesian_pendulum", "textbook/rolling_disc", "textbook/four_bar",
-                                   "textbook/free_body_quaternion", "textbook/chaplygin_sleigh_in_speeds", "textbook/elastic_pendulum"}) {
+// P'(t + h) = f(t + h, P(t + h)) for the polynomial P of the emitted file: a wrong coefficient of any order k is
+// off by k c_k h^(k−1) there, with h as long as a step at tolerance 1e-14, where all terms are seen. The right
+// side comes from the interpreter. Allowed: rounding of 1e-12 of the largest rate, and the terms left out, (p + 1)
+// c h^p < (p + 1) 1e-14/h.
+TEST_CASE(
+    "taylor: the derivative of the polynomial is the interpreter's rate at its value, for scenes of every kind") {
+    for (const std::string name :
+         {"benchmark/pleiades", "benchmark/outer_solar_system", "benchmark/kepler", "benchmark/flyball_governor",
+          "textbook/double_pendulum", "textbook/cartesian_pendulum", "textbook/rolling_disc", "textbook/four_bar",
+          "textbook/free_body_quaternion", "textbook/chaplygin_sleigh_in_speeds", "textbook/elastic_pendulum"}) {
         INFO(name);
         const Emitted one = emitted(read_scene(test::source_path("scenes/" + name + ".toml")), false);
         const Program& p = one.program;
         Start start = start_of(one.mechanism);
         assemble(start, one.mechanism, lower_constraints(one.mechanism), {});
-        const Equations equations = formalism(one.mechanism.constraints.empty() ? one.mechanism.speeds.empty() ? "lagrange" : "kane" : "routh").derive(one.mechanism);
+        const Equations equations =
+            formalism(one.mechanism.constraints.empty() ? one.mechanism.speeds.empty() ? "lagrange" : "kane"
+                                                        : "routh")
+                .derive(one.mechanism);
         State<double> state = state_of(start, one.mechanism, equations);
         std::vector<double> y = state.q;
         y.insert(y.end(), state.qdot.begin(), state.qdot.end());
@@ -156,7 +200,10 @@ TEST_CASE("taylor: the derivative of the polynomial is the interpreter's rate at
         double h = 1;
         for (const int k : {order - 1, order})  // where every other coefficient is 0, the last says nothing
             for (std::size_t i = 0; i < width; ++i)
-                h = std::min(h, std::pow(1e-14 / (std::abs(out[static_cast<std::size_t>(k) * width + i]) / std::max(1.0, std::abs(y[i])) + 1e-30), 1.0 / k));
+                h = std::min(h, std::pow(1e-14 / (std::abs(out[static_cast<std::size_t>(k) * width + i]) /
+                                                      std::max(1.0, std::abs(y[i])) +
+                                                  1e-30),
+                                         1.0 / k));
         std::vector<double> value(width), slope(width);
         for (std::size_t i = 0; i < width; ++i)
             for (int k = order; k >= 0; --k) {
@@ -186,7 +233,8 @@ TEST_CASE("taylor: the derivative of the polynomial is the interpreter's rate at
 }
 
 TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the same coefficients") {
-    for (const std::string name : {"benchmark/pleiades", "benchmark/kepler", "textbook/double_pendulum", "textbook/cartesian_pendulum"}) {
+    for (const std::string name :
+         {"benchmark/pleiades", "benchmark/kepler", "textbook/double_pendulum", "textbook/cartesian_pendulum"}) {
         INFO(name);
         const Emitted one = emitted(read_scene(test::source_path("scenes/" + name + ".toml")), true);
         const Start start = start_of(one.mechanism);
@@ -195,8 +243,8 @@ TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the s
         constexpr int order = 30;
         const std::vector<double> out = series_of(one.module, start.t, y, order);
         const alembert_series_table& table = *one.module;
-        std::vector<Quad> par(static_cast<std::size_t>(table.parameters + table.constants)), state(y.begin(), y.end()),
-            exact(out.size()), work(static_cast<std::size_t>(table.workspace_quad));
+        std::vector<Quad> par(static_cast<std::size_t>(table.parameters + table.constants)),
+            state(y.begin(), y.end()), exact(out.size()), work(static_cast<std::size_t>(table.workspace_quad));
         std::copy_n(table.parameter_values, table.parameters, par.begin());
         table.prepare_quad(par.data());
         table.series_quad(Quad(start.t), state.data(), par.data(), order, exact.data(), work.data());
@@ -214,7 +262,9 @@ TEST_CASE("taylor: the file in doubles and the same file in 34 digits have the s
     }
 }
 
-TEST_CASE("taylor: the order is Jorba and Zou's where products take all the time, higher where they do not, and never lower") {
+TEST_CASE(
+    "taylor: the order is Jorba and Zou's where products take all the time, higher where they do not, and never "
+    "lower") {
     CHECK(taylor_order(1e-10, 0, 1) >= 13);
     CHECK(taylor_order(1e-10, 0, 1) <= 14);
     CHECK(taylor_order(1e-16, 0, 1) <= 21);

@@ -24,7 +24,9 @@ inline Json impact_of(const std::string& text) {
     return Json::parse(result.out);
 }
 
-inline double number(const Json& json) { return json.get<double>(); }
+inline double number(const Json& json) {
+    return json.get<double>();
+}
 
 /// "{v}" in a scene.
 inline std::string filled(std::string text, const std::vector<std::pair<std::string, double>>& values) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Joints against the same geometry written with frames and points, closed loops against trees that obey them, and trees
-// of bodies against accelerations computed elsewhere.
+// Joints against the same geometry written with frames and points, closed loops against trees that obey them, and
+// trees of bodies against accelerations computed elsewhere.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "agree/agree.hpp"
-#include "state/assemble.hpp"
 #include "formalism/dalembert.hpp"
 #include "formalism/kane.hpp"
 #include "formalism/lagrange.hpp"
@@ -20,12 +19,15 @@
 #include "lower/lower.hpp"
 #include "scene/joint_moves.hpp"
 #include "scenes.hpp"
+#include "state/assemble.hpp"
 
 using namespace alembert;
 
 namespace {
 
-Mechanism from_text(const std::string& text) { return build(parse_scene(text, "scene.toml")); }
+Mechanism from_text(const std::string& text) {
+    return build(parse_scene(text, "scene.toml"));
+}
 
 std::vector<double> group(const Program& program, const State<double>& state, Group name) {
     const std::vector<double> value = interpret(program, state);
@@ -44,14 +46,18 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
     return worst / size;
 }
 
-Program lowered(const Mechanism& m, const Equations& equations) { return lower(m, equations, energy_of(m)); }
+Program lowered(const Mechanism& m, const Equations& equations) {
+    return lower(m, equations, energy_of(m));
+}
 
-/// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by those that start from bodies.
+/// The same accelerations, outputs and energy at random states, by Lagrange's equations; and by those that start
+/// from bodies.
 void same_motion(const std::string& joints, const std::string& frames) {
     const Mechanism a = from_text(joints), b = from_text(frames);
     REQUIRE(a.size() == b.size());
-    const Program p = lowered(a, lagrange(a)), r = lowered(b, lagrange(b)), k = lowered(a, kane(a)), d = lowered(a, dalembert(a)),
-                  s = lowered(a, schiehlen(a)), w = lowered(a, roberson_wittenburg(a));
+    const Program p = lowered(a, lagrange(a)), r = lowered(b, lagrange(b)), k = lowered(a, kane(a)),
+                  d = lowered(a, dalembert(a)), s = lowered(a, schiehlen(a)),
+                  w = lowered(a, roberson_wittenburg(a));
     const unsigned seed = 20040110;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
@@ -59,7 +65,8 @@ void same_motion(const std::string& joints, const std::string& frames) {
         const State<double> state = test::random_state(start_of(a), random);
         const std::vector<double> expected = group(r, state, Group::acceleration);
         // Rounding times the conditioning of M (below 10³ here).
-        for (const Program* program : {&p, &k, &d, &s, &w}) CHECK(distance(group(*program, state, Group::acceleration), expected) < 1e-12);
+        for (const Program* program : {&p, &k, &d, &s, &w})
+            CHECK(distance(group(*program, state, Group::acceleration), expected) < 1e-12);
         CHECK(distance(group(p, state, Group::energy), group(r, state, Group::energy)) < 1e-13);
     }
 }
@@ -80,9 +87,9 @@ struct Case {
     const char* type;
     const char* keys;
     const char* coordinates;
-    const char* turns;     // after parent_rotate
+    const char* turns;      // after parent_rotate
     const char* backwards;  // the same, undone
-    const char* shift;     // along the joint's axes in the parent
+    const char* shift;      // along the joint's axes in the parent
 };
 
 const Case cases[] = {
@@ -92,7 +99,8 @@ const Case cases[] = {
     {"prismatic", "axis = [0, 3, 4]", "q1 = 0.1", "", "", "[0, '3*q1/5', '4*q1/5']"},
     {"cylindrical", "axis = 'x'", "q1 = 0.1, q2 = 0.2", "['x', 'q1'],", "['x', '-q1'],", "['q2', 0, 0]"},
     {"screw", "pitch = 'h/10'", "q1 = 0.1", "['z', 'q1'],", "['z', '-q1'],", "[0, 0, 'h/10*q1']"},
-    {"universal", "", "q1 = 0.1, q2 = 0.2", "['x', 'q1'], ['y', 'q2'],", "['y', '-q2'], ['x', '-q1'],", "[0, 0, 0]"},
+    {"universal", "", "q1 = 0.1, q2 = 0.2", "['x', 'q1'], ['y', 'q2'],", "['y', '-q2'], ['x', '-q1'],",
+     "[0, 0, 0]"},
     {"planar", "", "q1 = 0.1, q2 = 0.2, q3 = 0.3", "['z', 'q3'],", "['z', '-q3'],", "['q1', 'q2', 0]"},
     {"spherical", "angles = 'zxz'", "q1 = 0.1, q2 = 0.2, q3 = 0.3", "['z', 'q1'], ['x', 'q2'], ['z', 'q3'],",
      "['z', '-q3'], ['x', '-q2'], ['z', '-q1'],", "[0, 0, 0]"},
@@ -125,7 +133,8 @@ child_rotate = [["y", 0.5]]
 {}
 coordinates = {{ {} }}
 )",
-                       base, masses, masses, c.type, from_parent ? "A" : "B", from_parent ? "B" : "A", c.keys, c.coordinates);
+                       base, masses, masses, c.type, from_parent ? "A" : "B", from_parent ? "B" : "A", c.keys,
+                       c.coordinates);
 }
 
 std::string with_frames(const Case& c, bool from_parent) {
@@ -142,7 +151,8 @@ frame = "FA"
 position = [-0.1, -0.2, -0.3]
 axes = "FA"
 )",
-                                         base, [&] {
+                                         base,
+                                         [&] {
                                              std::string lines = c.coordinates;
                                              std::replace(lines.begin(), lines.end(), ',', '\n');
                                              return lines;
@@ -203,7 +213,8 @@ axes = "FB"
                               c.backwards, back, c.shift, masses);
 }
 
-/// Two bodies, the second moved as `motion` says against the first, and a joint of this type that closes a loop between them.
+/// Two bodies, the second moved as `motion` says against the first, and a joint of this type that closes a loop
+/// between them.
 std::string loop(const std::string& type, const std::string& keys, const std::string& free) {
     return fmt::format(R"({}
 [[body]]
@@ -268,22 +279,30 @@ TEST_CASE("joints: a body placed by a joint of any type moves as one placed by f
         }
 }
 
-TEST_CASE("joints: a spherical joint by a quaternion turns the child against the parent by that quaternion, whichever it places") {
+TEST_CASE(
+    "joints: a spherical joint by a quaternion turns the child against the parent by that quaternion, whichever "
+    "it places") {
     for (const bool from_parent : {true, false}) {
         CAPTURE(from_parent);
         std::string text = fmt::format("{}[[body]]\nname = \"A\"{}[[body]]\nname = \"B\"{}", base, masses, masses);
-        text += "[[joint]]\nname = \"first\"\ntype = \"revolute\"\nparent = \"N\"\nchild = \"A\"\naxis = [1, 2, 2]\ncoordinates = { q0 = 0.3 }\n";
-        text += fmt::format("[[joint]]\nname = \"ball\"\ntype = \"spherical\"\nparent = \"{0}\"\nchild = \"{1}\"\nparent_point = [0.3, 0, 0.1]\n"
-                            "child_point = [0, 0.2, 0]\ncoordinates = {{ a = 1, b = 0, c = 0, d = 0 }}\n[outputs]\n",
-                            from_parent ? "A" : "B", from_parent ? "B" : "A");
+        text +=
+            "[[joint]]\nname = \"first\"\ntype = \"revolute\"\nparent = \"N\"\nchild = \"A\"\naxis = [1, 2, "
+            "2]\ncoordinates = { q0 = 0.3 }\n";
+        text += fmt::format(
+            "[[joint]]\nname = \"ball\"\ntype = \"spherical\"\nparent = \"{0}\"\nchild = \"{1}\"\nparent_point = "
+            "[0.3, 0, 0.1]\n"
+            "child_point = [0, 0.2, 0]\ncoordinates = {{ a = 1, b = 0, c = 0, d = 0 }}\n[outputs]\n",
+            from_parent ? "A" : "B", from_parent ? "B" : "A");
         const char* axes[] = {"ex", "ey", "ez"};
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k)
-                text += fmt::format("R{}{} = \"dot({}({}), {}({}))\"\n", i, k, axes[i], from_parent ? "A" : "B", axes[k], from_parent ? "B" : "A");
+                text += fmt::format("R{}{} = \"dot({}({}), {}({}))\"\n", i, k, axes[i], from_parent ? "A" : "B",
+                                    axes[k], from_parent ? "B" : "A");
         const Mechanism m = from_text(text);
         REQUIRE(m.constraints.size() == 1);
         CHECK(m.constraints[0].multiplier.get_name() == "lambda_B");
-        const Program program = lowered(m, routh(m)), k = lowered(m, kane(m)), s = lowered(m, schiehlen(m)), w = lowered(m, roberson_wittenburg(m));
+        const Program program = lowered(m, routh(m)), k = lowered(m, kane(m)), s = lowered(m, schiehlen(m)),
+                      w = lowered(m, roberson_wittenburg(m));
         std::mt19937_64 random(20040110);
         for (int i = 0; i < 5; ++i) {
             State<double> state = test::random_state(start_of(m), random);  // q0, a, b, c, d
@@ -292,29 +311,33 @@ TEST_CASE("joints: a spherical joint by a quaternion turns the child against the
             const std::vector<double> outputs = group(program, state, Group::output);
             for (int r = 0; r < 9; ++r) CHECK(outputs[r] == doctest::Approx(R(r / 3, r % 3)).epsilon(1e-13));
             for (const Program* other : {&k, &s, &w})
-                CHECK(distance(group(*other, state, Group::acceleration), group(program, state, Group::acceleration)) < 1e-12);
+                CHECK(distance(group(*other, state, Group::acceleration),
+                               group(program, state, Group::acceleration)) < 1e-12);
         }
     }
 }
 
 TEST_CASE("joints: a free joint whose quaternion is prescribed moves as the body turned by angles as prescribed") {
-    const std::string head = fmt::format("{}[[body]]\nname = \"B\"{}[[joint]]\nname = \"j\"\ntype = \"free\"\nparent = \"N\"\nchild = \"B\"\n"
-                                         "child_point = [0.1, 0.2, 0.3]\ncoordinates = {{ x = 0, y = 0, z = 0 }}\n",
-                                         base, masses);
+    const std::string head = fmt::format(
+        "{}[[body]]\nname = \"B\"{}[[joint]]\nname = \"j\"\ntype = \"free\"\nparent = \"N\"\nchild = \"B\"\n"
+        "child_point = [0.1, 0.2, 0.3]\ncoordinates = {{ x = 0, y = 0, z = 0 }}\n",
+        base, masses);
     const Mechanism a = from_text(head + "motion = { a = 'cos(t/2)', b = '0', c = '0', d = 'sin(t/2)' }\n"),
                     b = from_text(head + "angles = 'xyz'\nmotion = { p = '0', q = '0', r = 't' }\n");
     CHECK(a.constraints.empty());
     REQUIRE(a.size() == 3);
     std::mt19937_64 random(20040110);
     const State<double> state = test::random_state(start_of(a), random);
-    CHECK(distance(group(lowered(a, lagrange(a)), state, Group::acceleration), group(lowered(b, kane(b)), state, Group::acceleration)) < 1e-12);
+    CHECK(distance(group(lowered(a, lagrange(a)), state, Group::acceleration),
+                   group(lowered(b, kane(b)), state, Group::acceleration)) < 1e-12);
 }
 
 TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
     for (const Locked& c : locked) {
         CAPTURE(c.type);
         std::string motion = "motion = { ";
-        for (int k = 0; k < 6; ++k) motion += fmt::format("{}q{} = \"{}\"", k > 0 ? ", " : "", k + 1, c.allowed[k]);
+        for (int k = 0; k < 6; ++k)
+            motion += fmt::format("{}q{} = \"{}\"", k > 0 ? ", " : "", k + 1, c.allowed[k]);
         const Mechanism m = from_text(loop(c.type, c.keys, motion + " }"));
         CHECK(m.constraints.empty());
         CHECK(m.identities.size() == c.rows.size());
@@ -324,17 +347,19 @@ TEST_CASE("joints: a loop's rows hold for every motion that its joint allows") {
 TEST_CASE("joints: a loop's rows lock exactly the other directions, and pull the child along the joint's axes") {
     for (const Locked& c : locked) {
         CAPTURE(c.type);
-        const Mechanism m = from_text(
-            loop(c.type, c.keys, "coordinates = { q1 = 0, q2 = 0, q3 = 0, q4 = 0, q5 = 0, q6 = 0 }"));
+        const Mechanism m =
+            from_text(loop(c.type, c.keys, "coordinates = { q1 = 0, q2 = 0, q3 = 0, q4 = 0, q5 = 0, q6 = 0 }"));
         CHECK(m.constraints.size() == c.rows.size());
         const Program program = lower_constraints(m);
         const State<double> state = start_of(m).state();
         const std::vector<double> A = group(program, state, Group::row);
         for (std::size_t k = 0; k < c.rows.size(); ++k)
             for (std::size_t i = 0; i < 7; ++i) {
-                // All joints' axes agree at the start: the k-th row is the rate of one coordinate of the free joint.
+                // All joints' axes agree at the start: the k-th row is the rate of one coordinate of the free
+                // joint.
                 const double screw = std::string(c.type) == "screw" && c.rows[k] == 2 && i == 6 ? -0.2 : 0;
-                CHECK(A[k * 7 + i] == doctest::Approx(static_cast<int>(i) == c.rows[k] + 1 ? 1 : screw).epsilon(1e-14));
+                CHECK(A[k * 7 + i] ==
+                      doctest::Approx(static_cast<int>(i) == c.rows[k] + 1 ? 1 : screw).epsilon(1e-14));
             }
     }
 }
@@ -486,25 +511,31 @@ TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
         std::vector<double> expected;
         for (double a = 0; words >> a;) expected.push_back(a);
         const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
-        for (const Equations& equations : {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
+        for (const Equations& equations :
+             {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
             CAPTURE(equations.formalism);
-            CHECK(distance(group(lowered(m, equations), start_of(m).state(), Group::acceleration), expected) < 1e-12);
+            CHECK(distance(group(lowered(m, equations), start_of(m).state(), Group::acceleration), expected) <
+                  1e-12);
             ++compared;
         }
     }
     CHECK(compared == 35);
 }
 
-// A hangs on the ground, C on A, B on C by a joint from B to C; D closes a loop from B to the ground; P is a particle on its own.
+// A hangs on the ground, C on A, B on C by a joint from B to C; D closes a loop from B to the ground; P is a
+// particle on its own.
 TEST_CASE("joints: incidence and path matrix of the system graph are inverse to each other") {
     std::string text = "[coordinates]\nx = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x\", 0]\n";
     for (const char* body : {"A", "B", "C"}) text += fmt::format("[[body]]\nname = \"{}\"{}", body, masses);
-    const auto joint = [](const char* name, const char* type, const char* parent, const char* child, const char* q) {
-        return fmt::format("[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n{}", name, type, parent, child,
+    const auto joint = [](const char* name, const char* type, const char* parent, const char* child,
+                          const char* q) {
+        return fmt::format("[[joint]]\nname = \"{}\"\ntype = \"{}\"\nparent = \"{}\"\nchild = \"{}\"\n{}", name,
+                           type, parent, child,
                            *q != 0 ? fmt::format("coordinates = {{ {} = 0 }}\n", q) : std::string());
     };
-    const Mechanism m = from_text(text + joint("b", "revolute", "B", "C", "q1") + joint("d", "spherical", "N", "B", "") +
-                                  joint("c", "revolute", "A", "C", "q2") + joint("a", "prismatic", "N", "A", "q3"));
+    const Mechanism m =
+        from_text(text + joint("b", "revolute", "B", "C", "q1") + joint("d", "spherical", "N", "B", "") +
+                  joint("c", "revolute", "A", "C", "q2") + joint("a", "prismatic", "N", "A", "q3"));
     const SystemGraph g = system_graph(m);
     REQUIRE(g.arcs.size() == 4);
     CHECK(g.chords == std::vector<std::string>{"d: N -> B"});
@@ -525,7 +556,8 @@ TEST_CASE("joints: incidence and path matrix of the system graph are inverse to 
 }
 
 TEST_CASE("joints: every formalism that applies gives the same equations of the gallery's mechanisms") {
-    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope", "universal_double_pendulum", "furuta_joints", "rssr"}) {
+    for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope",
+                             "universal_double_pendulum", "furuta_joints", "rssr"}) {
         CAPTURE(name);
         const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
         const Derivations derivations = derive_all(m);

@@ -6,9 +6,9 @@
 #include <map>
 #include <random>
 
-#include "state/assemble.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "state/assemble.hpp"
 
 namespace alembert::test {
 
@@ -18,15 +18,17 @@ struct Unknown : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// value, rate, second derivative with respect to time; the last are missing where accelerations would have to be differentiated.
-/// `size`: the same with every term taken positive, to which a difference of zero is compared.
+/// value, rate, second derivative with respect to time; the last are missing where accelerations would have to be
+/// differentiated. `size`: the same with every term taken positive, to which a difference of zero is compared.
 struct Series {
     std::array<Digits, 3> at;
     int known = 2;
     std::array<Digits, 3> size;
 
-    Series(std::array<Digits, 3> values, int order) : at(values), known(order), size{abs(values[0]), abs(values[1]), abs(values[2])} {}
-    Series(std::array<Digits, 3> values, int order, std::array<Digits, 3> sizes) : at(values), known(order), size(sizes) {}
+    Series(std::array<Digits, 3> values, int order)
+        : at(values), known(order), size{abs(values[0]), abs(values[1]), abs(values[2])} {}
+    Series(std::array<Digits, 3> values, int order, std::array<Digits, 3> sizes)
+        : at(values), known(order), size(sizes) {}
     Series derivative() const {
         if (known == 0) throw Unknown("a third derivative");
         return {{at[1], at[2], 0}, known - 1, {size[1], size[2], 0}};
@@ -34,22 +36,33 @@ struct Series {
 };
 
 using Triple = std::array<Digits, 3>;
-Series constant(const Digits& x) { return {{x, 0, 0}, 2}; }
-Triple plus(const Triple& a, const Triple& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Series constant(const Digits& x) {
+    return {{x, 0, 0}, 2};
+}
+Triple plus(const Triple& a, const Triple& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 Triple times(const Triple& a, const Triple& b) {
     return {a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2 * a[1] * b[1] + a[0] * b[2]};
 }
-Series operator+(const Series& a, const Series& b) { return {plus(a.at, b.at), std::min(a.known, b.known), plus(a.size, b.size)}; }
-Series operator*(const Series& a, const Series& b) { return {times(a.at, b.at), std::min(a.known, b.known), times(a.size, b.size)}; }
+Series operator+(const Series& a, const Series& b) {
+    return {plus(a.at, b.at), std::min(a.known, b.known), plus(a.size, b.size)};
+}
+Series operator*(const Series& a, const Series& b) {
+    return {times(a.at, b.at), std::min(a.known, b.known), times(a.size, b.size)};
+}
 /// f(a) from f, f′, f″ at a.
 Series chain(const Series& a, const Digits& f, const Digits& f1, const Digits& f2) {
-    const auto by = [&](const Triple& x, const Digits& d1, const Digits& d2) { return Triple{f, d1 * x[1], d1 * x[2] + d2 * x[1] * x[1]}; };
+    const auto by = [&](const Triple& x, const Digits& d1, const Digits& d2) {
+        return Triple{f, d1 * x[1], d1 * x[2] + d2 * x[1] * x[1]};
+    };
     Series result(by(a.at, f1, f2), a.known, by(a.size, abs(f1), abs(f2)));
     result.size[0] = abs(f);
     return result;
 }
 Series power(const Series& a, int n) {
-    Series result = constant(1), base = n < 0 ? chain(a, 1 / a.at[0], -1 / (a.at[0] * a.at[0]), 2 / (a.at[0] * a.at[0] * a.at[0])) : a;
+    Series result = constant(1),
+           base = n < 0 ? chain(a, 1 / a.at[0], -1 / (a.at[0] * a.at[0]), 2 / (a.at[0] * a.at[0] * a.at[0])) : a;
     for (int k = 0; k < std::abs(n); ++k) result = result * base;
     return result;
 }
@@ -62,21 +75,30 @@ public:
         std::size_t independent = 0;
         for (const Mechanism::Parameter& p : m.parameters)
             if (p.independent) known_.emplace(p.symbol.get_name(), constant(s.parameters[independent++]));
-        for (std::size_t i = 0; i < m.q.size(); ++i) known_.emplace(m.q[i].get_name(), Series({s.q[i], s.qdot[i], s.qddot[i]}, 2));
-        for (std::size_t k = 0; k < e.lambda.size(); ++k) known_.emplace(e.lambda[k].get_name(), Series({s.unknown[k], 0, 0}, 0));
+        for (std::size_t i = 0; i < m.q.size(); ++i)
+            known_.emplace(m.q[i].get_name(), Series({s.q[i], s.qdot[i], s.qddot[i]}, 2));
+        for (std::size_t k = 0; k < e.lambda.size(); ++k)
+            known_.emplace(e.lambda[k].get_name(), Series({s.unknown[k], 0, 0}, 0));
         for (std::size_t k = 0; k < m.speeds.size(); ++k)
-            known_.emplace(m.speeds[k].u.get_name(), Series({s.unknown[e.lambda.size() + 2 * k], s.unknown[e.lambda.size() + 2 * k + 1], 0}, 1));
+            known_.emplace(
+                m.speeds[k].u.get_name(),
+                Series({s.unknown[e.lambda.size() + 2 * k], s.unknown[e.lambda.size() + 2 * k + 1], 0}, 1));
     }
 
     Series of(const Tree& tree) {
         using Kind = Tree::Kind;
         const auto arg = [&](std::size_t k) { return of(*tree.args[k]); };
         switch (tree.kind) {
-            case Kind::number: return constant(Digits(cln::cl_R(cln::the<cln::cl_RA>(exact_number(tree.text).to_cl_N()))));
-            case Kind::name: return differentiated(named(tree.text), tree.primes);
-            case Kind::derivative: return differentiated(arg(0), tree.primes);
-            case Kind::negate: return constant(-1) * arg(0);
-            case Kind::reciprocal: return power(arg(0), -1);
+            case Kind::number:
+                return constant(Digits(cln::cl_R(cln::the<cln::cl_RA>(exact_number(tree.text).to_cl_N()))));
+            case Kind::name:
+                return differentiated(named(tree.text), tree.primes);
+            case Kind::derivative:
+                return differentiated(arg(0), tree.primes);
+            case Kind::negate:
+                return constant(-1) * arg(0);
+            case Kind::reciprocal:
+                return power(arg(0), -1);
             case Kind::sum: {
                 Series sum = arg(0);
                 for (std::size_t k = 1; k < tree.args.size(); ++k) sum = sum + arg(k);
@@ -87,8 +109,10 @@ public:
                 for (std::size_t k = 1; k < tree.args.size(); ++k) product = product * arg(k);
                 return product;
             }
-            case Kind::power: return raised(arg(0), *tree.args[1]);
-            case Kind::call: return called(tree);
+            case Kind::power:
+                return raised(arg(0), *tree.args[1]);
+            case Kind::call:
+                return called(tree);
         }
         throw Unknown("a node");
     }
@@ -184,7 +208,8 @@ std::optional<std::vector<Digits>> solved(std::vector<std::vector<Digits>> A, st
 }
 
 /// x less Aᵀ (A Aᵀ)⁻¹ misfit.
-bool project(std::vector<Digits>& x, const std::vector<std::vector<Digits>>& A, const std::vector<Digits>& misfit) {
+bool project(std::vector<Digits>& x, const std::vector<std::vector<Digits>>& A,
+             const std::vector<Digits>& misfit) {
     std::vector<std::vector<Digits>> square(A.size(), std::vector<Digits>(A.size()));
     for (std::size_t a = 0; a < A.size(); ++a)
         for (std::size_t b = 0; b < A.size(); ++b)
@@ -197,9 +222,11 @@ bool project(std::vector<Digits>& x, const std::vector<std::vector<Digits>>& A, 
 }
 
 bool obey(State<Digits>& state, const Program& p, const Mechanism& m) {
-    const auto rows = p.nodes_of(Group::row), position = p.nodes_of(Group::position), velocity = p.nodes_of(Group::velocity);
+    const auto rows = p.nodes_of(Group::row), position = p.nodes_of(Group::position),
+               velocity = p.nodes_of(Group::velocity);
     const std::size_t n = m.q.size();
-    const auto gather = [&](const std::vector<int>& nodes, bool positions, std::vector<std::vector<Digits>>& A, std::vector<Digits>& off) {
+    const auto gather = [&](const std::vector<int>& nodes, bool positions, std::vector<std::vector<Digits>>& A,
+                            std::vector<Digits>& off) {
         const std::vector<Digits> value = interpret<Digits>(p, state);
         A.clear(), off.clear();
         for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -213,7 +240,9 @@ bool obey(State<Digits>& state, const Program& p, const Mechanism& m) {
     std::vector<Digits> off;
     for (int round = 0; round < 40; ++round) {
         gather(position, true, A, off);
-        if (off.empty() || std::all_of(off.begin(), off.end(), [](const Digits& x) { return x.magnitude() < -55; })) break;
+        if (off.empty() ||
+            std::all_of(off.begin(), off.end(), [](const Digits& x) { return x.magnitude() < -55; }))
+            break;
         if (round == 39 || !project(state.q, A, off)) return false;
     }
     gather(velocity, false, A, off);
@@ -226,7 +255,8 @@ std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
     for (const Mechanism::Speed& speed : m.speeds) {
         const GiNaC::ex form = m.z->expand(speed.form);
         GiNaC::ex rate = form.diff(m.t);
-        for (std::size_t i = 0; i < m.q.size(); ++i) rate += form.diff(m.q[i]) * m.qdot[i] + form.diff(m.qdot[i]) * m.qddot[i];
+        for (std::size_t i = 0; i < m.q.size(); ++i)
+            rate += form.diff(m.q[i]) * m.qdot[i] + form.diff(m.qdot[i]) * m.qddot[i];
         list.insert(list.end(), {form, rate});
     }
     return list;
@@ -234,7 +264,8 @@ std::vector<GiNaC::ex> forms_and_rates(const Mechanism& m) {
 
 }  // namespace
 
-Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsigned seed, int states) : scene_(scene), m_(m), e_(e) {
+Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsigned seed, int states)
+    : scene_(scene), m_(m), e_(e) {
     Mechanism plain = m;  // the motion is found in coordinates, and speeds are what their forms say
     plain.speeds.clear();
     const Program p = lower(plain, e, energy_of(plain));
@@ -248,7 +279,8 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
     };
     for (int tries = 0; tries < 60 && this->states() < states; ++tries) try {
             State<Digits> s;
-            for (const double x : start.parameters) s.parameters.push_back(x == 0 ? uniform(0.1, 1) : Digits(x) * uniform(0.9, 1.15));
+            for (const double x : start.parameters)
+                s.parameters.push_back(x == 0 ? uniform(0.1, 1) : Digits(x) * uniform(0.9, 1.15));
             s.t = uniform(0.1, 5);
             for (const double x : start.q) s.q.push_back(Digits(x) + uniform(-0.4, 0.6));
             for (const double x : start.qdot) s.qdot.push_back(Digits(x) / 2 + uniform(-1.5, 2));
@@ -263,7 +295,8 @@ Oracle::Oracle(const Scene& scene, const Mechanism& m, const Equations& e, unsig
             take(Group::acceleration, s.qddot);
             take(Group::multiplier, s.unknown);
             const std::vector<Digits> speeds = interpret<Digits>(forms, s);
-            for (std::size_t k = 0; k < form_nodes.size(); ++k) s.unknown[e.lambda.size() + k] = speeds[form_nodes[k]];
+            for (std::size_t k = 0; k < form_nodes.size(); ++k)
+                s.unknown[e.lambda.size() + k] = speeds[form_nodes[k]];
             states_.push_back(std::move(s));
         } catch (const std::exception&) {  // a pole, a root of a negative number
         }

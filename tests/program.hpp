@@ -11,8 +11,8 @@ namespace alembert::test {
 struct Run {
     int exit = -1;
     std::string out, err;
-    double seconds = 0;      ///< processor time, children included
-    long megabytes = 0;      ///< largest resident size
+    double seconds = 0;  ///< processor time, children included
+    long megabytes = 0;  ///< largest resident size
 };
 
 /// `alembert ARGS…`, with a cache of its own folder for this test process.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Random right claims about a scene, as text: combinations of its equations with functions of the state as coefficients,
-/// multiples of the constraints and of their derivatives added, rates replaced by what the constraints give, sines and cosines
-/// rewritten, sides exchanged.
+/// Random right claims about a scene, as text: combinations of its equations with functions of the state as
+/// coefficients, multiples of the constraints and of their derivatives added, rates replaced by what the
+/// constraints give, sines and cosines rewritten, sides exchanged.
 ///
 ///     const Rewritings right(scene, mechanism, equations);
 ///     right.claim(random)       // "(1+x^2)*(m*x'' - F) + (x'-r*phi')/cos(phi) = 0", in some dress
@@ -26,8 +26,8 @@ public:
     /// False where equations are written in intermediate symbols, which the oracle does not read.
     bool readable() const { return readable_; }
 
-    /// What the combinations are made of: the equations as `derive` prints them, a row for each coordinate and those in the scene's
-    /// speeds, and the scene's claims without open names.
+    /// What the combinations are made of: the equations as `derive` prints them, a row for each coordinate and
+    /// those in the scene's speeds, and the scene's claims without open names.
     const std::vector<std::string>& right() const { return right_; }
 
 private:

@@ -47,7 +47,8 @@ Events one_event(Function function, bool stop = false) {
 
 // y = h − g t²/2: every method but euler, and its dense output, is exact up to rounding.
 TEST_CASE("events: a falling body reaches the ground at √(2h/g), and the run ends there") {
-    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::abm, Method::bdf, Method::radau}) {
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
+                                Method::gauss, Method::abm, Method::bdf, Method::radau}) {
         const Trajectory motion =
             integrate(free_fall(), {10, 0}, options_for(method, 5),
                       one_event([](double, const double* y, const double*, double* out) { out[0] = y[0]; }, true));
@@ -65,7 +66,8 @@ TEST_CASE("events: a falling body reaches the ground at √(2h/g), and the run e
 
 // Not abm and bdf: their own error in a hundred seconds is some 1e-8, which is no matter of events.
 TEST_CASE("events: every zero of a sine is found, in both directions, and the zero at the start is none") {
-    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::radau}) {
+    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
+                                Method::gauss, Method::radau}) {
         const Trajectory motion =
             integrate(oscillator(), {0, 1}, options_for(method, 100),
                       one_event([](double, const double* y, const double*, double* out) { out[0] = y[0]; }));
@@ -127,11 +129,12 @@ TEST_CASE("events: in one step they come in the order of time, simultaneous ones
 }
 
 TEST_CASE("events: what is simultaneous with the one that stops is told, whichever is declared first") {
-    const Events events = make_events({{.name = "end", .stop = true}, {.name = "mark"}, {.name = "later"}}, [](double, const double* y, const double*, double* out) {
-        out[0] = y[0] - 5;
-        out[1] = y[0] * y[0] - 25;
-        out[2] = y[0] - 5.001;
-    });
+    const Events events = make_events({{.name = "end", .stop = true}, {.name = "mark"}, {.name = "later"}},
+                                      [](double, const double* y, const double*, double* out) {
+                                          out[0] = y[0] - 5;
+                                          out[1] = y[0] * y[0] - 25;
+                                          out[2] = y[0] - 5.001;
+                                      });
     const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1}, events);
     REQUIRE(motion.events.size() == 2);
     CHECK(motion.events[0].name == "end");
@@ -177,20 +180,23 @@ TEST_CASE("events: a pole is none, and neither is the edge of what is defined") 
 
 // A particle flies through a thin disc, then through a wall that ends the run; one step goes far beyond both.
 TEST_CASE("events: in a step that goes far beyond an event that stops, an earlier one is not passed over") {
-    const Trajectory motion = integrate(
-        stopwatch(), {0}, {.duration = 100, .step = 100},
-        make_events({{.name = "wall", .stop = true}, {.name = "disc", .stop = true}},
-                    [](double, const double* y, const double*, double* out) {
-                        out[0] = 1 - y[0];
-                        out[1] = std::abs(y[0] - 0.48) - 0.1;
-                    }));
+    const Trajectory motion =
+        integrate(stopwatch(), {0}, {.duration = 100, .step = 100},
+                  make_events({{.name = "wall", .stop = true}, {.name = "disc", .stop = true}},
+                              [](double, const double* y, const double*, double* out) {
+                                  out[0] = 1 - y[0];
+                                  out[1] = std::abs(y[0] - 0.48) - 0.1;
+                              }));
     REQUIRE(motion.events.size() == 1);
     CHECK(motion.events[0].name == "disc");
     CHECK(std::abs(motion.times.back() - 0.38) < 1e-11);
 }
 
 TEST_CASE("events: two that would stop the run at one instant are both told, and what is zero there is listed") {
-    const Events events = make_events({{.name = "one", .stop = true}, {.name = "wrong way", .stop = true, .direction = -1}, {.name = "mark"}, {.name = "two", .stop = true}},
+    const Events events = make_events({{.name = "one", .stop = true},
+                                       {.name = "wrong way", .stop = true, .direction = -1},
+                                       {.name = "mark"},
+                                       {.name = "two", .stop = true}},
                                       [](double, const double* y, const double*, double* out) {
                                           out[0] = y[0] - 5;
                                           out[1] = y[0] * y[0] * y[0] - 125;
@@ -216,7 +222,8 @@ TEST_CASE("events: direction tells zeros where the value grows from those where 
     const auto times = [](int direction, double offset) {
         const Trajectory motion = integrate(oscillator(), {1, 0}, {.duration = 12, .tolerance = 1e-13},
                                             make_events({{.name = "x", .direction = direction}},
-                                                        [offset](double, const double* y, const double*, double* out) { out[0] = y[0] + offset; }));
+                                                        [offset](double, const double* y, const double*,
+                                                                 double* out) { out[0] = y[0] + offset; }));
         std::vector<double> list;
         for (const EventRecord& event : motion.events) list.push_back(event.time / std::numbers::pi);
         return list;
@@ -233,14 +240,16 @@ TEST_CASE("events: direction tells zeros where the value grows from those where 
     near(times(1, 0.5), {2 - late, 4 - late});
 }
 
-// g = |x − a| − b has zeros at a − b and a + b; a projectile goes through such a slab at both of its walls, twice where it comes back.
+// g = |x − a| − b has zeros at a − b and a + b; a projectile goes through such a slab at both of its walls, twice
+// where it comes back.
 TEST_CASE("events: a step that goes through a thin slab sees both walls, wherever in the step it stands") {
     for (const double b : {1e-2, 1e-4, 1e-6})
         for (const double a : {0.13, 1.23, 2.5, 3.7, 4.98, 5.6, 6.26, 7.44, 8.89, 9.9}) {
             CAPTURE(a);
             CAPTURE(b);
             const Trajectory motion = integrate(stopwatch(), {0}, {.duration = 10, .step = 10, .sample = 1},
-                                                one_event([=](double, const double* y, const double*, double* out) { out[0] = std::abs(y[0] - a) - b; }));
+                                                one_event([=](double, const double* y, const double*,
+                                                              double* out) { out[0] = std::abs(y[0] - a) - b; }));
             REQUIRE(motion.events.size() == 2);
             CHECK(std::abs(motion.events[0].time - (a - b)) < 1e-13);
             CHECK(std::abs(motion.events[1].time - (a + b)) < 1e-13);
@@ -248,10 +257,15 @@ TEST_CASE("events: a step that goes through a thin slab sees both walls, whereve
     // y = 20 t − g t²/2 is at the height h at (20 ∓ √(400 − 2 g h))/g.
     for (const double h : {3.0, 11.0, 17.0}) {
         const double b = 1e-5;
-        const Trajectory motion = integrate(free_fall(), {0, 20}, {.duration = 4, .tolerance = 1e-3, .step = 4, .sample = 1},
-                                            one_event([=](double, const double* y, const double*, double* out) { out[0] = std::abs(y[0] - h) - b; }));
+        const Trajectory motion =
+            integrate(free_fall(), {0, 20}, {.duration = 4, .tolerance = 1e-3, .step = 4, .sample = 1},
+                      one_event([=](double, const double* y, const double*, double* out) {
+                          out[0] = std::abs(y[0] - h) - b;
+                      }));
         REQUIRE(motion.events.size() == 4);
-        const auto when = [&](double height, int side) { return (20 + side * std::sqrt(400 - 2 * g * height)) / g; };
+        const auto when = [&](double height, int side) {
+            return (20 + side * std::sqrt(400 - 2 * g * height)) / g;
+        };
         CHECK(std::abs(motion.events[0].time - when(h - b, -1)) < 1e-9);
         CHECK(std::abs(motion.events[1].time - when(h + b, -1)) < 1e-9);
         CHECK(std::abs(motion.events[2].time - when(h + b, 1)) < 1e-9);
@@ -259,13 +273,18 @@ TEST_CASE("events: a step that goes through a thin slab sees both walls, whereve
     }
 }
 
-// A body at rest at y = 1 and a spike that rises from the ground at 50 m/s and goes back: 1.1 − 50 |t − c| reaches it at c − 0.002.
-TEST_CASE("events: a spike that touches a resting body between two points of a long step stops the run at its first touch") {
+// A body at rest at y = 1 and a spike that rises from the ground at 50 m/s and goes back: 1.1 − 50 |t − c| reaches
+// it at c − 0.002.
+TEST_CASE(
+    "events: a spike that touches a resting body between two points of a long step stops the run at its first "
+    "touch") {
     for (const double c : {0.03, 1.013, 2.4, 4.99, 6.2, 8.77, 9.93}) {
         CAPTURE(c);
-        const Trajectory motion =
-            integrate(free_fall(), {1 + g * 50, 0}, {.duration = 10, .tolerance = 1e-3, .step = 10},
-                      one_event([=](double t, const double* y, const double*, double* out) { out[0] = y[0] - g * 50 + g * t * t / 2 - 1.1 + 50 * std::abs(t - c); }, true));
+        const Trajectory motion = integrate(
+            free_fall(), {1 + g * 50, 0}, {.duration = 10, .tolerance = 1e-3, .step = 10},
+            one_event([=](double t, const double* y, const double*,
+                          double* out) { out[0] = y[0] - g * 50 + g * t * t / 2 - 1.1 + 50 * std::abs(t - c); },
+                      true));
         CHECK(motion.ending == Ending::stopped_by_event);
         CHECK(std::abs(motion.times.back() - (c - 0.002)) < 1e-9);
     }

@@ -19,7 +19,9 @@ VectorXd vector(std::initializer_list<double> values) {
     return result;
 }
 
-VectorXd zeros(Eigen::Index n) { return VectorXd::Zero(n); }
+VectorXd zeros(Eigen::Index n) {
+    return VectorXd::Zero(n);
+}
 
 MatrixXd rows(std::initializer_list<std::initializer_list<double>> list) {
     MatrixXd result(static_cast<Eigen::Index>(list.size()), static_cast<Eigen::Index>(list.begin()->size()));
@@ -28,16 +30,23 @@ MatrixXd rows(std::initializer_list<std::initializer_list<double>> list) {
     return result;
 }
 
-MatrixXd none(Eigen::Index n) { return MatrixXd(0, n); }
+MatrixXd none(Eigen::Index n) {
+    return MatrixXd(0, n);
+}
 
 /// Contacts alone, one restitution.
 ImpactResult bounce(const MatrixXd& M, const VectorXd& before, const MatrixXd& G, double e) {
-    return strike(M, before, zeros(before.size()), none(before.size()), zeros(0), G, zeros(G.rows()), VectorXd::Constant(G.rows(), e));
+    return strike(M, before, zeros(before.size()), none(before.size()), zeros(0), G, zeros(G.rows()),
+                  VectorXd::Constant(G.rows(), e));
 }
 
-double energy(const MatrixXd& M, const VectorXd& v) { return v.dot(M * v) / 2; }
+double energy(const MatrixXd& M, const VectorXd& v) {
+    return v.dot(M * v) / 2;
+}
 
-bool near(const VectorXd& a, const VectorXd& b, double tolerance = 1e-13) { return (a - b).norm() <= tolerance * (1 + b.norm()); }
+bool near(const VectorXd& a, const VectorXd& b, double tolerance = 1e-13) {
+    return (a - b).norm() <= tolerance * (1 + b.norm());
+}
 
 }  // namespace
 
@@ -58,7 +67,8 @@ TEST_CASE("impact: a ball leaves the floor with e times the speed, and the floor
 
 // A moving floor: the speed is relative to it. Floor upwards at 2: gap' = v − 2.
 TEST_CASE("impact: restitution is of the relative speed") {
-    const ImpactResult hit = strike(rows({{1}}), vector({-3}), zeros(1), none(1), zeros(0), rows({{1}}), vector({-2}), vector({0.5}));
+    const ImpactResult hit =
+        strike(rows({{1}}), vector({-3}), zeros(1), none(1), zeros(0), rows({{1}}), vector({-2}), vector({0.5}));
     CHECK(near(hit.after, vector({2 + 0.5 * 5})));
 }
 
@@ -67,10 +77,11 @@ TEST_CASE("impact: two equal elastic balls exchange their velocities") {
     CHECK(near(hit.after, vector({0, 1})));
 }
 
-// Three balls that touch: γ⁺ = (1, 0) from x' = (1, 0, 0) and equal masses give (−1, 2, 2)/3 (Glocker, ch. 7): Newton's law
-// at all contacts at once is not the play of successive collisions.
+// Three balls that touch: γ⁺ = (1, 0) from x' = (1, 0, 0) and equal masses give (−1, 2, 2)/3 (Glocker, ch. 7):
+// Newton's law at all contacts at once is not the play of successive collisions.
 TEST_CASE("impact: three balls that touch share the blow as the law says") {
-    const ImpactResult hit = bounce(MatrixXd::Identity(3, 3), vector({1, 0, 0}), rows({{-1, 1, 0}, {0, -1, 1}}), 1);
+    const ImpactResult hit =
+        bounce(MatrixXd::Identity(3, 3), vector({1, 0, 0}), rows({{-1, 1, 0}, {0, -1, 1}}), 1);
     CHECK(near(hit.after, vector({-1. / 3, 2. / 3, 2. / 3})));
 }
 
@@ -85,7 +96,8 @@ TEST_CASE("impact: a rod dropped flat on two supports stays level and each takes
 
 TEST_CASE("impact: a table dropped flat on four legs is no rank trouble and each leg takes a quarter") {
     const MatrixXd M = vector({8, 1, 1}).asDiagonal();
-    const ImpactResult hit = bounce(M, vector({-1, 0, 0}), rows({{1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}), 0);
+    const ImpactResult hit =
+        bounce(M, vector({-1, 0, 0}), rows({{1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}), 0);
     REQUIRE(hit);
     CHECK(near(hit.after, zeros(3)));
     CHECK(near(hit.contact, VectorXd::Constant(4, 2.0)));
@@ -103,7 +115,8 @@ TEST_CASE("impact: a slanting rod is turned by the table as in closed form") {
 
 TEST_CASE("impact: in a right-angled corner each wall acts alone") {
     const MatrixXd M = MatrixXd::Identity(2, 2);
-    const ImpactResult hit = strike(M, vector({-1, -2}), zeros(2), none(2), zeros(0), M, zeros(2), vector({0.5, 0.25}));
+    const ImpactResult hit =
+        strike(M, vector({-1, -2}), zeros(2), none(2), zeros(0), M, zeros(2), vector({0.5, 0.25}));
     CHECK(near(hit.after, vector({0.5, 0.5})));
 }
 
@@ -122,7 +135,8 @@ TEST_CASE("impact: in a sharp wedge an elastic ball keeps its speed and leaves b
         CHECK((G * hit.after).minCoeff() > -1e-11);
         CHECK(hit.contact.minCoeff() >= 0);
     }
-    // Unfolding a wedge of π/4: four reflections turn (cos φ, sin φ) by π about the apex, whatever φ between the walls' own.
+    // Unfolding a wedge of π/4: four reflections turn (cos φ, sin φ) by π about the apex, whatever φ between the
+    // walls' own.
     for (const double phi : {3.3, 3.5, 3.8}) {
         const double alpha = std::numbers::pi / 4;
         const ImpactResult hit = bounce(MatrixXd::Identity(2, 2), vector({std::cos(phi), std::sin(phi)}),
@@ -133,7 +147,8 @@ TEST_CASE("impact: in a sharp wedge an elastic ball keeps its speed and leaves b
 
 // Leaves at 1, is struck back at once: −2, bounces to 1; the impulse did ½(−3)(−2 + 1).
 TEST_CASE("impact: a contact that was opening and is pressed has a collision of its own") {
-    const ImpactResult hit = strike(rows({{1}}), vector({1}), vector({-3}), none(1), zeros(0), rows({{1}}), zeros(1), vector({0.5}));
+    const ImpactResult hit =
+        strike(rows({{1}}), vector({1}), vector({-3}), none(1), zeros(0), rows({{1}}), zeros(1), vector({0.5}));
     CHECK(near(hit.after, vector({1})));
     CHECK(near(hit.contact, vector({3})));
     CHECK(hit.collisions == 2);
@@ -141,16 +156,19 @@ TEST_CASE("impact: a contact that was opening and is pressed has a collision of 
     CHECK(hit.loss == doctest::Approx(1.5));
 }
 
-TEST_CASE("impact: two shafts coupled at once share their angular momentum, and the lost velocities' energy is lost") {
+TEST_CASE(
+    "impact: two shafts coupled at once share their angular momentum, and the lost velocities' energy is lost") {
     const MatrixXd M = vector({2, 3}).asDiagonal();
     const VectorXd before = vector({5, -1});
     const ImpactResult hit = strike(M, before, zeros(2), rows({{1, -1}}), zeros(1), none(2), zeros(0), zeros(0));
     CHECK(near(hit.after, VectorXd::Constant(2, 7.0 / 5)));
     CHECK(near(hit.bilateral, vector({2 * (7.0 / 5 - 5)})));
-    CHECK(energy(M, before) - energy(M, hit.after) == doctest::Approx(energy(M, before - hit.after)).epsilon(1e-14));
+    CHECK(energy(M, before) - energy(M, hit.after) ==
+          doctest::Approx(energy(M, before - hit.after)).epsilon(1e-14));
 }
 
-TEST_CASE("impact: a blow on a held ball is borne by what holds it; on a resting one by the floor, if it presses") {
+TEST_CASE(
+    "impact: a blow on a held ball is borne by what holds it; on a resting one by the floor, if it presses") {
     const VectorXd at_rest = zeros(1);
     const MatrixXd M = rows({{2}}), row = rows({{1}});
     const ImpactResult held = strike(M, at_rest, vector({4}), row, zeros(1), none(1), zeros(0), zeros(0));
@@ -166,7 +184,8 @@ TEST_CASE("impact: a blow on a held ball is borne by what holds it; on a resting
 
 TEST_CASE("impact: a coordinate without mass goes with the constraint that holds it") {
     const MatrixXd M = vector({2, 0}).asDiagonal();
-    const ImpactResult hit = strike(M, vector({0, 0}), vector({1, 3}), rows({{1, -1}}), zeros(1), none(2), zeros(0), zeros(0));
+    const ImpactResult hit =
+        strike(M, vector({0, 0}), vector({1, 3}), rows({{1, -1}}), zeros(1), none(2), zeros(0), zeros(0));
     REQUIRE(hit);
     CHECK(near(hit.after, vector({2, 2})));
     CHECK(near(hit.bilateral, vector({3})));  // 0 = 3 − Λ
@@ -180,24 +199,26 @@ TEST_CASE("impact: what cannot be is said, not computed") {
     CHECK(twice(-2));
     CHECK(near(twice(-2).after, vector({1})));
     CHECK(twice(-3).failure.find("contradict") != std::string::npos);
-    CHECK(strike(rows({{0}}), zeros(1), zeros(1), none(1), zeros(0), none(1), zeros(0), zeros(0)).failure.find("singular") !=
-          std::string::npos);
-    CHECK(strike(M, vector({NAN}), zeros(1), none(1), zeros(0), none(1), zeros(0), zeros(0)).failure.find("finite") !=
-          std::string::npos);
+    CHECK(strike(rows({{0}}), zeros(1), zeros(1), none(1), zeros(0), none(1), zeros(0), zeros(0))
+              .failure.find("singular") != std::string::npos);
+    CHECK(strike(M, vector({NAN}), zeros(1), none(1), zeros(0), none(1), zeros(0), zeros(0))
+              .failure.find("finite") != std::string::npos);
     // Two walls that close on a ball from both sides; a constraint that drives it into the floor.
-    CHECK(strike(M, zeros(1), zeros(1), none(1), zeros(0), rows({{1}, {-1}}), vector({-1, -1}), zeros(2)).failure.find("apart") !=
-          std::string::npos);
-    CHECK(strike(M, zeros(1), zeros(1), rows({{1}}), vector({1}), rows({{1}}), zeros(1), zeros(1)).failure.find("prescribe") !=
-          std::string::npos);
+    CHECK(strike(M, zeros(1), zeros(1), none(1), zeros(0), rows({{1}, {-1}}), vector({-1, -1}), zeros(2))
+              .failure.find("apart") != std::string::npos);
+    CHECK(strike(M, zeros(1), zeros(1), rows({{1}}), vector({1}), rows({{1}}), zeros(1), zeros(1))
+              .failure.find("prescribe") != std::string::npos);
 }
 
-// What defines the result: momenta, constraints, signs, complementarity; it is unique, so nothing else need be compared.
-// After several collisions complementarity belongs to each of them; then it is left out.
+// What defines the result: momenta, constraints, signs, complementarity; it is unique, so nothing else need be
+// compared. After several collisions complementarity belongs to each of them; then it is left out.
 TEST_CASE("impact: random systems obey the law, and the balance of energy closes without a gain") {
     constexpr std::uint64_t seed = 20040301;
     std::mt19937_64 random(seed);
     std::normal_distribution<double> any;
-    const auto matrix = [&](Eigen::Index r, Eigen::Index c) -> MatrixXd { return MatrixXd::NullaryExpr(r, c, [&] { return any(random); }); };
+    const auto matrix = [&](Eigen::Index r, Eigen::Index c) -> MatrixXd {
+        return MatrixXd::NullaryExpr(r, c, [&] { return any(random); });
+    };
     int contacts = 0, rounds = 0;
     for (int i = 0; i < 2000; ++i) {
         const Eigen::Index n = 1 + i % 6, m = (i / 6) % n, k = (i / 7) % 6;
@@ -211,7 +232,8 @@ TEST_CASE("impact: random systems obey the law, and the balance of energy closes
         INFO("seed " << seed << " case " << i << ": " << hit.failure);
         REQUIRE(hit);
         const double size = M.norm() * (before.norm() + hit.after.norm()) + A.norm() + G.norm() + impulse.norm();
-        CHECK((M * (hit.after - before) - impulse - A.transpose() * hit.bilateral - G.transpose() * hit.contact).norm() < 1e-10 * size);
+        CHECK((M * (hit.after - before) - impulse - A.transpose() * hit.bilateral - G.transpose() * hit.contact)
+                  .norm() < 1e-10 * size);
         CHECK((A * hit.after).norm() < 1e-10 * size);
         CHECK(hit.loss >= 0);
         CHECK(std::abs(energy(M, before) - energy(M, hit.after) + hit.work - hit.loss) < 1e-10 * size * size);

@@ -53,10 +53,12 @@ TEST_CASE("inertia: transport to another point and frame is the sum over the mas
     const Matrix3<> R_AB = rotation_by_angles("zxz", {0.3, 1.1, -0.8});
     Points seen = points;  // along B
     for (Vector3r<>& r : seen.at) r = R_AB.transpose() * r;
-    CHECK((turned<double>(about(seen, Vector3r<>::Zero()), R_AB) - about(points, Vector3r<>::Zero())).norm() < 1e-13);
+    CHECK((turned<double>(about(seen, Vector3r<>::Zero()), R_AB) - about(points, Vector3r<>::Zero())).norm() <
+          1e-13);
 }
 
-TEST_CASE("inertia: principal axes make the tensor diagonal, and no cloud of points breaks the triangle inequality") {
+TEST_CASE(
+    "inertia: principal axes make the tensor diagonal, and no cloud of points breaks the triangle inequality") {
     const Matrix3<> I = about(cloud(), Vector3r<>::Zero());
     const PrincipalAxes<> own = principal_axes<double>(I);
     CHECK((own.R * own.moments.asDiagonal() * own.R.transpose() - I).norm() < 1e-13);
@@ -70,7 +72,7 @@ TEST_CASE("inertia: principal axes make the tensor diagonal, and no cloud of poi
     };
     CHECK_FALSE(breaks_triangle_inequality(with(1, 2, 3, 0)));  // a plate
     CHECK(breaks_triangle_inequality(with(1, 2, 3.001, 0)));
-    CHECK(breaks_triangle_inequality(with(2, 2, 1, 1.8)));      // 0.2, 1, 3.8
-    CHECK(has_negative_moment(with(1, 1, 1, 2)));               // -1, 1, 3
+    CHECK(breaks_triangle_inequality(with(2, 2, 1, 1.8)));  // 0.2, 1, 3.8
+    CHECK(has_negative_moment(with(1, 1, 1, 2)));           // -1, 1, 3
     CHECK(with(2, 2, 1, 1.8).moments[2] == doctest::Approx(3.8));
 }

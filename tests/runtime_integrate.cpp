@@ -132,7 +132,9 @@ TEST_CASE("statistics: evaluations are counted, and steps are told") {
     });
     const Events events = make_events(
         {{.name = "half"}}, [](double, const double* y, const double*, double* out) { out[0] = y[0] - 0.5; });
-    for (const Method method : {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::gauss, Method::abm, Method::bdf, Method::radau}) {
+    for (const Method method :
+         {Method::euler, Method::rk2, Method::rk4, Method::dopri5, Method::dop853, Method::verner76,
+          Method::verner98, Method::gauss, Method::abm, Method::bdf, Method::radau}) {
         calls = told = 0;
         const Trajectory motion =
             integrate(counted, {1.0},
@@ -280,7 +282,8 @@ TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are n
         rate[0] = y[1];
         rate[1] = std::exp(-(t - 5) / w * (t - 5) / w) - y[0];
     });
-    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau}) {
+    for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm,
+                                Method::bdf, Method::radau}) {
         INFO(name(method));
         Options options{.method = method, .duration = 20, .tolerance = 1e-12};
         options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = w, .step = w}};
@@ -289,12 +292,15 @@ TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are n
         CHECK(std::abs(motion.final_state()[0] - exact) < 1e-8);
         options.quick_times = {{.from = 5 - 4 * w, .to = 5 + 4 * w, .enter = 0, .step = w}};
         bool lands = false;
-        options.on_step = [&](double t, std::span<const double>, std::span<const double>) { lands = lands || std::abs(t - (5 - 4 * w)) < 1e-14; };
+        options.on_step = [&](double t, std::span<const double>, std::span<const double>) {
+            lands = lands || std::abs(t - (5 - 4 * w)) < 1e-14;
+        };
         integrate(rhs, {0, 0}, options);
         CHECK(lands);
     }
     CHECK(latest_end({}, 3) == HUGE_VAL);
-    const std::vector<QuickTime> quick{{.from = 1, .to = 2, .enter = 3, .step = 3}, {.from = 2, .to = 2.5, .enter = 0.1, .step = 0.2}};
+    const std::vector<QuickTime> quick{{.from = 1, .to = 2, .enter = 3, .step = 3},
+                                       {.from = 2, .to = 2.5, .enter = 0.1, .step = 0.2}};
     CHECK(latest_end(quick, 0) == 2.1);
     CHECK(latest_end(quick, 1.5) == 2.1);
     CHECK(latest_end(quick, 2) == 2.2);

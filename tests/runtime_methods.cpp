@@ -99,7 +99,8 @@ void check_trees(const Table& table, std::vector<int> exact_for_error_row) {
                 sum += weights[i] * phi.back()[i];
                 absolute += std::abs(weights[i]) * size.back()[i];
             }
-            INFO("tree of " << tree.nodes << " nodes: " << sum << " for " << expected << ", rounding " << absolute);
+            INFO("tree of " << tree.nodes << " nodes: " << sum << " for " << expected << ", rounding "
+                            << absolute);
             // Each of the nodes brings a rounded coefficient and a sum of some twenty terms.
             CHECK(std::abs(sum - expected) <= 2 * tree.nodes * epsilon * absolute);
         };
@@ -108,7 +109,6 @@ void check_trees(const Table& table, std::vector<int> exact_for_error_row) {
             if (tree.nodes <= exact_for_error_row[row]) holds(table.e[row], 0);
     }
 }
-
 
 /// The logistic equation y' = y (1 − y), y(0) = 1/10: the error after equal steps, by the closed form
 /// y = 1/(1 + 9 e⁻ᵗ).
@@ -170,8 +170,8 @@ TEST_CASE("tableaux: rows sum to c, and the quadrature conditions hold up to the
     check_conditions(verner98_tableau, {8});
 }
 
-// Hairer, Nørsett, Wanner I, §II.2, theorem 2.13: Σ b_i Φ_i(τ) = 1/γ(τ) for the trees τ of at most p nodes. There are
-// 85 of at most 7 nodes and 486 of at most 9.
+// Hairer, Nørsett, Wanner I, §II.2, theorem 2.13: Σ b_i Φ_i(τ) = 1/γ(τ) for the trees τ of at most p nodes. There
+// are 85 of at most 7 nodes and 486 of at most 9.
 TEST_CASE("tableaux: the order conditions hold, tree by tree, with one order less for what is estimated with") {
     CHECK(rooted_trees(9).size() == 486);
     check_trees(rk2_tableau, {});
@@ -293,21 +293,32 @@ TEST_CASE("state: nine copies of an orbit in one long state move as one does alo
     for (std::size_t k = 0; k < copies; ++k) start.insert(start.end(), kepler_start.begin(), kepler_start.end());
     for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         CAPTURE(name(method));
-        const Options options{.method = method, .duration = 10, .tolerance = 1e-10, .step = method == Method::rk4 ? 0.01 : 0, .sample = 0.1};
-        const Trajectory alone = integrate(orbit, kepler_start, options), together = integrate(many, start, options);
+        const Options options{.method = method,
+                              .duration = 10,
+                              .tolerance = 1e-10,
+                              .step = method == Method::rk4 ? 0.01 : 0,
+                              .sample = 0.1};
+        const Trajectory alone = integrate(orbit, kepler_start, options),
+                         together = integrate(many, start, options);
         REQUIRE(alone.rows() == together.rows());
         CHECK(alone.statistics.evaluations == together.statistics.evaluations);
         for (std::size_t row = 0; row < alone.times.size(); ++row)
             for (std::size_t i = 0; i < copies * one; ++i)
-                REQUIRE(std::abs(together.states[row * copies * one + i] - alone.states[row * one + i % one]) < 1e-13);
+                REQUIRE(std::abs(together.states[row * copies * one + i] - alone.states[row * one + i % one]) <
+                        1e-13);
     }
 }
 
 TEST_CASE("state: a projection that moves nothing costs no evaluation and changes no bit") {
     int asked = 0;
-    for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner98, Method::abm, Method::radau5}) {
+    for (const Method method :
+         {Method::rk4, Method::dopri5, Method::dop853, Method::verner98, Method::abm, Method::radau5}) {
         CAPTURE(name(method));
-        Options options{.method = method, .duration = 10, .tolerance = 1e-10, .step = has_fixed_step(method) ? 0.01 : 0, .sample = 0.5};
+        Options options{.method = method,
+                        .duration = 10,
+                        .tolerance = 1e-10,
+                        .step = has_fixed_step(method) ? 0.01 : 0,
+                        .sample = 0.5};
         const Trajectory without = integrate(kepler(), kepler_start, options);
         options.project = [&](double, double*) { ++asked; };
         const Trajectory with = integrate(kepler(), kepler_start, options);

@@ -67,7 +67,8 @@ double equal_steps_error(int steps) {
     return std::abs(step.state()[0] - 1 / (1 + 9 * std::exp(-5.)));
 }
 
-/// The same of a method that begins with order 1: steps of h³ at first, and twice as long ones after each five, until there is h.
+/// The same of a method that begins with order 1: steps of h³ at first, and twice as long ones after each five,
+/// until there is h.
 template <class Formula>
 double equal_steps_error_from_short_ones(int steps) {
     const Rhs rhs = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * (1 - y[0]); });
@@ -118,7 +119,8 @@ double order_in_equal_steps(int steps) {
     return std::log2(coarse / fine);
 }
 
-/// The same on x'' = −x in steps so long that order 13 leaves an error; a linear equation is solved however long they are.
+/// The same on x'' = −x in steps so long that order 13 leaves an error; a linear equation is solved however long
+/// they are.
 template <class Formula>
 double order_on_the_oscillator(int steps, int more) {
     const auto error = [](int count) {
@@ -145,15 +147,17 @@ double order_on_the_oscillator(int steps, int more) {
 template <class Formula>
 double order_within_step(double h) {
     const double coarse = within_step<Formula>(h), fine = within_step<Formula>(h / 2);
-    MESSAGE("h " << h << ": errors within a step " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
+    MESSAGE("h " << h << ": errors within a step " << coarse << " " << fine << ", order "
+                 << std::log2(coarse / fine));
     return std::log2(coarse / fine);
 }
 
 }  // namespace
 
-// Hairer & Wanner II, §IV.5: c_s = 1, Σ b_i c_i^k = 1/(k+1) for k ≤ 2s − 2, C(s), and b = last row of A; the known eigenvalue for
-// s = 3 is λ = 3 + 3^{2/3} − 3^{1/3}.
-TEST_CASE("radau: the computed coefficients integrate polynomials of degree 2s − 2, and stages those of degree s − 1") {
+// Hairer & Wanner II, §IV.5: c_s = 1, Σ b_i c_i^k = 1/(k+1) for k ≤ 2s − 2, C(s), and b = last row of A; the known
+// eigenvalue for s = 3 is λ = 3 + 3^{2/3} − 3^{1/3}.
+TEST_CASE(
+    "radau: the computed coefficients integrate polynomials of degree 2s − 2, and stages those of degree s − 1") {
     for (const int s : {3, 5, 7}) {
         const RadauTable& table = radau_table(s);
         const Eigen::MatrixXd A = table.inverse.inverse();
@@ -170,13 +174,16 @@ TEST_CASE("radau: the computed coefficients integrate polynomials of degree 2s �
                 for (int j = 0; j < s; ++j) sum += A(i, j) * std::pow(table.c[j], k);
                 CHECK(std::abs(sum - std::pow(table.c[i], k + 1) / (k + 1)) < 1e-14);
             }
-        CHECK((table.inverse * table.v_real - table.lambda * table.v_real).norm() < 1e-13 * table.lambda * table.v_real.norm());
+        CHECK((table.inverse * table.v_real - table.lambda * table.v_real).norm() <
+              1e-13 * table.lambda * table.v_real.norm());
         CHECK(static_cast<int>(table.mu.size()) == (s - 1) / 2);
     }
     CHECK(std::abs(radau_table(3).lambda - (3 + std::cbrt(9.) - std::cbrt(3.))) < 1e-14);
 }
 
-TEST_CASE("radau: the error falls with orders 5, 9 and 13, and within a step with those of the collocation polynomials") {
+TEST_CASE(
+    "radau: the error falls with orders 5, 9 and 13, and within a step with those of the collocation "
+    "polynomials") {
     CHECK(std::abs(order_in_equal_steps<Radau5>(40) - 5) < 0.1);
     CHECK(std::abs(order_in_equal_steps<Radau9>(8) - 9) < 0.1);
     CHECK(std::abs(order_on_the_oscillator<Radau13>(14, 21) - 13) < 0.1);
@@ -199,18 +206,20 @@ TEST_CASE("implicit methods: with the exact Jacobian a stiff run takes fewer eva
     });
     for (const Method method : stiff_methods) {
         const Options options{.method = method, .duration = 2, .tolerance = 1e-9};
-        const Trajectory a = integrate(van_der_pol(mu), {2.0, 0.0}, options), b = integrate(with, {2.0, 0.0}, options);
+        const Trajectory a = integrate(van_der_pol(mu), {2.0, 0.0}, options),
+                         b = integrate(with, {2.0, 0.0}, options);
         INFO(name(method) << ": " << a.statistics.evaluations << " by differences, " << b.statistics.evaluations);
         CHECK(b.statistics.evaluations < a.statistics.evaluations);
         CHECK(distance(a.final_state(), b.final_state()) < 1e-7);
     }
 }
 
-// The length of steps goes with tolerance^(1/(k+1)) and local errors with the tolerance, so that the global one goes
-// with steps^(−k); that the control keeps a step until it can be much longer makes the observation rough.
+// The length of steps goes with tolerance^(1/(k+1)) and local errors with the tolerance, so that the global one
+// goes with steps^(−k); that the control keeps a step until it can be much longer makes the observation rough.
 TEST_CASE("abm: the error of Kepler's orbit falls with order 4 against the number of steps") {
     CHECK(std::abs(order_by_steps(Method::abm, 1e-7, 1e-11) - 4) < 0.5);
-    const double coarse = equal_steps_error_from_short_ones<Abm>(400), fine = equal_steps_error_from_short_ones<Abm>(800);
+    const double coarse = equal_steps_error_from_short_ones<Abm>(400),
+                 fine = equal_steps_error_from_short_ones<Abm>(800);
     MESSAGE("in equal steps: errors " << coarse << " " << fine << ", order " << std::log2(coarse / fine));
     CHECK(std::abs(std::log2(coarse / fine) - 4) < 0.1);
 }
@@ -222,8 +231,9 @@ TEST_CASE("bdf: orders up to 5 are reached, and errors follow the tolerance") {
 TEST_CASE("stiff methods: Prothero and Robinson's equation takes steps for its solution, not for its stiffness") {
     for (const Method method : stiff_methods)
         for (const double lambda : {-1e3, -1e6}) {
-            const Trajectory motion = integrate(
-                prothero_robinson(lambda), {0.0}, {.method = method, .duration = 10, .tolerance = 1e-8, .sample = 0.01});
+            const Trajectory motion =
+                integrate(prothero_robinson(lambda), {0.0},
+                          {.method = method, .duration = 10, .tolerance = 1e-8, .sample = 0.01});
             REQUIRE(motion.ending == Ending::completed);
             INFO(name(method) << " " << lambda << ": " << motion.statistics.steps << " steps, "
                               << motion.statistics.evaluations << " evaluations");
@@ -248,8 +258,8 @@ TEST_CASE("stiff methods: van der Pol's oscillator agrees with dop853 at a tight
     }
 }
 
-// A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular solution
-// is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
+// A mass on a stiff spring with critical damping, pushed slowly: x'' = −k (x − sin t) − 2 √k x'. The particular
+// solution is x = Im(H e^{it}), H = k/(k − 1 + 2i√k). At k = 1e8 only radau: see bdf.hpp.
 TEST_CASE("radau: shifted systems of first and of second order are solved as Eigen does, work included") {
     const unsigned seed = 64;
     std::srand(seed);
@@ -265,7 +275,8 @@ TEST_CASE("radau: shifted systems of first and of second order are solved as Eig
             }
             CHECK(second_order(J) == (is_second ? n : 0));
             const std::complex<double> sigma(7, 40);
-            const Eigen::MatrixXcd A = Eigen::MatrixXcd::Identity(size, size) * sigma - J.cast<std::complex<double>>();
+            const Eigen::MatrixXcd A =
+                Eigen::MatrixXcd::Identity(size, size) * sigma - J.cast<std::complex<double>>();
             const Eigen::VectorXcd b = Eigen::VectorXcd::Random(size), expected = A.partialPivLu().solve(b);
             Shifted<std::complex<double>> system(size);
             system.factor(J, second_order(J), sigma);
@@ -282,7 +293,8 @@ TEST_CASE("radau: shifted systems of first and of second order are solved as Eig
 }
 
 TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") {
-    for (const auto& choice : {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
+    for (const auto& choice :
+         {std::pair(Method::bdf, 1e4), std::pair(Method::radau, 1e4), std::pair(Method::radau, 1e8)}) {
         const Method method = choice.first;
         const double stiffness = choice.second, damping = 2 * std::sqrt(stiffness);
         const Rhs spring = make_rhs(2, [=](double t, const double* y, double* rate) {
@@ -300,23 +312,27 @@ TEST_CASE("stiff methods: a stiff spring with a damper follows what pushes it") 
     }
 }
 
-TEST_CASE("multistep and implicit methods: a smaller tolerance gives a smaller error, and few steps are rejected") {
+TEST_CASE(
+    "multistep and implicit methods: a smaller tolerance gives a smaller error, and few steps are rejected") {
     const auto end = [](std::vector<double> start) {
         return integrate(pendulum(), start, {.duration = 30, .tolerance = 1e-15});
     };
     const Trajectory exact = end(pendulum_start);
-    // What an error of 1 in one component at the start is at the end: some ten, since another energy is another period.
+    // What an error of 1 in one component at the start is at the end: some ten, since another energy is another
+    // period.
     const double growth = 1e6 * std::max(distance(end({2.0 + 1e-6, 0.3}).final_state(), exact.final_state()),
                                          distance(end({2.0, 0.3 + 1e-6}).final_state(), exact.final_state()));
     MESSAGE("growth " << growth);
-    for (const Method method : {Method::abm, Method::bdf, Method::radau, Method::radau5, Method::radau9, Method::radau13}) {
+    for (const Method method :
+         {Method::abm, Method::bdf, Method::radau, Method::radau5, Method::radau9, Method::radau13}) {
         double last = HUGE_VAL, bound = 0;
         for (double tolerance = 1e-4; tolerance > 1e-11; tolerance /= 100) {
             const Trajectory motion =
                 integrate(pendulum(), pendulum_start, {.method = method, .duration = 30, .tolerance = tolerance});
             const double error = distance(motion.final_state(), exact.final_state());
-            INFO(name(method) << " at " << tolerance << ": " << error << ", " << motion.statistics.steps << " steps, "
-                              << motion.statistics.rejected << " rejected " << motion.statistics.evaluations);
+            INFO(name(method) << " at " << tolerance << ": " << error << ", " << motion.statistics.steps
+                              << " steps, " << motion.statistics.rejected << " rejected "
+                              << motion.statistics.evaluations);
             CHECK(error < last / 3);
             CHECK(motion.statistics.rejected <= motion.statistics.steps / 4);
             last = error;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Methods that keep the structure of mechanics: orders, energies over long runs, Newton's method where steps are long.
+// Methods that keep the structure of mechanics: orders, energies over long runs, Newton's method where steps are
+// long.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,14 +19,13 @@ using namespace alembert::test;
 
 namespace {
 
-
 /// log₂ of the ratio of the errors after one turn in n and 2n steps.
 double order_on_kepler(Method method, int steps) {
     const auto error = [&](int n) {
         const double turn = 2 * std::numbers::pi;
-        return distance(
-            integrate(kepler(), kepler_start, {.method = method, .duration = turn, .step = turn / n}).final_state(),
-            kepler_start);
+        return distance(integrate(kepler(), kepler_start, {.method = method, .duration = turn, .step = turn / n})
+                            .final_state(),
+                        kepler_start);
     };
     const double coarse = error(steps), fine = error(2 * steps);
     MESSAGE(name(method) << ", " << steps << " steps: errors " << coarse << " " << fine << ", order "
@@ -34,19 +34,20 @@ double order_on_kepler(Method method, int steps) {
 }
 
 /// The largest |H − H(0)| in the first and in the last tenth of a run.
-std::pair<double, double> energy_errors(const Rhs& rhs, const std::vector<double>& start, Method method, double step,
-                                        double (*energy)(std::span<const double>)) {
+std::pair<double, double> energy_errors(const Rhs& rhs, const std::vector<double>& start, Method method,
+                                        double step, double (*energy)(std::span<const double>)) {
     const double duration = 1e5 * step, at_start = energy(start);
     double first = 0, last = 0;
-    const Trajectory motion = integrate(rhs, start,
-                                        {.method = method,
-                                         .duration = duration,
-                                         .step = step,
-                                         .on_step = [&](double t, std::span<const double> y, std::span<const double>) {
-                                             double& worst = t < duration / 2 ? first : last;
-                                             if (t < 0.1 * duration || t > 0.9 * duration)
-                                                 worst = std::max(worst, std::abs(energy(y) - at_start));
-                                         }});
+    const Trajectory motion =
+        integrate(rhs, start,
+                  {.method = method,
+                   .duration = duration,
+                   .step = step,
+                   .on_step = [&](double t, std::span<const double> y, std::span<const double>) {
+                       double& worst = t < duration / 2 ? first : last;
+                       if (t < 0.1 * duration || t > 0.9 * duration)
+                           worst = std::max(worst, std::abs(energy(y) - at_start));
+                   }});
     CHECK(motion.ending == Ending::completed);
     MESSAGE(name(method) << ": energy off by " << first << " at first, " << last << " at last");
     return {first, last};
@@ -118,7 +119,8 @@ TEST_CASE("symplectic methods: a quadrature has their order") {
     }
 }
 
-// R(z) is the Padé approximant (120 + 60z + 12z² + z³)/(120 − 60z + 12z² − z³) of eᶻ; at z = −1000 fixed-point iteration diverges.
+// R(z) is the Padé approximant (120 + 60z + 12z² + z³)/(120 − 60z + 12z² − z³) of eᶻ; at z = −1000 fixed-point
+// iteration diverges.
 TEST_CASE("gauss: a stiff decay is stepped by its stability function, Newton's method taking over") {
     const Rhs stiff = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = -1e4 * y[0]; });
     const Trajectory motion = integrate(stiff, {1.0}, {.method = Method::gauss, .duration = 1, .step = 0.1});
@@ -127,7 +129,8 @@ TEST_CASE("gauss: a stiff decay is stepped by its stability function, Newton's m
     CHECK(std::abs(motion.final_state()[0] - std::pow(R, 10)) < 1e-12);
 }
 
-// A mass on a spring of ω = 1000 that swings slowly besides: with hω = 20 the fast part is not resolved, and its energy stays.
+// A mass on a spring of ω = 1000 that swings slowly besides: with hω = 20 the fast part is not resolved, and its
+// energy stays.
 TEST_CASE("gauss: in steps far beyond the period of a stiff spring the energy does not drift") {
     const Rhs rhs = make_rhs(4, [](double, const double* y, double* rate) {
         const double r = std::hypot(y[0], y[1]), pull = 1e6 * (r - 1) / r;
@@ -142,13 +145,14 @@ TEST_CASE("gauss: in steps far beyond the period of a stiff spring the energy do
     };
     const std::vector<double> start = {1, 0, 0, 0};
     double worst = 0;
-    const Trajectory motion = integrate(rhs, start,
-                                        {.method = Method::gauss,
-                                         .duration = 100,
-                                         .step = 0.02,
-                                         .on_step = [&](double, std::span<const double> y, std::span<const double>) {
-                                             worst = std::max(worst, std::abs(energy(y) - energy(start)));
-                                         }});
+    const Trajectory motion =
+        integrate(rhs, start,
+                  {.method = Method::gauss,
+                   .duration = 100,
+                   .step = 0.02,
+                   .on_step = [&](double, std::span<const double> y, std::span<const double>) {
+                       worst = std::max(worst, std::abs(energy(y) - energy(start)));
+                   }});
     REQUIRE(motion.ending == Ending::completed);
     MESSAGE("energy off by " << worst << ", " << motion.statistics.evaluations << " evaluations");
     CHECK(worst < 0.01);  // of 9.81 J that go to and fro

@@ -69,11 +69,13 @@ private:
     bool holds_any(const Tree& tree, const std::set<std::string>& names, int primes = 0) const {
         if (tree.kind == Kind::name && names.contains(tree.text) && tree.primes >= primes) return true;
         if (tree.kind == Kind::derivative && primes > 0) return true;
-        return std::any_of(tree.args.begin(), tree.args.end(), [&](const TreePtr& a) { return holds_any(*a, names, primes); });
+        return std::any_of(tree.args.begin(), tree.args.end(),
+                           [&](const TreePtr& a) { return holds_any(*a, names, primes); });
     }
 
     std::string slice(const Tree& tree) const {
-        std::string text = sides_[static_cast<std::size_t>(side_)].text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length));
+        std::string text = sides_[static_cast<std::size_t>(side_)].text.substr(
+            static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length));
         text.erase(text.find_last_not_of(' ') + 1);
         return text;
     }
@@ -113,7 +115,8 @@ private:
     std::pair<int, int> with_parentheses(const Tree& tree) const {
         const std::string& text = sides_[static_cast<std::size_t>(side_)].text;
         int open = tree.offset, close = tree.offset + tree.length;
-        while (open > 0 && text[static_cast<std::size_t>(open) - 1] == '(' && close < static_cast<int>(text.size()) && text[static_cast<std::size_t>(close)] == ')')
+        while (open > 0 && text[static_cast<std::size_t>(open) - 1] == '(' &&
+               close < static_cast<int>(text.size()) && text[static_cast<std::size_t>(close)] == ')')
             --open, ++close;
         return {open, close};
     }
@@ -122,7 +125,8 @@ private:
         const bool negated = tree.kind == Kind::negate;
         const Tree& inner = negated ? *tree.args[0] : tree;
         const std::string body = slice(inner);
-        const bool moves = holds_any(tree, coordinates_) || holds_any(tree, moving_) || body.find("lambda") != std::string::npos;
+        const bool moves =
+            holds_any(tree, coordinates_) || holds_any(tree, moving_) || body.find("lambda") != std::string::npos;
         const std::string bracketed = inner.kind == Kind::sum ? "(" + body + ")" : body;
         // The sign
         if (negated)
@@ -134,7 +138,8 @@ private:
         if (inner.kind == Kind::number) return;
         // A factor
         if (outermost || moves)
-            for (const char* times : {"2*", "3*"}) change("factor", inner.offset, static_cast<int>(body.size()), times + bracketed);
+            for (const char* times : {"2*", "3*"})
+                change("factor", inner.offset, static_cast<int>(body.size()), times + bracketed);
         // Forgotten
         if (inner.kind == Kind::sum) {
             change("missing_term", inner.offset, static_cast<int>(body.size()), "0");
@@ -158,13 +163,15 @@ private:
         }
         if (tree.kind == Kind::number && !in_angle && !exponent) number(tree);
         if (turns && !in_angle) trig(tree);
-        for (std::size_t k = 0; k < tree.args.size(); ++k) visit(*tree.args[k], in_angle || turns, tree.kind == Kind::power && k == 1);
+        for (std::size_t k = 0; k < tree.args.size(); ++k)
+            visit(*tree.args[k], in_angle || turns, tree.kind == Kind::power && k == 1);
     }
 
     void name(const Tree& tree, bool is_base) {
         const int length = static_cast<int>(slice(tree).size());
         if (coordinates_.contains(tree.text) && tree.primes > 0)
-            change("lost_dot", tree.offset, length, tree.text + std::string(static_cast<std::size_t>(tree.primes - 1), '\''));
+            change("lost_dot", tree.offset, length,
+                   tree.text + std::string(static_cast<std::size_t>(tree.primes - 1), '\''));
         for (const auto* names : {&lengths_, &others_}) {
             if (!names->contains(tree.text)) continue;
             const std::string kind = names == &lengths_ ? "wrong_arm" : "factor";
@@ -178,14 +185,16 @@ private:
 
     void number(const Tree& tree) {
         for (const char* other : {"1", "2", "3", "4"})
-            if (slice(tree) != other && slice(tree) != "0") change("factor", tree.offset, static_cast<int>(slice(tree).size()), other);
+            if (slice(tree) != other && slice(tree) != "0")
+                change("factor", tree.offset, static_cast<int>(slice(tree).size()), other);
     }
 
     void squared(const Tree& tree) {
         const Tree& base = *tree.args[0];
         if (slice(*tree.args[1]) != "2" || base.kind != Kind::name) return;
         const int length = static_cast<int>(slice(tree).size());
-        if (coordinates_.contains(base.text) && base.primes == 1) change("lost_dot", tree.offset, length, slice(base));
+        if (coordinates_.contains(base.text) && base.primes == 1)
+            change("lost_dot", tree.offset, length, slice(base));
         if (lengths_.contains(base.text)) change("wrong_arm", tree.offset, length, slice(base));
     }
 
@@ -207,11 +216,13 @@ private:
         if (inside.kind == Kind::name) {
             change("wrong_argument", inside.offset, inside.length, "2*" + angle);
             for (const std::string& q : angles)
-                if (q != angle && q.find_first_of("+-*/") == std::string::npos) change("wrong_argument", inside.offset, inside.length, angle + "+" + q);
+                if (q != angle && q.find_first_of("+-*/") == std::string::npos)
+                    change("wrong_argument", inside.offset, inside.length, angle + "+" + q);
         }
         if (inside.kind == Kind::sum && inside.args.size() == 2) {
             const bool minus = inside.args[1]->kind == Kind::negate;
-            const std::string a = slice(*inside.args[0]), b = slice(minus ? *inside.args[1]->args[0] : *inside.args[1]);
+            const std::string a = slice(*inside.args[0]),
+                              b = slice(minus ? *inside.args[1]->args[0] : *inside.args[1]);
             change("wrong_argument", inside.offset, inside.length, a + (minus ? "+" : "-") + b);
             change("wrong_argument", inside.offset, inside.length, a);
             change("wrong_argument", inside.offset, inside.length, b);
@@ -250,9 +261,12 @@ private:
                 const Tree& inner = whole.kind == Kind::negate ? *whole.args[0] : whole;
                 std::set<std::string> names;
                 collect_names(inner, names);
-                const bool has_force = std::any_of(names.begin(), names.end(), [&](const std::string& n) { return moving_.contains(n) || n == "g"; });
+                const bool has_force = std::any_of(names.begin(), names.end(), [&](const std::string& n) {
+                    return moving_.contains(n) || n == "g";
+                });
                 if (!has_force || holds_any(inner, coordinates_, 1)) continue;
-                std::string text = sides[static_cast<std::size_t>(s)].text.substr(static_cast<std::size_t>(inner.offset), static_cast<std::size_t>(inner.length));
+                std::string text = sides[static_cast<std::size_t>(s)].text.substr(
+                    static_cast<std::size_t>(inner.offset), static_cast<std::size_t>(inner.length));
                 text.erase(text.find_last_not_of(' ') + 1);
                 result.push_back({text, whole.kind == Kind::negate, s, whole.offset, whole.length, k == 0});
             }
@@ -269,7 +283,8 @@ private:
                     word += c;
                     continue;
                 }
-                bare += (lengths_.contains(word) || others_.contains(word) ? "" : word) + (std::string("*/ ()").find(c) == std::string::npos ? std::string(1, c) : "");
+                bare += (lengths_.contains(word) || others_.contains(word) ? "" : word) +
+                        (std::string("*/ ()").find(c) == std::string::npos ? std::string(1, c) : "");
                 word.clear();
             }
             return bare;
@@ -277,15 +292,20 @@ private:
         for (std::size_t other = 0; k_ < rows_ && other < rows_; ++other) {
             if (other == k_) continue;
             for (const Load& load : loads(sides_of(right_[other]))) {
-                if (std::any_of(own.begin(), own.end(), [&](const Load& o) { return without_parameters(o.text) == without_parameters(load.text); })) continue;
+                if (std::any_of(own.begin(), own.end(), [&](const Load& o) {
+                        return without_parameters(o.text) == without_parameters(load.text);
+                    }))
+                    continue;
                 const auto [left, right] = std::pair(sides_[0].text, sides_[1].text);
                 const std::string sign = load.negated ? " - " : " + ";
                 // one too many
-                add("wrong_row", load.side == 0 ? left + sign + load.text + " = " + right : left + " = " + right + sign + load.text);
+                add("wrong_row", load.side == 0 ? left + sign + load.text + " = " + right
+                                                : left + " = " + right + sign + load.text);
                 // instead of the own
                 for (const Load& mine : own) {
                     side_ = mine.side;
-                    const bool negative = (load.negated != mine.negated) != (load.side != mine.side) ? !mine.negated : mine.negated;
+                    const bool negative =
+                        (load.negated != mine.negated) != (load.side != mine.side) ? !mine.negated : mine.negated;
                     const int sign_at = mine.negated ? mine.offset : mine.first ? mine.offset : plus_at(mine);
                     std::string by = negative ? "-" : mine.first ? "" : "+";
                     if (!mine.first) by += " ";
@@ -314,11 +334,13 @@ private:
         const std::string angle = angles.empty() ? "" : "*sin(" + *angles.begin() + ")";
         for (const std::string& a : coordinates_)
             for (const std::string& b : coordinates_) {
-                if (b < a || right_[k_].find(a + "'*" + b + "'") != std::string::npos || right_[k_].find(b + "'*" + a + "'") != std::string::npos ||
+                if (b < a || right_[k_].find(a + "'*" + b + "'") != std::string::npos ||
+                    right_[k_].find(b + "'*" + a + "'") != std::string::npos ||
                     (a == b && right_[k_].find(a + "'^2") != std::string::npos))
                     continue;
                 for (const char* sign : {" + ", " - "})
-                    add("extra_term", sides_[0].text + sign + mass + arm + "*" + a + "'*" + b + "'" + angle + " = " + sides_[1].text);
+                    add("extra_term", sides_[0].text + sign + mass + arm + "*" + a + "'*" + b + "'" + angle +
+                                          " = " + sides_[1].text);
             }
     }
 
@@ -331,8 +353,8 @@ private:
 
 }  // namespace
 
-std::vector<StudentSlip> slips_of(const Scene& scene, const std::vector<std::string>& right, std::size_t rows, std::size_t k,
-                                  std::mt19937& random, std::size_t each) {
+std::vector<StudentSlip> slips_of(const Scene& scene, const std::vector<std::string>& right, std::size_t rows,
+                                  std::size_t k, std::mt19937& random, std::size_t each) {
     std::vector<StudentSlip> result;
     for (const auto& [kind, equations] : Student(scene, right, rows, k).made) {
         std::vector<std::string> all(equations.begin(), equations.end());

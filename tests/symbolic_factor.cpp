@@ -36,7 +36,8 @@ TEST_CASE("factor: sums with powers like a^3.1416 are their own factorization's 
     test::Mechanics m;
     const ex a = m.parameter("a"), b = m.parameter("b");
     const ex root = pow(a, GiNaC::numeric(3927, 1250));
-    for (const ex& e : {root + a * a / 4, 1 + root + a * a, (a * a - b * b) * (root + 1), 2 * b * b + b * b * root * root + 1, a * a + 2 * a * b + b * b}) {
+    for (const ex& e : {root + a * a / 4, 1 + root + a * a, (a * a - b * b) * (root + 1),
+                        2 * b * b + b * b * root * root + 1, a * a + 2 * a * b + b * b}) {
         CAPTURE(e);
         const Polynomial polynomial = fourier(e.expand(), m.symbols).value().polynomial();
         Factorizer factorizer;

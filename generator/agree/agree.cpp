@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Two systems of linear equations have the same solutions if and only if their reduced row echelon forms are equal.
-// A rational identity of degree d that is false holds at a random point of GF(p) with a chance of at most d/p
-// (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
+// Two systems of linear equations have the same solutions if and only if their reduced row echelon forms are
+// equal. A rational identity of degree d that is false holds at a random point of GF(p) with a chance of at most
+// d/p (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
 #include "agree/agree.hpp"
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 #include <cmath>
 #include <random>
 
-#include "exact/square_points.hpp"
 #include "agree/system.hpp"
+#include "exact/square_points.hpp"
 #include "state/redundancy.hpp"
 #include "state/speeds.hpp"
 
@@ -21,7 +21,8 @@ using GiNaC::ex;
 
 namespace {
 
-/// Unknowns of a square system by elimination with row exchanges; nothing where a pivot is small beside the largest.
+/// Unknowns of a square system by elimination with row exchanges; nothing where a pivot is small beside the
+/// largest.
 std::optional<std::vector<long double>> solved(std::vector<std::vector<long double>> rows) {
     const std::size_t size = rows.size();
     if (size == 0 || rows[0].size() != size + 1) return std::nullopt;
@@ -54,9 +55,9 @@ std::vector<std::vector<long double>> rows_at(const System& s, State<long double
                    }));
 }
 
-/// In long double arithmetic at a random state: the largest residual of `b`'s rows at `a`'s solution over the largest term;
-/// where the two have different unknowns, the difference of those that they share, over the largest. Nothing where that
-/// cannot be told.
+/// In long double arithmetic at a random state: the largest residual of `b`'s rows at `a`'s solution over the
+/// largest term; where the two have different unknowns, the difference of those that they share, over the largest.
+/// Nothing where that cannot be told.
 std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
     std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
     State<long double> state;
@@ -107,7 +108,8 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
     const auto equal = [&](const ex& x, const ex& y) {
         if (x.is_equal(y)) return true;
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-        return used.count() < seconds && m.z->tree_size(x) + m.z->tree_size(y) < 20000 && vanishes(x - y, m) == true;
+        return used.count() < seconds && m.z->tree_size(x) + m.z->tree_size(y) < 20000 &&
+               vanishes(x - y, m) == true;
     };
     for (int i = 0; i < a.size(); ++i) {
         for (int j = 0; j <= i; ++j)
@@ -129,7 +131,8 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
 Derivations derive_all(const Mechanism& mechanism) {
     Derivations result;
     for (const Formalism& f : formalisms()) {
-        if (!f.without_constraints.empty() && mechanism.constraints.empty()) continue;  // another one, word for word
+        if (!f.without_constraints.empty() && mechanism.constraints.empty())
+            continue;  // another one, word for word
         if (const auto obstacle = f.obstacle(mechanism))
             result.refused.emplace_back(f.name, *obstacle);
         else
@@ -175,7 +178,9 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
     int unusable = 0;
     for (std::uint64_t seed = 1; result.failure > -60; ++seed) {
         const auto point = usable.at({.seed = seed, .given = {}, .given_angles = {}, .finer = finer});
-        const auto rates = !point ? std::nullopt : speeds != nullptr ? rates_at(*speeds, *point) : std::optional(ModularRates{});
+        const auto rates = !point              ? std::nullopt
+                           : speeds != nullptr ? rates_at(*speeds, *point)
+                                               : std::optional(ModularRates{});
         std::vector<Echelon> forms;
         for (const System& s : systems) {
             auto form = rates ? echelon(s, *point, *rates) : std::nullopt;
@@ -199,14 +204,16 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
             for (int attempt = 0; attempt < 32; ++attempt)
                 if (const auto r = residual(systems[0], systems[k], random); r && ++tried && *r > 1e-9L) {
                     result.verdict = Agreement::Verdict::refuted;
-                    result.reason = fmt::format("{} and {} differ: at a random state an equation of the second is off by {:.2g} "
-                                                "of its largest term with the accelerations of the first",
-                                                systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
+                    result.reason = fmt::format(
+                        "{} and {} differ: at a random state an equation of the second is off by {:.2g} "
+                        "of its largest term with the accelerations of the first",
+                        systems[0].formalism, systems[k].formalism, static_cast<double>(*r));
                     return result;
                 }
-            result.reason = fmt::format("{} and {} differ in exact arithmetic that does not know all identities, and agree at "
-                                        "{} random states",
-                                        systems[0].formalism, systems[k].formalism, tried);
+            result.reason = fmt::format(
+                "{} and {} differ in exact arithmetic that does not know all identities, and agree at "
+                "{} random states",
+                systems[0].formalism, systems[k].formalism, tried);
             return result;
         }
         ++result.points;

@@ -19,13 +19,15 @@ System system_of(const Equations& e, const Mechanism& m, const std::vector<int>&
     s.gamma = s.program.nodes_of(Group::gamma);
     s.rates = s.program.nodes_of(Group::rate);
     s.second = s.program.nodes_of(Group::second_rate);
-    const std::vector<int> kept = e.kept(m), row = s.program.nodes_of(s.is_plain() ? Group::row : Group::speed_row);
+    const std::vector<int> kept = e.kept(m),
+                           row = s.program.nodes_of(s.is_plain() ? Group::row : Group::speed_row);
     for (const int k : kept) {
         const auto begin = row.begin() + static_cast<std::ptrdiff_t>(k) * s.speeds;
         s.A.emplace_back(begin, begin + s.speeds);
     }
     const auto is_hidden = [&](int k) {
-        return std::find(somewhere_eliminated.begin(), somewhere_eliminated.end(), k) != somewhere_eliminated.end();
+        return std::find(somewhere_eliminated.begin(), somewhere_eliminated.end(), k) !=
+               somewhere_eliminated.end();
     };
     s.hidden = s.is_plain() ? 0 : s.speeds;
     for (const int k : kept) s.hidden += is_hidden(k) ? 1 : 0;
@@ -33,7 +35,9 @@ System system_of(const Equations& e, const Mechanism& m, const std::vector<int>&
     for (const int k : kept) s.columns.push_back(is_hidden(k) ? hidden++ : shown++);
     s.common = shown - s.hidden + s.n;
     s.wanted = s.mass;
-    const auto want = [&](const std::vector<int>& nodes) { s.wanted.insert(s.wanted.end(), nodes.begin(), nodes.end()); };
+    const auto want = [&](const std::vector<int>& nodes) {
+        s.wanted.insert(s.wanted.end(), nodes.begin(), nodes.end());
+    };
     for (const auto* nodes : {&s.forcing, &s.gamma, &s.rates, &s.second}) want(*nodes);
     for (const std::vector<int>& entries : s.A) want(entries);
     return s;
@@ -75,7 +79,8 @@ std::optional<Echelon> echelon(const System& s, ModularPoint point, const Modula
     const SystemValues<Prime> values = values_of<Prime>(s, evaluate);
     if (!usable) return std::nullopt;
     result.rows = rows_of(s, values);
-    result.degree = (static_cast<double>(result.rows.size()) * entry + right + 1) * (s.is_plain() ? rates.degree : 1);
+    result.degree =
+        (static_cast<double>(result.rows.size()) * entry + right + 1) * (s.is_plain() ? rates.degree : 1);
     reduce_rows(result.rows, static_cast<std::size_t>(s.unknowns()));
     if (s.hidden == 0) return result;
     const auto hidden = static_cast<std::ptrdiff_t>(s.hidden);

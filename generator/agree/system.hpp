@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One formalism's equations as numbers: rows of unknowns and a right-hand side, exactly modulo a prime or in floating point.
+/// One formalism's equations as numbers: rows of unknowns and a right-hand side, exactly modulo a prime or in
+/// floating point.
 ///
-/// Unknowns: hidden ones, the multipliers of constraints that every system keeps, then q''. Hidden are u' of a system in
-/// speeds, and the multipliers of constraints that another system has eliminated. The rows whose pivots, in reduced
-/// row echelon form, come after the hidden columns say what the system says of the other unknowns.
+/// Unknowns: hidden ones, the multipliers of constraints that every system keeps, then q''. Hidden are u' of a
+/// system in speeds, and the multipliers of constraints that another system has eliminated. The rows whose pivots,
+/// in reduced row echelon form, come after the hidden columns say what the system says of the other unknowns.
 
 #include <map>
 #include <optional>
@@ -19,12 +20,12 @@ namespace alembert {
 struct System {
     std::string formalism;
     Program program;
-    int n = 0, speeds = 0;                    ///< coordinates, speeds
-    std::vector<int> mass, forcing;           ///< mass: lower triangle
-    std::vector<std::vector<int>> A;          ///< in speeds
-    std::vector<int> gamma, rates, second;    ///< rates: q', second: q'' in u'; empty where u = q'
-    std::vector<int> columns;                 ///< of the multipliers of A's rows
-    int hidden = 0, common = 0;               ///< columns
+    int n = 0, speeds = 0;                  ///< coordinates, speeds
+    std::vector<int> mass, forcing;         ///< mass: lower triangle
+    std::vector<std::vector<int>> A;        ///< in speeds
+    std::vector<int> gamma, rates, second;  ///< rates: q', second: q'' in u'; empty where u = q'
+    std::vector<int> columns;               ///< of the multipliers of A's rows
+    int hidden = 0, common = 0;             ///< columns
     std::vector<int> wanted;
 
     /// Where u = q' leaves out nothing.
@@ -33,7 +34,8 @@ struct System {
 };
 
 /// `somewhere_eliminated`: positions in Mechanism::constraints that one of the systems has eliminated.
-System system_of(const Equations& equations, const Mechanism& mechanism, const std::vector<int>& somewhere_eliminated);
+System system_of(const Equations& equations, const Mechanism& mechanism,
+                 const std::vector<int>& somewhere_eliminated);
 
 /// Values of all nodes, and q'' = B u' + c.
 template <typename Real>
@@ -87,7 +89,8 @@ SystemValues<Real> values_of(const System& s, const Evaluate& evaluate) {
         const std::vector<Real> value = evaluate(udot);
         udot[k] = Real(0);
         result.B.emplace_back();
-        for (std::size_t i = 0; i < result.c.size(); ++i) result.B.back().push_back(value[s.second[i]] - result.c[i]);
+        for (std::size_t i = 0; i < result.c.size(); ++i)
+            result.B.back().push_back(value[s.second[i]] - result.c[i]);
     }
     return result;
 }

@@ -7,15 +7,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "state/assemble.hpp"
-#include "state/contradiction.hpp"
 #include "audit/integral.hpp"
-#include "state/redundancy.hpp"
+#include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "state/assemble.hpp"
+#include "state/contradiction.hpp"
+#include "state/redundancy.hpp"
 #include "symbolic/fourier.hpp"
-#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -46,8 +46,13 @@ public:
         result_.integrals = 0;
         if (m_.constraints.empty()) return std::move(result_);
         for (const Mechanism::Constraint& c : m_.constraints)
-            result_.constraints.push_back({.name = c.name, .holonomic = c.holonomic, .rheonomic = is_rheonomic(c),
-                                           .integrable = {}, .alone = {}, .integral = {}, .notes = {}});
+            result_.constraints.push_back({.name = c.name,
+                                           .holonomic = c.holonomic,
+                                           .rheonomic = is_rheonomic(c),
+                                           .integrable = {},
+                                           .alone = {},
+                                           .integral = {},
+                                           .notes = {}});
         settle(start);
         states_ = states_that_obey(m_, settled_ ? settled_start_ : start, most_states);
         if (states_.empty() && settled_) states_.push_back(settled_start_.state());
@@ -65,15 +70,19 @@ public:
 private:
     std::vector<GiNaC::symbol> clock() const {
         std::vector<GiNaC::symbol> symbols{m_.t};
-        for (const Mechanism::Input& input : m_.inputs) symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
+        for (const Mechanism::Input& input : m_.inputs)
+            symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
         return symbols;
     }
 
     bool is_rheonomic(const Mechanism::Constraint& c) const {
         std::vector<ex> values = c.row;
-        if (c.position) values = {*c.position};
-        else values.push_back(c.drift);
-        if (std::none_of(values.begin(), values.end(), [&](const ex& e) { return m_.z->depends(e, clock()); })) return false;
+        if (c.position)
+            values = {*c.position};
+        else
+            values.push_back(c.drift);
+        if (std::none_of(values.begin(), values.end(), [&](const ex& e) { return m_.z->depends(e, clock()); }))
+            return false;
         const std::vector<ex> rates = m_.explicit_time_derivative(values);
         return std::any_of(rates.begin(), rates.end(), [&](const ex& e) { return vanishes(e, m_) != true; });
     }
@@ -89,7 +98,8 @@ private:
             result_.start = moved.state();
             for (int i = 0; i < n_; ++i) {
                 const auto note = [&](const std::string& name, double from, double to) {
-                    if (std::abs(to - from) > 1e-15 * std::max(1.0, std::abs(from))) result_.adjusted.push_back({name, from, to});
+                    if (std::abs(to - from) > 1e-15 * std::max(1.0, std::abs(from)))
+                        result_.adjusted.push_back({name, from, to});
                 };
                 note(m_.q[i].get_name(), start.q[i], moved.q[i]);
                 note(m_.q[i].get_name() + "'", start.qdot[i], moved.qdot[i]);
@@ -101,7 +111,8 @@ private:
             result_.problem = e.what();
         }
         const std::vector<double> value = interpret(program, result_.start);
-        const std::vector<int> position = program.nodes_of(Group::position), velocity = program.nodes_of(Group::velocity);
+        const std::vector<int> position = program.nodes_of(Group::position),
+                               velocity = program.nodes_of(Group::velocity);
         for (std::size_t k = 0; k < position.size(); ++k)
             result_.constraints[k].residual = {value[position[k]], value[velocity[k]]};
     }
@@ -113,14 +124,19 @@ private:
         const std::string names = quoted(m_, clash);
         std::vector<OneForm> forms;
         for (const int k : clash) forms.push_back(forms_[k]);
-        const bool dependent = integrability(forms, m_, {}, {}, {.exact = std::vector<bool>(clash.size(), true)}).independent.size() < clash.size();
+        const bool dependent =
+            integrability(forms, m_, {}, {}, {.exact = std::vector<bool>(clash.size(), true)}).independent.size() <
+            clash.size();
         result_.wrong = true;
-        result_.problem = clash.size() == 1
-                              ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names, places_tried)
-                              : fmt::format("constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
-                                            "remove or correct one of them",
-                                            names, dependent ? "they constrain the same rates differently; " : "",
-                                            clash.size() == 2 ? "both" : "all", places_tried);
+        result_.problem =
+            clash.size() == 1
+                ? fmt::format("constraint {} cannot be obeyed: no state that does was found from {} places", names,
+                              places_tried)
+                : fmt::format(
+                      "constraints {} contradict each other: {}no state that obeys {} was found from {} places; "
+                      "remove or correct one of them",
+                      names, dependent ? "they constrain the same rates differently; " : "",
+                      clash.size() == 2 ? "both" : "all", places_tried);
         if (std::all_of(clash.begin(), clash.end(), [&](int k) { return m_.constraints[k].joint.has_value(); })) {
             std::vector<std::string> joints;
             for (const int k : clash) {
@@ -128,7 +144,8 @@ private:
                 if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
             }
             result_.problem = fmt::format("joint{} '{}' cannot close {}: {}", joints.size() == 1 ? "" : "s",
-                                          fmt::join(joints, "', '"), joints.size() == 1 ? "its loop" : "their loops", result_.problem);
+                                          fmt::join(joints, "', '"),
+                                          joints.size() == 1 ? "its loop" : "their loops", result_.problem);
         }
         result_.contradictory = clash;
         contradictory_ = true;
@@ -155,17 +172,21 @@ private:
 
     void sources_of_redundancy() {
         for (const int k : redundant_) {
-            if (std::find(joint_.contradictory.begin(), joint_.contradictory.end(), k) != joint_.contradictory.end()) continue;
+            if (std::find(joint_.contradictory.begin(), joint_.contradictory.end(), k) !=
+                joint_.contradictory.end())
+                continue;
             const std::vector<int> from = follows_from(m_, k, redundant_, states_);
             if (!from.empty())
-                result_.constraints[k].notes.push_back(fmt::format("follows from {}; the equations of motion leave it out", quoted(m_, from)));
+                result_.constraints[k].notes.push_back(
+                    fmt::format("follows from {}; the equations of motion leave it out", quoted(m_, from)));
         }
     }
 
     std::vector<ex> positions() const {
         std::vector<ex> result;
         for (std::size_t k = 0; k < m_.constraints.size(); ++k)
-            if (m_.constraints[k].position && !result_.constraints[k].redundant) result.push_back(*m_.constraints[k].position);
+            if (m_.constraints[k].position && !result_.constraints[k].redundant)
+                result.push_back(*m_.constraints[k].position);
         return result;
     }
 
@@ -179,7 +200,8 @@ private:
             // Rounding may leave a little of a row that is exactly zero.
             redundant_.clear();
             for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)
-                if (std::find(joint_.independent.begin(), joint_.independent.end(), k) == joint_.independent.end()) redundant_.push_back(k);
+                if (std::find(joint_.independent.begin(), joint_.independent.end(), k) == joint_.independent.end())
+                    redundant_.push_back(k);
             count();
         }
         result_.exact_rank = joint_.on_variety && static_cast<int>(joint_.independent.size()) == result_.rank;
@@ -191,24 +213,31 @@ private:
             for (AuditedConstraint& c : result_.constraints) c.redundant = false;
             redundant_.clear();
         } else if (joint_.on_variety && static_cast<int>(joint_.independent.size()) > result_.rank) {
-            result_.notes.push_back(fmt::format("the rank is {} for general parameters, and {} for those of the scene",
-                                                joint_.independent.size(), result_.rank));
+            result_.notes.push_back(
+                fmt::format("the rank is {} for general parameters, and {} for those of the scene",
+                            joint_.independent.size(), result_.rank));
         }
         for (const int k : joint_.contradictory)
             if (!contradictory_)
                 result_.constraints[k].notes.push_back(
-                    "its rates are a combination of those of the others, the rest is not: together they force a relation "
+                    "its rates are a combination of those of the others, the rest is not: together they force a "
+                    "relation "
                     "between coordinates and time that no constraint states");
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
-            c.integrable = c.holonomic ? std::optional(true) : joint_.integrable.empty() ? std::nullopt : joint_.integrable[k];
+            c.integrable = c.holonomic                 ? std::optional(true)
+                           : joint_.integrable.empty() ? std::nullopt
+                                                       : joint_.integrable[k];
         }
-        const bool any = std::any_of(result_.constraints.begin(), result_.constraints.end(), [](const auto& c) { return c.integrable == false; });
+        const bool any = std::any_of(result_.constraints.begin(), result_.constraints.end(),
+                                     [](const auto& c) { return c.integrable == false; });
         if (!any || m_.constraints.size() > most_special) return;
-        const Integrability fixed = integrability(forms_, m_, positions(), states_, {.fixed = true, .exact = exact, .redundant = redundant_});
+        const Integrability fixed = integrability(forms_, m_, positions(), states_,
+                                                  {.fixed = true, .exact = exact, .redundant = redundant_});
         for (std::size_t k = 0; k < m_.constraints.size() && fixed.on_variety; ++k)
             if (result_.constraints[k].integrable == false && fixed.integrable[k] == true)
-                result_.constraints[k].notes.push_back("it is integrable for the scene's parameters, but not for general ones");
+                result_.constraints[k].notes.push_back(
+                    "it is integrable for the scene's parameters, but not for general ones");
     }
 
     void alone() {
@@ -216,7 +245,9 @@ private:
             AuditedConstraint& c = result_.constraints[k];
             c.alone = c.holonomic || m_.constraints.size() == 1
                           ? c.integrable
-                          : integrability({forms_[k]}, m_, {}, states_that_obey(only(static_cast<int>(k)), start_of(m_), 3)).integrable[0];
+                          : integrability({forms_[k]}, m_, {},
+                                          states_that_obey(only(static_cast<int>(k)), start_of(m_), 3))
+                                .integrable[0];
         }
     }
 
@@ -246,7 +277,8 @@ private:
             c.integral = phrase(*F);
         }
         for (std::vector<GiNaC::numeric> combination : joint_.combinations) {
-            const auto leading = std::find_if(combination.begin(), combination.end(), [](const auto& c) { return !c.is_zero(); });
+            const auto leading =
+                std::find_if(combination.begin(), combination.end(), [](const auto& c) { return !c.is_zero(); });
             if (*leading < 0)
                 for (GiNaC::numeric& c : combination) c = -c;
             OneForm form(static_cast<std::size_t>(n_) + 1, 0);
@@ -256,9 +288,15 @@ private:
                 if (c.is_zero()) continue;
                 for (int i = 0; i <= n_; ++i) form[i] += c * m_.z->expand(forms_[k][i]);
                 const GiNaC::numeric size = abs(c);
-                name += fmt::format("{}{}'{}'", c < 0 ? (name.empty() ? "-" : " - ") : name.empty() ? "" : " + ",
-                                    size == 1 ? "" : fmt::format("{}{}*", size.numer().to_int(), size.denom() == 1 ? "" : fmt::format("/{}", size.denom().to_int())),
-                                    m_.constraints[k].name);
+                name += fmt::format(
+                    "{}{}'{}'",
+                    c < 0          ? (name.empty() ? "-" : " - ")
+                    : name.empty() ? ""
+                                   : " + ",
+                    size == 1 ? ""
+                              : fmt::format("{}{}*", size.numer().to_int(),
+                                            size.denom() == 1 ? "" : fmt::format("/{}", size.denom().to_int())),
+                    m_.constraints[k].name);
             }
             const auto F = integral_of(form, m_, frozen);
             result_.combinations.emplace_back(name, F ? phrase(*F) : std::nullopt);
@@ -279,7 +317,8 @@ private:
         for (std::size_t k = 0; k < m_.constraints.size(); ++k) {
             AuditedConstraint& c = result_.constraints[k];
             const Mechanism::Constraint& given = m_.constraints[k];
-            const bool flat = std::all_of(given.row.begin(), given.row.end(), [&](const ex& e) { return vanishes(e, m_) == true; });
+            const bool flat = std::all_of(given.row.begin(), given.row.end(),
+                                          [&](const ex& e) { return vanishes(e, m_) == true; });
             if (flat) {
                 c.notes.push_back(c.holonomic ? "it does not depend on any coordinate: it holds always or never"
                                               : "its coefficients of the rates are all zero");
@@ -287,12 +326,16 @@ private:
             }
             if (c.holonomic && gradient_vanishes(k)) {
                 c.redundant = false;
-                c.notes.push_back("its gradient is zero wherever it holds, as that of a square is: write it without the square");
+                c.notes.push_back(
+                    "its gradient is zero wherever it holds, as that of a square is: write it without the square");
             }
-            if (!c.integrable && !joint_.reason.empty()) c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
+            if (!c.integrable && !joint_.reason.empty())
+                c.notes.push_back("undecided whether it is integrable: " + joint_.reason);
             if (c.holonomic || c.integrable != true) continue;
-            c.notes.push_back(fmt::format("declared nonholonomic, but it is integrable{}: {}", c.alone == true ? "" : " together with the others",
-                                          c.integral ? text(*c.integral) + " is constant" : "some function of the coordinates is constant"));
+            c.notes.push_back(fmt::format(
+                "declared nonholonomic, but it is integrable{}: {}",
+                c.alone == true ? "" : " together with the others",
+                c.integral ? text(*c.integral) + " is constant" : "some function of the coordinates is constant"));
         }
     }
 
@@ -327,7 +370,9 @@ private:
 
 }  // namespace
 
-Audit audit_of(const Mechanism& mechanism) { return Auditing(mechanism).go(); }
+Audit audit_of(const Mechanism& mechanism) {
+    return Auditing(mechanism).go();
+}
 
 Audited audit(Scene scene) {
     Audited result{prepared(std::move(scene))};

@@ -7,9 +7,10 @@
 ///     audit.constraints[0].integral          // x − r·φ, of x' − r·φ' = 0
 ///     audit.degrees_of_freedom               // independent rates: n − rank
 ///
-/// Rank and redundancy are those that the equations of motion use: at states that obey the constraints, with the scene's
-/// parameters (redundancy.hpp). Integrability is exact, for generic parameters (integrability.hpp). `exact_rank` says whether
-/// exact arithmetic on the constraint variety has found the same independent constraints.
+/// Rank and redundancy are those that the equations of motion use: at states that obey the constraints, with the
+/// scene's parameters (redundancy.hpp). Integrability is exact, for generic parameters (integrability.hpp).
+/// `exact_rank` says whether exact arithmetic on the constraint variety has found the same independent
+/// constraints.
 
 #include <array>
 
@@ -46,11 +47,11 @@ struct Audit {
     bool exact_rank = false;
     std::optional<int> generic_rank;  ///< for general parameters, where exact points of the variety were found
     std::vector<int> contradictory;   ///< constraints that no state obeys together, as few as possible
-    double failure = 0;              ///< log₂ of the chance that a "yes, integrable" is wrong; 0 where none is at stake
+    double failure = 0;  ///< log₂ of the chance that a "yes, integrable" is wrong; 0 where none is at stake
     /// Integrable combinations of constraints that are not: "left - right", and what it keeps.
     std::vector<std::pair<std::string, std::optional<Phrase>>> combinations;
     std::vector<Adjusted> adjusted;
-    State<double> start;             ///< after the adjustment
+    State<double> start;                       ///< after the adjustment
     std::vector<SingularPose> singular_poses;  ///< `among` counts all constraints
     std::vector<std::string> notes;
     /// Why the initial state does not do; `wrong`: the scene is wrong, otherwise the numbers failed.
@@ -65,8 +66,8 @@ struct Audited : Prepared {
     Audit audit = {};
 };
 
-/// Throws SceneError for a mistake in the scene; contradictory constraints and an initial state that breaks them are no exception here,
-/// but stand in `audit.problem`.
+/// Throws SceneError for a mistake in the scene; contradictory constraints and an initial state that breaks them
+/// are no exception here, but stand in `audit.problem`.
 Audited audit(Scene scene);
 
 }  // namespace alembert

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The null fields X_f = ∂_f − Σ C_pf ∂_p of the rows in echelon form: their brackets, and those of the X_f with brackets, have
-// pivot components alone; left-normed brackets span all others, and one that is a combination of those before gives
-// none that is not.
+// The null fields X_f = ∂_f − Σ C_pf ∂_p of the rows in echelon form: their brackets, and those of the X_f with
+// brackets, have pivot components alone; left-normed brackets span all others, and one that is a combination of
+// those before gives none that is not.
 #include "audit/integrability.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +12,8 @@
 
 #include "exact/null_fields.hpp"
 #include "exact/variety.hpp"
-#include "program/reduce_rows.hpp"
 #include "lower/lower.hpp"
+#include "program/reduce_rows.hpp"
 
 namespace alembert {
 
@@ -33,7 +33,8 @@ std::vector<ex> third_derivatives(const Mechanism& m) {
     std::vector<ex> result;
     for (const Mechanism::Input& input : m.inputs) {
         ex value = input.derivative[0];
-        for (std::size_t round = 0; round < m.inputs.size(); ++round) value = value.subs(known, GiNaC::subs_options::no_pattern);
+        for (std::size_t round = 0; round < m.inputs.size(); ++round)
+            value = value.subs(known, GiNaC::subs_options::no_pattern);
         value = m.z->name(value);
         for (int order = 0; order < 3; ++order) value = m.z->push_forward({value}, {{m.t, 1}})[0];
         result.push_back(value);
@@ -52,7 +53,13 @@ class Closure {
 public:
     Closure(const std::vector<OneForm>& forms, const Mechanism& m, const std::vector<ex>& positions,
             const std::vector<State<double>>& states, const IntegrabilityOptions& options, int points)
-        : forms_(forms), m_(m), states_(states), options_(options), points_(points), size_(m.q.size() + 1), third_(third_derivatives(m)) {
+        : forms_(forms),
+          m_(m),
+          states_(states),
+          options_(options),
+          points_(points),
+          size_(m.q.size() + 1),
+          third_(third_derivatives(m)) {
         std::vector<ex> flat;
         for (const OneForm& form : forms) flat.insert(flat.end(), form.begin(), form.end());
         entries_ = lower_expressions(program_, m, flat);
@@ -62,19 +69,22 @@ public:
             for (int k = 0; const Mechanism::Parameter& p : m.parameters)
                 if (p.independent)
                     given[{Variable::Kind::parameter, k++}] =
-                        Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())).value_or(0);
+                        Prime::from(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N()))
+                            .value_or(0);
         variety_ = variety_points(program_, zeros, entries_, points_, given);
         result_.on_variety = variety_.on_variety;
         result_.integrable.resize(forms.size());
     }
 
     Integrability go() {
-        if (static_cast<int>(variety_.points.size()) < points_) return undecided("no points were found where all roots exist");
+        if (static_cast<int>(variety_.points.size()) < points_)
+            return undecided("no points were found where all roots exist");
         values_ = evaluate(entries_);
         if (values_.empty()) return undecided("no points were found where all roots exist");
         find_independent();
         if (!result_.contradictory.empty())
-            return undecided("no rates obey all constraints, but where a relation between coordinates and time holds");
+            return undecided(
+                "no rates obey all constraints, but where a relation between coordinates and time holds");
         if (!find_fields()) return undecided("the points are unusable");
         if (!close()) return undecided("the brackets grow beyond what is evaluated");
         decide();
@@ -107,7 +117,9 @@ private:
         return result;
     }
 
-    Prime entry(int point, std::size_t form, std::size_t variable) const { return values_[point][form * size_ + variable]; }
+    Prime entry(int point, std::size_t form, std::size_t variable) const {
+        return values_[point][form * size_ + variable];
+    }
 
     /// Those whose row raises the rank, at whichever point.
     void find_independent() {
@@ -168,7 +180,8 @@ private:
             direction.emplace_back(m_.t, clock);
             for (std::size_t k = 0; k < m_.inputs.size(); ++k) {
                 const auto& F = m_.inputs[k].derivative;
-                direction.insert(direction.end(), {{F[0], F[1] * clock}, {F[1], F[2] * clock}, {F[2], third_[k] * clock}});
+                direction.insert(direction.end(),
+                                 {{F[0], F[1] * clock}, {F[1], F[2] * clock}, {F[2], third_[k] * clock}});
             }
         }
         return m_.z->push_forward(values, direction);
@@ -181,8 +194,8 @@ private:
         return result;
     }
 
-    /// Adds brackets until no more raises the rank, which is at most the number of forms that are not exact; false where
-    /// they grow too large. In small lots, so that what is not needed is not made.
+    /// Adds brackets until no more raises the rank, which is at most the number of forms that are not exact; false
+    /// where they grow too large. In small lots, so that what is not needed is not made.
     bool close() {
         std::size_t lot = 2;
         for (const int k : result_.independent) most_ += options_.exact.empty() || !options_.exact[k] ? 1 : 0;
@@ -200,7 +213,8 @@ private:
             for (std::size_t b = 0; b < last.size(); ++b)
                 for (std::size_t a = 0; a < (first ? b : fields_.size()) && kept_nodes_.size() < most_; ++a) {
                     std::vector<ex> Z = bracket(fields_[a], last[b]);
-                    if (std::any_of(Z.begin(), Z.end(), [](const ex& e) { return !e.is_zero(); })) lots.push_back(std::move(Z));
+                    if (std::any_of(Z.begin(), Z.end(), [](const ex& e) { return !e.is_zero(); }))
+                        lots.push_back(std::move(Z));
                     if (lots.size() == lot && !flush()) return false;
                 }
             if (!flush()) return false;
@@ -219,7 +233,8 @@ private:
         if (at.empty()) return false;
         std::vector<std::vector<ex>> raising;
         for (std::size_t b = 0; b < brackets.size() && kept_nodes_.size() < most_; ++b) {
-            const auto begin = static_cast<std::ptrdiff_t>(b * size_), end = begin + static_cast<std::ptrdiff_t>(size_);
+            const auto begin = static_cast<std::ptrdiff_t>(b * size_),
+                       end = begin + static_cast<std::ptrdiff_t>(size_);
             bool raises = false;
             for (int p = 0; p < points_; ++p) {
                 kept_[p].emplace_back(at[p].begin() + begin, at[p].begin() + end);
@@ -238,9 +253,11 @@ private:
 
     void decide() {
         // A determinant of at most as many rows as there are forms, and one bracket more.
-        const double failure = points_ * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
+        const double failure =
+            points_ * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
         const bool certain = result_.exact && result_.on_variety;
-        if (certain || independent_in_numbers()) result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
+        if (certain || independent_in_numbers())
+            result_.integrals = static_cast<int>(pivots_.size() - kept_nodes_.size());
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             bool zero = true;
             for (int p = 0; p < points_; ++p)
@@ -252,11 +269,14 @@ private:
             else if (!zero && (certain || seen_in_numbers(k)))
                 result_.integrable[k] = false;
             else if (!zero)
-                result_.reason = "it is not integrable beside the surface of the holonomic constraints; on it nothing is proved";
+                result_.reason =
+                    "it is not integrable beside the surface of the holonomic constraints; on it nothing is "
+                    "proved";
             else
                 result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
         }
-        if (kept_nodes_.size() < most_ && result_.failure == 0.0) result_.failure = failure;  // of the number of integrals
+        if (kept_nodes_.size() < most_ && result_.failure == 0.0)
+            result_.failure = failure;  // of the number of integrals
         find_combinations();
     }
 
@@ -299,7 +319,8 @@ private:
         return false;
     }
 
-    /// Constant coefficients c with Σ c_k w_k(Y) = 0 for all brackets Y: the same echelon form at all points, with small numbers.
+    /// Constant coefficients c with Σ c_k w_k(Y) = 0 for all brackets Y: the same echelon form at all points, with
+    /// small numbers.
     void find_combinations() {
         std::vector<std::size_t> unfit;
         for (const int k : result_.independent)
@@ -357,9 +378,9 @@ private:
     std::vector<std::vector<Prime>> values_;  ///< of the entries, at every point
     std::vector<std::size_t> pivots_;
     std::vector<std::vector<ex>> fields_;
-    std::vector<Rows> kept_;                  ///< brackets that raised the rank, at every point
+    std::vector<Rows> kept_;  ///< brackets that raised the rank, at every point
     std::vector<std::vector<int>> kept_nodes_;
-    std::size_t most_ = 0;                    ///< brackets that can be independent
+    std::size_t most_ = 0;  ///< brackets that can be independent
     double degree_ = 1, conditions_ = 0;
     Integrability result_;
 };
@@ -377,7 +398,8 @@ std::vector<OneForm> forms_of(const Mechanism& m) {
 }
 
 Integrability integrability(const std::vector<OneForm>& forms, const Mechanism& mechanism,
-                            const std::vector<ex>& positions, const std::vector<State<double>>& states, const IntegrabilityOptions& options) {
+                            const std::vector<ex>& positions, const std::vector<State<double>>& states,
+                            const IntegrabilityOptions& options) {
     if (forms.empty()) return {};
     Integrability result = Closure(forms, mechanism, positions, states, options, few).go();
     return result.failure <= surely ? result : Closure(forms, mechanism, positions, states, options, many).go();

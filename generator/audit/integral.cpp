@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// μ w is closed if ∂(μ aⱼ)/∂xᵢ = ∂(μ aᵢ)/∂xⱼ for all i, j. Then F = Σ Fᵢ with ∂Fᵢ/∂xᵢ = μ aᵢ − ∂(F₁ + … + Fᵢ₋₁)/∂xᵢ.
+// μ w is closed if ∂(μ aⱼ)/∂xᵢ = ∂(μ aᵢ)/∂xⱼ for all i, j. Then F = Σ Fᵢ with ∂Fᵢ/∂xᵢ = μ aᵢ − ∂(F₁ + … +
+// Fᵢ₋₁)/∂xᵢ.
 #include "audit/integral.hpp"
 
 #include <algorithm>
@@ -40,13 +41,15 @@ public:
         }
         for (std::size_t j = 0; j < all.size(); ++j) {
             const symbol x = free_[j] < m_.size() ? m_.q[free_[j]] : m_.t;
-            if (std::none_of(all.begin(), all.end(), [&](const ex& e) { return e.has(x); }) && all[j].is_zero()) continue;
+            if (std::none_of(all.begin(), all.end(), [&](const ex& e) { return e.has(x); }) && all[j].is_zero())
+                continue;
             variables_.push_back(x);
             a.push_back(all[j]);
         }
         for (const ex& factor : factors(a)) {
             // What keeps its value may keep the value zero.
-            if (std::any_of(frozen_.begin(), frozen_.end(), [&](const symbol& s) { return factor.has(s); })) continue;
+            if (std::any_of(frozen_.begin(), frozen_.end(), [&](const symbol& s) { return factor.has(s); }))
+                continue;
             std::vector<ex> b;
             for (const ex& entry : a) {
                 const auto scaled = simplified(entry * factor);
@@ -71,7 +74,8 @@ private:
         GiNaC::exmap all;
         for (const Mechanism::Input& input : m_.inputs) {
             ex value = input.derivative[0];
-            for (std::size_t round = 0; round < m_.inputs.size(); ++round) value = value.subs(inputs, GiNaC::subs_options::no_pattern);
+            for (std::size_t round = 0; round < m_.inputs.size(); ++round)
+                value = value.subs(inputs, GiNaC::subs_options::no_pattern);
             for (const symbol& derivative : input.derivative) {
                 all[derivative] = value;
                 value = value.diff(m_.t);
@@ -90,7 +94,9 @@ private:
     std::vector<ex> factors(const std::vector<ex>& a) const {
         std::vector<ex> result{1};
         if (a.size() < 2 || a.size() > 6) return result;
-        const auto is_variable = [&](const ex& e) { return std::any_of(variables_.begin(), variables_.end(), [&](const symbol& s) { return e.has(s); }); };
+        const auto is_variable = [&](const ex& e) {
+            return std::any_of(variables_.begin(), variables_.end(), [&](const symbol& s) { return e.has(s); });
+        };
         std::vector<ex> entries;
         ex euler = 0;
         for (std::size_t i = 0; i < a.size(); ++i) {
@@ -101,12 +107,13 @@ private:
         for (std::size_t i = 0; i < entries.size(); ++i)
             for (std::size_t j = i; j < entries.size(); ++j) result.push_back(1 / (entries[i] * entries[j]));
         for (const symbol& x : variables_)
-            for (const ex& factor : {ex(x), pow(x, -1), pow(x, -2), ex(cos(x)), ex(sin(x)), pow(cos(x), -1), pow(sin(x), -1),
-                                     pow(cos(x), -2), pow(sin(x), -2), ex(exp(x)), ex(exp(-x))})
+            for (const ex& factor : {ex(x), pow(x, -1), pow(x, -2), ex(cos(x)), ex(sin(x)), pow(cos(x), -1),
+                                     pow(sin(x), -1), pow(cos(x), -2), pow(sin(x), -2), ex(exp(x)), ex(exp(-x))})
                 result.push_back(factor);
         if (!is_identically_zero(euler, m_)) result.push_back(1 / euler);
         for (std::size_t i = 0; i < variables_.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) result.push_back(1 / (variables_[i] * variables_[i] + variables_[j] * variables_[j]));
+            for (std::size_t j = 0; j < i; ++j)
+                result.push_back(1 / (variables_[i] * variables_[i] + variables_[j] * variables_[j]));
         return result;
     }
 
@@ -159,7 +166,8 @@ private:
             if (share.has(x)) continue;
             const ex exponent = power ? outer.op(1) : ex(1);
             if (!function)
-                return constant * share * (exponent.is_equal(-1) ? ex(log(B)) : pow(B, exponent + 1) / (exponent + 1));
+                return constant * share *
+                       (exponent.is_equal(-1) ? ex(log(B)) : pow(B, exponent + 1) / (exponent + 1));
             const std::string name = function_name(outer);
             if (name == "sin") return -constant * share * cos(B);
             if (name == "cos") return constant * share * sin(B);

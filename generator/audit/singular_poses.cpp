@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// r(q, v) = (f, Aᵀ v, (|v|² − 1)/2) = 0 by Levenberg's and Marquardt's steps (JᵀJ + μ) δ = −Jᵀ r (Nocedal & Wright, Numerical
-// Optimization (2006), §10.3).
+// r(q, v) = (f, Aᵀ v, (|v|² − 1)/2) = 0 by Levenberg's and Marquardt's steps (JᵀJ + μ) δ = −Jᵀ r (Nocedal &
+// Wright, Numerical Optimization (2006), §10.3).
 #include "audit/singular_poses.hpp"
 
 #include <Eigen/Dense>
@@ -23,7 +23,9 @@ constexpr int largest = 30000;  // entries of the derivatives of A
 class Search {
 public:
     Search(const Mechanism& m, State<double> state, const std::vector<State<double>>& states)
-        : m_(m), state_(std::move(state)), usual_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.constraints.size()))) {
+        : m_(m),
+          state_(std::move(state)),
+          usual_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m.constraints.size()))) {
         std::vector<GiNaC::ex> rows, positions;
         for (const Mechanism::Constraint& c : m.constraints) {
             rows.insert(rows.end(), c.row.begin(), c.row.end());
@@ -46,7 +48,8 @@ public:
             look(s.q);
             size = size.cwiseMax(A_.rowwise().norm());
         }
-        for (Eigen::Index k = 0; k < size.size(); ++k) usual_[k] = size[k] > 0 && std::isfinite(size[k]) ? size[k] : 1;
+        for (Eigen::Index k = 0; k < size.size(); ++k)
+            usual_[k] = size[k] > 0 && std::isfinite(size[k]) ? size[k] : 1;
     }
 
     std::vector<SingularPose> go(std::size_t most) {

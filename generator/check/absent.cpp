@@ -30,7 +30,9 @@ void add_terms(const Phrase& phrase, std::vector<std::string>& terms) {
     if (!e.tree) return;
     const auto add = [&](const Tree& tree) {
         const Tree& inner = tree.kind == Tree::Kind::negate ? *tree.args[0] : tree;
-        terms.push_back("(" + written.substr(static_cast<std::size_t>(inner.offset), static_cast<std::size_t>(inner.length)) + ")");
+        terms.push_back(
+            "(" + written.substr(static_cast<std::size_t>(inner.offset), static_cast<std::size_t>(inner.length)) +
+            ")");
     };
     if (e.tree->kind != Tree::Kind::sum) return add(*e.tree);
     for (const TreePtr& term : e.tree->args) add(*term);
@@ -44,21 +46,25 @@ void add_terms(const ex& e, const Mechanism& m, std::vector<std::string>& terms)
 
 void collect_angles(const Tree& tree, const std::string& text, std::set<std::string>& angles) {
     if (tree.kind == Tree::Kind::call && (tree.text == "sin" || tree.text == "cos"))
-        angles.insert(text.substr(static_cast<std::size_t>(tree.args[0]->offset), static_cast<std::size_t>(tree.args[0]->length)));
+        angles.insert(text.substr(static_cast<std::size_t>(tree.args[0]->offset),
+                                  static_cast<std::size_t>(tree.args[0]->length)));
     for (const TreePtr& arg : tree.args) collect_angles(*arg, text, angles);
 }
 
 bool differentiates(const Tree& tree) {
     return tree.kind == Tree::Kind::derivative ||
-           std::any_of(tree.args.begin(), tree.args.end(), [](const TreePtr& arg) { return differentiates(*arg); });
+           std::any_of(tree.args.begin(), tree.args.end(),
+                       [](const TreePtr& arg) { return differentiates(*arg); });
 }
 
 /// Products of one or two of `atoms`, with no, one or two of `turns`.
-void add_products(const std::vector<std::string>& atoms, const std::vector<std::string>& turns, std::vector<std::string>& terms) {
+void add_products(const std::vector<std::string>& atoms, const std::vector<std::string>& turns,
+                  std::vector<std::string>& terms) {
     std::vector<std::string> factors{""};
     for (std::size_t a = 0; a < turns.size(); ++a) {
         factors.push_back("*" + turns[a]);
-        for (std::size_t b = a; b < turns.size() && turns.size() <= 6; ++b) factors.push_back("*" + turns[a] + "*" + turns[b]);
+        for (std::size_t b = a; b < turns.size() && turns.size() <= 6; ++b)
+            factors.push_back("*" + turns[a] + "*" + turns[b]);
     }
     std::vector<std::string> products{"1"};
     products.insert(products.end(), atoms.begin(), atoms.end());
@@ -76,7 +82,8 @@ void add_products(const std::vector<std::string>& atoms, const std::vector<std::
 std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& m, const Equations& e) {
     std::vector<std::string> terms, energies, at_rest, in_motion;
     std::set<std::string> angles;
-    for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) collect_angles(*side->tree, side->text, angles);
+    for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs})
+        collect_angles(*side->tree, side->text, angles);
     add_terms(m.kinetic_energy(), m, energies);
     add_terms(m.potential_energy(), m, energies);
     for (const ex& momentum : m.z->pull_back({{m.lagrangian(), 1}}, m.qdot)) add_terms(momentum, m, energies);
@@ -95,7 +102,8 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
     terms.insert(terms.end(), energies.begin(), energies.end());
     for (const std::string& term : std::vector<std::string>(terms)) {
         std::vector<Diagnostic> mistakes;
-        if (const Expression known = parse_expression(term, {}, mistakes); known.tree) collect_angles(*known.tree, term, angles);
+        if (const Expression known = parse_expression(term, {}, mistakes); known.tree)
+            collect_angles(*known.tree, term, angles);
     }
     std::vector<std::string> turns;
     for (const std::string& angle : angles) {
@@ -125,11 +133,16 @@ std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
     for (const Mechanism::Parameter& p : m.parameters) parameters.insert(p.symbol.get_name());
     const std::function<bool(const Tree&)> is_steady = [&](const Tree& tree) {
         if (tree.kind == Tree::Kind::name) return parameters.contains(tree.text);
-        return tree.kind != Tree::Kind::derivative && std::all_of(tree.args.begin(), tree.args.end(), [&](const TreePtr& arg) { return is_steady(*arg); });
+        return tree.kind != Tree::Kind::derivative &&
+               std::all_of(tree.args.begin(), tree.args.end(),
+                           [&](const TreePtr& arg) { return is_steady(*arg); });
     };
-    const std::function<void(const Tree&, const std::string&)> collect = [&](const Tree& tree, const std::string& text) {
+    const std::function<void(const Tree&, const std::string&)> collect = [&](const Tree& tree,
+                                                                             const std::string& text) {
         if (tree.kind == Tree::Kind::sum && is_steady(tree))
-            sums.insert("(" + text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length)) + ")");
+            sums.insert("(" +
+                        text.substr(static_cast<std::size_t>(tree.offset), static_cast<std::size_t>(tree.length)) +
+                        ")");
         for (const TreePtr& arg : tree.args) collect(*arg, text);
     };
     for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) collect(*side->tree, side->text);
@@ -149,7 +162,10 @@ struct Powers {
     }
 };
 
-Prime raised(Prime x, int exponent) { return exponent < 0 ? x.inverse().power(static_cast<std::uint64_t>(-exponent)) : x.power(static_cast<std::uint64_t>(exponent)); }
+Prime raised(Prime x, int exponent) {
+    return exponent < 0 ? x.inverse().power(static_cast<std::uint64_t>(-exponent))
+                        : x.power(static_cast<std::uint64_t>(exponent));
+}
 
 /// All products of at most three of `ratios` to small powers; of two equal ones the simpler.
 std::map<Prime, Powers> table_of(const std::vector<Prime>& ratios) {
@@ -187,7 +203,9 @@ std::optional<std::pair<int, int>> small_fraction(Prime x) {
 
 std::string text_of(const std::pair<int, int>& number, const Powers& powers, const std::vector<Steady>& steady) {
     std::string result;
-    const auto multiply = [&](const std::string& by) { result += (result.empty() || result == "-" ? "" : "*") + by; };
+    const auto multiply = [&](const std::string& by) {
+        result += (result.empty() || result == "-" ? "" : "*") + by;
+    };
     if (number.first < 0) result = "-";
     if (std::abs(number.first) != 1) multiply(std::to_string(std::abs(number.first)));
     for (const auto& [which, exponent] : powers.of)
@@ -195,14 +213,15 @@ std::string text_of(const std::pair<int, int>& number, const Powers& powers, con
     if (result.empty() || result == "-") result += "1";
     if (number.second != 1) result += fmt::format("/{}", number.second);
     for (const auto& [which, exponent] : powers.of)
-        if (exponent < 0) result += "/" + steady[which].text + (exponent < -1 ? fmt::format("^{}", -exponent) : "");
+        if (exponent < 0)
+            result += "/" + steady[which].text + (exponent < -1 ? fmt::format("^{}", -exponent) : "");
     return result;
 }
 
 }  // namespace
 
-std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
-                                  const std::vector<ModularPoint>& points) {
+std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms,
+                                 const std::vector<Steady>& steady, const std::vector<ModularPoint>& points) {
     constexpr std::size_t needed = 3;
     std::vector<int> roots{residual};
     roots.insert(roots.end(), terms.begin(), terms.end());
@@ -232,14 +251,17 @@ std::vector<Absent> absent_terms(const Program& program, int residual, const std
         std::array<Prime, needed> number;
         for (std::size_t s = 0; s < needed; ++s) {
             number[s] = c[s];
-            for (const auto& [which, exponent] : found->second.of) number[s] *= raised(at[s].value[steady[which].node], -exponent);
+            for (const auto& [which, exponent] : found->second.of)
+                number[s] *= raised(at[s].value[steady[which].node], -exponent);
         }
         const auto fraction = small_fraction(number[0]);
         if (!fraction || number[2] != number[0]) continue;
-        const int effort = 2 * found->second.size() + (std::abs(fraction->first) != 1 ? 1 : 0) + (fraction->second != 1 ? 1 : 0);
+        const int effort =
+            2 * found->second.size() + (std::abs(fraction->first) != 1 ? 1 : 0) + (fraction->second != 1 ? 1 : 0);
         found_terms.emplace_back(effort, Absent{k, text_of(*fraction, found->second, steady)});
     }
-    std::stable_sort(found_terms.begin(), found_terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::stable_sort(found_terms.begin(), found_terms.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Absent> result;
     for (auto& [effort, term] : found_terms) result.push_back(std::move(term));
     return result;

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which term does a claim lack? For claims that are no multiple of an equation of motion: integrals, eliminated equations.
+/// Which term does a claim lack? For claims that are no multiple of an equation of motion: integrals, eliminated
+/// equations.
 ///
-///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);   // "m*l^2*theta'^2/2", "r'*phi'" …
-///     absent_term(program, residual, nodes_of_terms, steady, states)     // residual + (3/2)·m·terms[7] = 0 on every motion
+///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);   //
+///     "m*l^2*theta'^2/2", "r'*phi'" … absent_term(program, residual, nodes_of_terms, steady, states)     //
+///     residual + (3/2)·m·terms[7] = 0 on every motion
 ///
-/// A term t is lacking from r if −r/t is the same number times powers of parameters at all states. The powers are found from two
-/// states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, looked up in a table of all small powers.
+/// A term t is lacking from r if −r/t is the same number times powers of parameters at all states. The powers are
+/// found from two states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, looked up in a
+/// table of all small powers.
 
 #include <optional>
 #include <string>
@@ -18,10 +21,11 @@
 
 namespace alembert {
 
-/// Terms that may stand in an equation about this mechanism, as text: those of its equations, constraints, energies and momenta,
-/// and products of two coordinates, rates, accelerations, multipliers or inputs with sines and cosines. If the claim
-/// differentiates, also derivatives of such terms. At most a few thousand.
-std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism, const Equations& equations);
+/// Terms that may stand in an equation about this mechanism, as text: those of its equations, constraints,
+/// energies and momenta, and products of two coordinates, rates, accelerations, multipliers or inputs with sines
+/// and cosines. If the claim differentiates, also derivatives of such terms. At most a few thousand.
+std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism& mechanism,
+                                            const Equations& equations);
 
 /// Parameters, and the sums of parameters in the claim.
 std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);
@@ -38,7 +42,7 @@ struct Steady {
 };
 
 /// All such terms, those with the simplest coefficient first. `points`: at least three states of the mechanism.
-std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms, const std::vector<Steady>& steady,
-                                  const std::vector<ModularPoint>& points);
+std::vector<Absent> absent_terms(const Program& program, int residual, const std::vector<int>& terms,
+                                 const std::vector<Steady>& steady, const std::vector<ModularPoint>& points);
 
 }  // namespace alembert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false holds at a
-// random point of GF(p) with a chance of at most d/p (Schwartz, J. ACM 27 (1980) 701).
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false
+// holds at a random point of GF(p) with a chance of at most d/p (Schwartz, J. ACM 27 (1980) 701).
 #include "check/check.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +14,11 @@
 #include "check/absent.hpp"
 #include "check/claims.hpp"
 #include "check/counterexample.hpp"
-#include "exact/exact_states.hpp"
 #include "check/multiple.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
 #include "check/slip.hpp"
+#include "exact/exact_states.hpp"
 #include "formalism/rest.hpp"
 #include "formalism/routh.hpp"
 #include "model/energy.hpp"
@@ -77,8 +77,9 @@ private:
         if (!mistakes.empty()) fail(scene_, mistakes);
     }
 
-    /// Which of m_.undetermined() the claim names. With a contact's multiplier it holds whatever that is, without it speaks of the
-    /// motion while the gap is open; the same for a constraint that follows from others, without whose row the equations stand.
+    /// Which of m_.undetermined() the claim names. With a contact's multiplier it holds whatever that is, without
+    /// it speaks of the motion while the gap is open; the same for a constraint that follows from others, without
+    /// whose row the equations stand.
     std::vector<std::size_t> undetermined_in(std::size_t claim) const {
         std::vector<std::size_t> result;
         const auto all = m_.undetermined();
@@ -123,8 +124,9 @@ private:
             for (const std::size_t k : here) {
                 CheckedClaim& c = result_.claims[k];
                 c.reason = !states->motions.obstacle().empty() ? states->motions.obstacle()
-                           : at == Motions::At::rest           ? "no state was found in which the equations allow rest"
-                                                               : "no state was found that obeys the constraints and has one acceleration";
+                           : at == Motions::At::rest
+                               ? "no state was found in which the equations allow rest"
+                               : "no state was found that obeys the constraints and has one acceleration";
             }
             return;
         }
@@ -135,12 +137,15 @@ private:
             else if (states->motions.loose().empty())
                 open.push_back(k);
             else
-                result_.claims[k].reason = "the constraints cannot be solved one after the other, and it leaves names open";
+                result_.claims[k].reason =
+                    "the constraints cannot be solved one after the other, and it leaves names open";
         settle_open(open, *states);
     }
 
-    /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an error.
-    std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure, bool& exact) const {
+    /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an
+    /// error.
+    std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure,
+                                    bool& exact) const {
         const std::array<int, 1> roots{root};
         failure = 0;
         double missed = 0;  // log₂ of the chance that no state was on some branch
@@ -148,7 +153,10 @@ private:
         const bool rest = states.motions.where() == Motions::At::rest;
         for (std::size_t s = 0;; ++s) {
             const ExactState* const state = states.get(s);
-            if (state == nullptr || s > most_states) return usable > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest) ? std::optional(true) : std::nullopt;
+            if (state == nullptr || s > most_states)
+                return usable > 0 && ((failure <= wanted_failure && missed <= wanted_failure) || rest)
+                           ? std::optional(true)
+                           : std::nullopt;
             const auto at = evaluate_mod(p, state->point, roots);
             if (!at) continue;
             ++usable;
@@ -159,12 +167,15 @@ private:
             if (chance > -1) return std::nullopt;
             failure += chance;
             missed += miss(*state);
-            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || usable >= states_of_rest)) return true;
+            if (failure <= wanted_failure && missed <= wanted_failure && (!rest || usable >= states_of_rest))
+                return true;
         }
     }
 
     /// log₂ of the chance that a branch of the constraints is not the one of this state.
-    static double miss(const ExactState& state) { return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure; }
+    static double miss(const ExactState& state) {
+        return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
+    }
 
     void settle_alone(std::size_t k, ExactStates& states) {
         CheckedClaim& c = result_.claims[k];
@@ -179,12 +190,16 @@ private:
         bool exact = true;
         const std::optional<bool> zero = vanishes_at(states, p, root, c.failure, exact);
         if (!zero) {
-            c.reason = "it could not be evaluated: it divides by something that is zero on every motion, or its degree is too high";
+            c.reason =
+                "it could not be evaluated: it divides by something that is zero on every motion, or its degree "
+                "is too high";
             return;
         }
         if (*zero) {
             if (!states.motions.loose().empty() && !holds_in_numbers(states.motions, p, root)) {
-                c.reason = "it holds wherever the constraints are constant, and no state was found at which they are zero and the equations have one solution";
+                c.reason =
+                    "it holds wherever the constraints are constant, and no state was found at which they are "
+                    "zero and the equations have one solution";
                 return;
             }
             c.verdict = Verdict::proved;
@@ -193,7 +208,8 @@ private:
             return;
         }
         const auto shown = counterexample(told(), states.motions, p, root);
-        if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at which it fails
+        if (!shown) {  // exact arithmetic does not know every identity; nothing is called wrong without a state at
+                       // which it fails
             c.reason = "it differs in exact arithmetic, and no state in numbers was found at which it fails";
             return;
         }
@@ -201,7 +217,13 @@ private:
         refine(k, states);
     }
 
-    Told told() { return {.mechanism = m_, .equations = e_, .claims = claims_, .spoken = spoken_, .is_impact = when_ == "impact"}; }
+    Told told() {
+        return {.mechanism = m_,
+                .equations = e_,
+                .claims = claims_,
+                .spoken = spoken_,
+                .is_impact = when_ == "impact"};
+    }
 
     static void show(CheckedClaim& c, const Counterexample& shown) {
         c.verdict = Verdict::refuted;
@@ -209,7 +231,6 @@ private:
         c.residual = shown.residual;
         c.residual_value = shown.residual_value;
     }
-
 
     // What is wrong
 
@@ -241,7 +262,9 @@ private:
             return root && (p.is_zero(*root) || is_zero_at_two(p, *root, states));
         };
         c.likely = likely_slip(scene_.claims[k], forms_[k].residual, m_, law_,
-                               {.is_right = right, .vanishes = vanishes, .absent = [&](const Claim& claim, std::vector<std::string> terms) {
+                               {.is_right = right,
+                                .vanishes = vanishes,
+                                .absent = [&](const Claim& claim, std::vector<std::string> terms) {
                                     return absent(claim, std::move(terms), states);
                                 }});
     }
@@ -259,7 +282,8 @@ private:
         }
     }
 
-    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms, ExactStates& states) {
+    std::vector<std::pair<std::string, std::string>> absent(const Claim& claim, std::vector<std::string> terms,
+                                                            ExactStates& states) {
         const ClaimForm form = claims_.read(claim);
         if (!form.open.empty()) return {};
         Program p;
@@ -278,12 +302,14 @@ private:
         std::vector<Steady> steady;
         for (const std::string& text : steady_sums(claim, m_)) {
             const Expression value = parse_expression(text, {}, mistakes);
-            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt) steady.push_back({text, *node});
+            if (const std::optional<int> node = value.tree ? node_of(p, value) : std::nullopt)
+                steady.push_back({text, *node});
         }
         std::vector<ModularPoint> points;
         for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
         std::vector<std::pair<std::string, std::string>> result;
-        for (const Absent& term : absent_terms(p, residual, nodes, steady, points)) result.emplace_back(term.coefficient, texts[term.term]);
+        for (const Absent& term : absent_terms(p, residual, nodes, steady, points))
+            result.emplace_back(term.coefficient, texts[term.term]);
         return result;
     }
 
@@ -390,7 +416,9 @@ private:
             group.clear();
             for (std::size_t other = 0; other < forms_.size(); ++other) {
                 if (scene_.claims[other].at != scene_.claims[k].at || !forms_[other].linear) continue;
-                if (std::none_of(forms_[other].open.begin(), forms_[other].open.end(), [&](int o) { return names.contains(o); })) continue;
+                if (std::none_of(forms_[other].open.begin(), forms_[other].open.end(),
+                                 [&](int o) { return names.contains(o); }))
+                    continue;
                 group.push_back(other);
                 names.insert(forms_[other].open.begin(), forms_[other].open.end());
             }
@@ -408,7 +436,9 @@ private:
                 continue;
             }
             if (mixes(k)) {
-                c.reason = "it holds an unknown function beside a constant of the motion, and the function's derivative is not known";
+                c.reason =
+                    "it holds an unknown function beside a constant of the motion, and the function's derivative "
+                    "is not known";
                 continue;
             }
             if (done.contains(k)) continue;
@@ -431,7 +461,8 @@ private:
         bool exact = true;
         std::optional<OpenMatrix> bad;
         std::vector<OpenMatrix> seen;
-        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad; ++s) {
+        for (std::size_t s = 0; s < most_states && (failure > wanted_failure || missed > wanted_failure) && !bad;
+             ++s) {
             auto at = matrix_at(rows, states, s);
             if (!at) {
                 if (states.get(s) == nullptr) break;
@@ -456,15 +487,18 @@ private:
                 c.reason = wrong.size() > 1 && wrong.size() == group.size()
                                ? "no choice of what is left open satisfies these claims together"
                                : "the other claims leave no choice with which it holds";
-                const auto shown = counterexample(told(), states.motions, rows, {.claim = k, .open = forms_[k].open, .wrong = wrong});
+                const auto shown = counterexample(told(), states.motions, rows,
+                                                  {.claim = k, .open = forms_[k].open, .wrong = wrong});
                 if (!shown) continue;
                 show(c, *shown);
-                if (shown->of_derivative) c.reason = "it is not constant: the residual is that of its time derivative";
+                if (shown->of_derivative)
+                    c.reason = "it is not constant: the residual is that of its time derivative";
                 refine(k, states);
             } else if (pins(rows, seen[0], wrong, k)) {
                 const bool constant = claims_.open()[forms_[k].open[0]].constant;
                 c.verdict = constant ? Verdict::undecided : Verdict::vacuous;
-                c.reason = constant ? "a further time derivative would be needed to tell whether what it leaves open is constant"
+                c.reason = constant ? "a further time derivative would be needed to tell whether what it leaves "
+                                      "open is constant"
                                     : "what it leaves open can take up whatever it says: no other claim fixes it";
             } else {
                 c.verdict = Verdict::proved;
@@ -481,7 +515,8 @@ private:
         std::size_t count = 0;
         for (std::size_t k = 0; k < forms_.size(); ++k) {
             const Verdict verdict = result_.claims[k].verdict;
-            if (scene_.claims[k].at != "motion" || (verdict != Verdict::proved && verdict != Verdict::vacuous)) continue;
+            if (scene_.claims[k].at != "motion" || (verdict != Verdict::proved && verdict != Verdict::vacuous))
+                continue;
             const ex last = forms_[k].derivatives.empty() ? forms_[k].residual : forms_[k].derivatives.back();
             const std::vector<ex> slopes = m_.z->pull_back({{last, 1}}, unknowns);
             list.insert(list.end(), slopes.begin(), slopes.end());
@@ -502,7 +537,8 @@ private:
                 std::vector<std::vector<Prime>> all, others;
                 for (std::size_t r = 0; r * unknowns.size() < nodes.size(); ++r) {
                     all.emplace_back();
-                    for (std::size_t j = 0; j < unknowns.size(); ++j) all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
+                    for (std::size_t j = 0; j < unknowns.size(); ++j)
+                        all.back().push_back(at->value[nodes[r * unknowns.size() + j]]);
                     others.emplace_back(all.back().begin() + m_.size(), all.back().end());
                 }
                 return rank_of(all, unknowns.size()) == m_.size() + rank_of(others, unknowns.size() - m_.q.size());
@@ -514,8 +550,8 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    Equations law_;                     // of the claims in hand
-    std::vector<std::size_t> spoken_;   // the multipliers of m_.undetermined() in it
+    Equations law_;                    // of the claims in hand
+    std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in it
     Claims claims_;
     std::vector<ClaimForm> forms_;
     std::string when_;
@@ -533,7 +569,8 @@ Checked check(const Scene& scene, const Mechanism& mechanism) {
 CheckedScene check(Scene scene, const std::string& by) {
     CheckedScene result{derived(std::move(scene), {.by = by})};
     if (result.scene.claims.empty())
-        throw ModelError("there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
+        throw ModelError(
+            "there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
     result.checked = check(result.scene, result.mechanism);
     return result;
 }

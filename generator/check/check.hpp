@@ -6,21 +6,24 @@
 ///     const Checked result = check(scene, mechanism);          // the claims of the scene
 ///     result.claims[0].verdict == Verdict::proved
 ///
-/// A claim is an equation in what the scene declares. It is right if it holds at every state that obeys the constraints and
-/// their derivatives, with the accelerations and multipliers that the equations give there; so multiples, combinations and
-/// rewritings with the constraints are right, whatever they look like. Decided by exact evaluation modulo 2⁶¹ − 1 at random
-/// such states (exact/motions.hpp), until the chance of an error is below 2⁻⁶⁰; where the normal form of
-/// claim − Σ c_i · equation_i is zero, that is a proof by itself.
+/// A claim is an equation in what the scene declares. It is right if it holds at every state that obeys the
+/// constraints and their derivatives, with the accelerations and multipliers that the equations give there; so
+/// multiples, combinations and rewritings with the constraints are right, whatever they look like. Decided by
+/// exact evaluation modulo 2⁶¹ − 1 at random such states (exact/motions.hpp), until the chance of an error is
+/// below 2⁻⁶⁰; where the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
 ///
-///  - unknowns are functions of the state that the author leaves open. Claims are linear in them: B(state) μ = d(state) must be
-///    solvable at every state. A claim whose row the others' rows do not imply is vacuous: some unknown takes up whatever it says.
-///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for c.
+///  - unknowns are functions of the state that the author leaves open. Claims are linear in them: B(state) μ =
+///  d(state) must be
+///    solvable at every state. A claim whose row the others' rows do not imply is vacuous: some unknown takes up
+///    whatever it says.
+///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for
+///  c.
 ///  - at rest: at states with q' = q'' = 0 that the equations allow.
 ///
 /// A false claim gets a state at which it fails, in exact numbers (exact/real_state.hpp).
 
-#include "exact/real_state.hpp"
 #include "check/slip.hpp"
+#include "exact/real_state.hpp"
 #include "scene/scene.hpp"
 
 #include "derive/derived.hpp"
@@ -31,14 +34,14 @@ enum class Verdict { proved, refuted, undecided, vacuous };
 
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
-    bool normal_form = false;   ///< proved by normal form
-    double failure = 0;         ///< log₂ of the chance that sampling is wrong
-    std::string reason;         ///< in words, where there is something to say
+    bool normal_form = false;  ///< proved by normal form
+    double failure = 0;        ///< log₂ of the chance that sampling is wrong
+    std::string reason;        ///< in words, where there is something to say
     std::vector<std::pair<std::string, std::string>> counterexample;  ///< name → value, as typed
-    std::string residual;       ///< lhs − rhs there
+    std::string residual;                                             ///< lhs − rhs there
     double residual_value = 0;
-    std::string difference;     ///< claim − nearest right equation, term by term
-    std::string nearest;        ///< that right equation
+    std::string difference;  ///< claim − nearest right equation, term by term
+    std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
 };
 
@@ -50,8 +53,8 @@ struct Checked {
 /// Throws SceneError for a claim that the mechanism cannot read.
 Checked check(const Scene& scene, const Mechanism& mechanism);
 
-/// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the teacher's choice.
-/// Throws ModelError where there are no claims.
+/// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the
+/// teacher's choice. Throws ModelError where there are no claims.
 struct CheckedScene : Derived {
     Checked checked = {};
 };

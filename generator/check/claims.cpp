@@ -7,8 +7,8 @@
 #include <functional>
 #include <utility>
 
-#include "lower/lower.hpp"
 #include "derive/derivation.hpp"
+#include "lower/lower.hpp"
 #include "notation/text.hpp"
 
 namespace alembert {

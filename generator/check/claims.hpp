@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The claims of a scene as programs: what is zero if they are right, and how it depends on what the author leaves open.
+/// The claims of a scene as programs: what is zero if they are right, and how it depends on what the author leaves
+/// open.
 
 #include <map>
 #include <set>
@@ -15,10 +16,11 @@ namespace alembert {
 /// One equation, lhs − rhs, and its time derivatives.
 struct ClaimForm {
     GiNaC::ex residual;
-    std::vector<GiNaC::ex> derivatives;  ///< with respect to time, as far as accelerations reach; only of integrals
-    std::vector<int> open;               ///< positions in Claims::open of the names that occur
-    bool linear = true;                  ///< in these
-    int order = 0;                       ///< highest derivative of a coordinate
+    std::vector<GiNaC::ex>
+        derivatives;        ///< with respect to time, as far as accelerations reach; only of integrals
+    std::vector<int> open;  ///< positions in Claims::open of the names that occur
+    bool linear = true;     ///< in these
+    int order = 0;          ///< highest derivative of a coordinate
 };
 
 /// A name that a claim leaves open: an unknown function or a constant of the motion.
@@ -37,8 +39,8 @@ public:
     ClaimForm read(const Claim& claim);
     GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
 
-    /// Rates after the scene's impulses (§ `contact/impact.hpp`), as expressions at the pose where it starts; nothing where
-    /// they are known in numbers only, or not at all: then `impact_obstacle` says why.
+    /// Rates after the scene's impulses (§ `contact/impact.hpp`), as expressions at the pose where it starts;
+    /// nothing where they are known in numbers only, or not at all: then `impact_obstacle` says why.
     const std::optional<Impact::Exact>& after_impact();
     const std::string& impact_obstacle() const { return impact_obstacle_; }
 

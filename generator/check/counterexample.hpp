@@ -29,23 +29,27 @@ struct Told {
     const Mechanism& mechanism;
     const Equations& equations;
     Claims& claims;
-    const std::vector<std::size_t>& spoken;  ///< positions in Mechanism::undetermined(): multipliers that the claims name
+    const std::vector<std::size_t>&
+        spoken;  ///< positions in Mechanism::undetermined(): multipliers that the claims name
     bool is_impact = false;
 };
 
 /// Of `program`'s node `root`, which is zero where the claim holds. Nothing after some seconds of search.
-std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& program, int root);
+std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& program,
+                                             int root);
 
-/// Of a claim with open names: a state, what the other claims make of the names there, and what is left of this claim.
+/// Of a claim with open names: a state, what the other claims make of the names there, and what is left of this
+/// claim.
 struct OpenClaim {
     std::size_t claim;
-    const std::vector<int>& open;         ///< its names
-    const std::set<std::size_t>& wrong;   ///< claims that are wrong: the others are satisfied before these
+    const std::vector<int>& open;        ///< its names
+    const std::set<std::size_t>& wrong;  ///< claims that are wrong: the others are satisfied before these
 };
-std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows, const OpenClaim& of);
+std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
+                                             const OpenClaim& of);
 
-/// What vanishes beside loose conditions (Motions::loose) vanishes on them too if it is continuous there. Is it zero at states on
-/// them where it has a value and the equations have one solution?
+/// What vanishes beside loose conditions (Motions::loose) vanishes on them too if it is continuous there. Is it
+/// zero at states on them where it has a value and the equations have one solution?
 bool holds_in_numbers(const Motions& motions, const Program& program, int root);
 
 }  // namespace alembert

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// r = a·x + r₀ vanishes with R x = ρ if a = s R and r₀ = −s ρ: a_j R_k = a_k R_j and R_j r₀ + a_j ρ = 0 for a j with R_j ≠ 0.
+// r = a·x + r₀ vanishes with R x = ρ if a = s R and r₀ = −s ρ: a_j R_k = a_k R_j and R_j r₀ + a_j ρ = 0 for a j
+// with R_j ≠ 0.
 #include "check/multiple.hpp"
 
 #include <algorithm>
@@ -34,7 +35,8 @@ bool is_multiple(const ex& residual, const Mechanism& m, const Equations& e) {
 
     for (std::size_t i = 0; i < n + k; ++i) {
         std::vector<ex> R(unknowns.size(), 0);
-        for (std::size_t j = 0; j < n; ++j) R[j] = i < n ? e.M(static_cast<unsigned>(i), static_cast<unsigned>(j)) : e.A[i - n][j];
+        for (std::size_t j = 0; j < n; ++j)
+            R[j] = i < n ? e.M(static_cast<unsigned>(i), static_cast<unsigned>(j)) : e.A[i - n][j];
         for (std::size_t c = 0; i < n && c < k; ++c) R[n + c] = -e.A[c][i];
         const ex rho = i < n ? e.forcing(static_cast<int>(i)) : e.gamma[i - n];
         const auto pivot = std::find_if(R.begin(), R.end(), [](const ex& x) { return !x.is_zero(); });

@@ -3,10 +3,11 @@
 
 /// Is an equation a combination of the equations of motion? By normal form, so that it is a proof.
 ///
-///     is_multiple(residual, mechanism, equations)     // r = Σ c_i (M u' − f − Aᵀλ)_i + Σ d_k (A u' − γ)_k, identically
+///     is_multiple(residual, mechanism, equations)     // r = Σ c_i (M u' − f − Aᵀλ)_i + Σ d_k (A u' − γ)_k,
+///     identically
 ///
-/// Tried: multiples of one equation by any function, and, with up to three coordinates and no constraints, every combination
-/// (Cramer's rule). False means not seen.
+/// Tried: multiples of one equation by any function, and, with up to three coordinates and no constraints, every
+/// combination (Cramer's rule). False means not seen.
 
 #include "formalism/equations.hpp"
 

@@ -33,7 +33,8 @@ std::optional<Fourier> steady_ratio(const Term& a, const Term& b) {
 std::vector<Fourier> parts_of(const Fourier& f) {
     std::vector<std::vector<Term>> groups;
     for (const Term& term : f.terms()) {
-        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return steady_ratio(g[0], term).has_value(); });
+        const auto group = std::find_if(groups.begin(), groups.end(),
+                                        [&](const auto& g) { return steady_ratio(g[0], term).has_value(); });
         if (group == groups.end())
             groups.push_back({term});
         else
@@ -71,9 +72,8 @@ std::optional<Nearest> nearest_equation(const ex& residual, const Mechanism& m, 
         for (const Term& a : rows[i]->terms())
             for (const Term& b : claim->terms()) {
                 const auto scale = steady_ratio(a, b);
-                if (!scale || std::any_of(tried.begin(), tried.end(), [&](const Fourier& t) {
-                        return t.polynomial() == scale->polynomial();
-                    }))
+                if (!scale || std::any_of(tried.begin(), tried.end(),
+                                          [&](const Fourier& t) { return t.polynomial() == scale->polynomial(); }))
                     continue;
                 tried.push_back(*scale);
                 const Fourier difference = *claim - *scale * *rows[i];
@@ -82,8 +82,13 @@ std::optional<Nearest> nearest_equation(const ex& residual, const Mechanism& m, 
                 const auto worth = [](const Fourier& d, const Fourier& row) {
                     return std::pair(d.size(), -static_cast<long>(row.size()));
                 };
-                if (!best || worth(difference, *rows[i]) < worth(best->wrong, *rows[static_cast<std::size_t>(best->row)]))
-                    best = Nearest{.row = static_cast<int>(i), .scale = *scale, .wrong = difference, .equation = {}, .difference = {}};
+                if (!best ||
+                    worth(difference, *rows[i]) < worth(best->wrong, *rows[static_cast<std::size_t>(best->row)]))
+                    best = Nearest{.row = static_cast<int>(i),
+                                   .scale = *scale,
+                                   .wrong = difference,
+                                   .equation = {},
+                                   .difference = {}};
             }
     }
     if (!best) return std::nullopt;

@@ -6,8 +6,8 @@
 ///     if (const auto nearest = nearest_equation(residual, mechanism, equations))
 ///         nearest->difference;            // claim − scale·row, "2*m*g*sin(theta)"
 ///
-/// Candidates are the rows of the equations and the differentiated constraints. The scale is a number times powers of
-/// parameters, such that as many terms of the normal forms as possible agree.
+/// Candidates are the rows of the equations and the differentiated constraints. The scale is a number times powers
+/// of parameters, such that as many terms of the normal forms as possible agree.
 
 #include <optional>
 #include <string>
@@ -18,15 +18,16 @@
 namespace alembert {
 
 struct Nearest {
-    int row = 0;              ///< of the equations; beyond them: of the constraints
+    int row = 0;  ///< of the equations; beyond them: of the constraints
     Fourier scale;
-    Fourier wrong;            ///< the difference
-    std::string equation;     ///< scale·row = 0
+    Fourier wrong;         ///< the difference
+    std::string equation;  ///< scale·row = 0
     std::string difference;
 };
 
 /// Nothing where no row shares a term with it, or where it is too large.
-std::optional<Nearest> nearest_equation(const GiNaC::ex& residual, const Mechanism& mechanism, const Equations& equations);
+std::optional<Nearest> nearest_equation(const GiNaC::ex& residual, const Mechanism& mechanism,
+                                        const Equations& equations);
 
 /// The rows' normal forms, M u' − f − Aᵀλ and A u' − γ; nothing in place of what is too large.
 std::vector<std::optional<Fourier>> rows_of(const Mechanism& mechanism, const Equations& equations);

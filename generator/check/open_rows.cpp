@@ -18,7 +18,8 @@ std::vector<int> OpenRows::roots() const {
     return result;
 }
 
-OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group) {
+OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms,
+                   const std::vector<std::size_t>& group) {
     OpenRows rows;
     const std::vector<GiNaC::symbol> symbols = claims.open_symbols();
     std::vector<ex> list;
@@ -26,7 +27,8 @@ OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms, co
         std::vector<ex> parts{forms[k].residual};
         parts.insert(parts.end(), forms[k].derivatives.begin(), forms[k].derivatives.end());
         for (std::size_t r = 0; r < parts.size(); ++r) {
-            rows.list.push_back({.claim = k, .rest = 0, .slope = {}, .derived = r > 0, .last = r + 1 == parts.size()});
+            rows.list.push_back(
+                {.claim = k, .rest = 0, .slope = {}, .derived = r > 0, .last = r + 1 == parts.size()});
             const std::vector<ex> slopes = claims.mechanism().z->pull_back({{parts[r], 1}}, symbols);
             GiNaC::exvector rest{parts[r]};
             for (std::size_t j = 0; j < symbols.size(); ++j) rest.push_back(-slopes[j] * symbols[j]);
@@ -67,7 +69,9 @@ bool consistent(const std::vector<std::vector<Prime>>& rows) {
     return rank_of(rows, columns) == rank_of(rows, columns + 1);
 }
 
-int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) { return reduce_rows(rows, columns); }
+int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns) {
+    return reduce_rows(rows, columns);
+}
 
 bool pins(const OpenRows& rows, const OpenMatrix& at, const std::set<std::size_t>& without, std::size_t k) {
     std::vector<std::vector<Prime>> all, others;

@@ -4,7 +4,8 @@
 /// Claims that leave names open, as linear systems for these names: B(state) μ = d(state) at an exact state.
 ///
 ///     const OpenRows rows = open_rows(claims, forms, {0, 2, 3});      // claims 0, 2 and 3 share names
-///     if (const auto at = open_matrix(rows, state); at && !consistent(at->rows)) …    // no choice satisfies them together
+///     if (const auto at = open_matrix(rows, state); at && !consistent(at->rows)) …    // no choice satisfies them
+///     together
 ///
 /// An integral with constants contributes a row for itself and one for each time derivative that mechanics gives.
 
@@ -29,7 +30,8 @@ struct OpenRows {
     /// Of each row the rest, then the slopes.
     std::vector<int> roots() const;
 };
-OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms, const std::vector<std::size_t>& group);
+OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms,
+                   const std::vector<std::size_t>& group);
 
 struct OpenMatrix {
     std::vector<std::vector<Prime>> rows;  ///< slopes, then −rest
@@ -44,7 +46,8 @@ int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns);
 /// Is there a solution?
 bool consistent(const std::vector<std::vector<Prime>>& rows);
 
-/// Does the last row of claim k raise the rank of all the others but those of `without`? Then it only determines something open.
+/// Does the last row of claim k raise the rank of all the others but those of `without`? Then it only determines
+/// something open.
 bool pins(const OpenRows& rows, const OpenMatrix& at, const std::set<std::size_t>& without, std::size_t k);
 
 /// The fewest claims without which the others can be satisfied; where there is a choice, all of them.

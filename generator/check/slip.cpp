@@ -39,15 +39,15 @@ struct Leaf {
 
 class Search {
 public:
-    Search(const Claim& claim, const ex& residual, const Mechanism& m, const Equations& e,
-           const Judge& judge)
+    Search(const Claim& claim, const ex& residual, const Mechanism& m, const Equations& e, const Judge& judge)
         : claim_(claim), m_(m), e_(e), judge_(judge), sides_{claim.equation.lhs.text, claim.equation.rhs.text} {
         nearest_ = nearest_equation(residual, m, e);
         for (const bool left : {true, false}) {
             const Expression& side = left ? claim.equation.lhs : claim.equation.rhs;
             const Tree& tree = *side.tree;
             if (tree.kind == Tree::Kind::sum)
-                for (std::size_t k = 0; k < tree.args.size(); ++k) collect_summand(*tree.args[k], left, k == 0, std::nullopt, false);
+                for (std::size_t k = 0; k < tree.args.size(); ++k)
+                    collect_summand(*tree.args[k], left, k == 0, std::nullopt, false);
             else
                 collect_summand(tree, left, true, std::nullopt, false);
         }
@@ -78,23 +78,29 @@ private:
 
     static Stretch stretch(const Tree& tree, bool left) { return {left, tree.offset, tree.length}; }
 
-    void collect_summand(const Tree& tree, bool left, bool first, const std::optional<Stretch>& whole, bool in_angle) {
+    void collect_summand(const Tree& tree, bool left, bool first, const std::optional<Stretch>& whole,
+                         bool in_angle) {
         const Tree& inner = tree.kind == Kind::negate ? *tree.args[0] : tree;
         if (tree.kind == Kind::number && trimmed(stretch(tree, left)) == "0") return;
         const Stretch at = stretch(tree, left);
-        summands_.push_back({at, first, tree.kind == Kind::negate, inner.kind == Kind::sum, whole.value_or(at), in_angle});
+        summands_.push_back(
+            {at, first, tree.kind == Kind::negate, inner.kind == Kind::sum, whole.value_or(at), in_angle});
         collect(tree, left, whole.value_or(at), at, in_angle);
     }
 
-    void collect(const Tree& tree, bool left, const Stretch& whole, const Stretch& term, bool in_angle, bool exponent = false) {
-        if (tree.kind == Kind::name || tree.kind == Kind::number || tree.kind == Kind::power || tree.kind == Kind::call)
+    void collect(const Tree& tree, bool left, const Stretch& whole, const Stretch& term, bool in_angle,
+                 bool exponent = false) {
+        if (tree.kind == Kind::name || tree.kind == Kind::number || tree.kind == Kind::power ||
+            tree.kind == Kind::call)
             leaves_.push_back({&tree, stretch(tree, left), whole, term, in_angle, exponent});
-        const bool turns = tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan");
+        const bool turns =
+            tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan");
         for (std::size_t k = 0; k < tree.args.size(); ++k)
             if (tree.kind == Kind::sum)
                 collect_summand(*tree.args[k], left, k == 0, whole, in_angle);
             else
-                collect(*tree.args[k], left, whole, tree.kind == Kind::derivative ? stretch(*tree.args[k], left) : term, in_angle || turns,
+                collect(*tree.args[k], left, whole,
+                        tree.kind == Kind::derivative ? stretch(*tree.args[k], left) : term, in_angle || turns,
                         tree.kind == Kind::power && k == 1);
     }
 
@@ -117,14 +123,16 @@ private:
         std::vector<Diagnostic> mistakes;
         Claim repaired = claim_;
         repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes);
-        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired)) return std::nullopt;
+        if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired))
+            return std::nullopt;
         return text_of(repaired.equation);
     }
 
     bool try_change(const Stretch& at, const std::string& by, const std::string& kind, const std::string& term) {
         if (found_) return true;
         std::array<std::string, 2> sides = sides_;
-        sides[at.left ? 0 : 1].replace(static_cast<std::size_t>(at.offset), static_cast<std::size_t>(at.length), by);
+        sides[at.left ? 0 : 1].replace(static_cast<std::size_t>(at.offset), static_cast<std::size_t>(at.length),
+                                       by);
         if (const auto right = ask(sides[0], sides[1])) found_ = Slip{kind, term, *right};
         return found_.has_value();
     }
@@ -133,19 +141,27 @@ private:
     bool try_change(const Leaf& leaf, const Stretch& at, const std::string& by, const std::string& kind) {
         if (found_ || !try_change(at, by, kind, trimmed(leaf.whole))) return found_.has_value();
         std::string term = slice(leaf.term);
-        term.replace(static_cast<std::size_t>(at.offset - leaf.term.offset), static_cast<std::size_t>(at.length), by);
+        term.replace(static_cast<std::size_t>(at.offset - leaf.term.offset), static_cast<std::size_t>(at.length),
+                     by);
         std::vector<Diagnostic> mistakes;
-        const bool alone = trimmed({leaf.term.left, 0, static_cast<int>(side(leaf.term.left).size())}) == trimmed(leaf.term);
-        if (const Expression changed = parse_expression(term, {}, mistakes); !alone && changed.tree && judge_.vanishes(changed)) found_.reset();
+        const bool alone =
+            trimmed({leaf.term.left, 0, static_cast<int>(side(leaf.term.left).size())}) == trimmed(leaf.term);
+        if (const Expression changed = parse_expression(term, {}, mistakes);
+            !alone && changed.tree && judge_.vanishes(changed))
+            found_.reset();
         return found_.has_value();
     }
-    bool try_change(const Leaf& leaf, const std::string& by, const std::string& kind) { return try_change(leaf, leaf.at, by, kind); }
+    bool try_change(const Leaf& leaf, const std::string& by, const std::string& kind) {
+        return try_change(leaf, leaf.at, by, kind);
+    }
 
     /// The sign before a summand that is not the first of its sum.
     std::optional<Stretch> operator_before(const Summand& s) const {
         if (s.negated) return Stretch{s.at.left, s.at.offset, 1};
         int at = s.at.offset - 1;
-        while (at >= 0 && (side(s.at.left)[static_cast<std::size_t>(at)] == ' ' || side(s.at.left)[static_cast<std::size_t>(at)] == '(')) --at;
+        while (at >= 0 && (side(s.at.left)[static_cast<std::size_t>(at)] == ' ' ||
+                           side(s.at.left)[static_cast<std::size_t>(at)] == '('))
+            --at;
         if (at < 0 || side(s.at.left)[static_cast<std::size_t>(at)] != '+') return std::nullopt;
         return Stretch{s.at.left, at, 1};
     }
@@ -196,14 +212,16 @@ private:
     }
 
     static bool is_trig(const Leaf& leaf) {
-        return leaf.tree->kind == Kind::call && (leaf.tree->text == "sin" || leaf.tree->text == "cos" || leaf.tree->text == "tan");
+        return leaf.tree->kind == Kind::call &&
+               (leaf.tree->text == "sin" || leaf.tree->text == "cos" || leaf.tree->text == "tan");
     }
     std::string argument(const Leaf& leaf) const { return trimmed(stretch(*leaf.tree->args[0], leaf.at.left)); }
 
     template <typename Add>
     static void add_arguments(const Tree& tree, const std::string& text, const Add& add) {
         if (tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan"))
-            add(text.substr(static_cast<std::size_t>(tree.args[0]->offset), static_cast<std::size_t>(tree.args[0]->length)));
+            add(text.substr(static_cast<std::size_t>(tree.args[0]->offset),
+                            static_cast<std::size_t>(tree.args[0]->length)));
         for (const TreePtr& arg : tree.args) add_arguments(*arg, text, add);
     }
 
@@ -224,7 +242,8 @@ private:
                 if (leaf.tree->kind != Kind::name || !is_coordinate(leaf.tree->text) || leaf.in_angle) continue;
                 const int primes = leaf.tree->primes + more;
                 if (primes < 0 || primes > 2) continue;
-                if (try_change(leaf, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''), "lost_dot"))
+                if (try_change(leaf, leaf.tree->text + std::string(static_cast<std::size_t>(primes), '\''),
+                               "lost_dot"))
                     return;
             }
         // θ'² written θ'
@@ -239,10 +258,13 @@ private:
             const std::string name = p.symbol.get_name();
             parameters_.push_back(name);
             bool is_length = p.unit == "m";
-            for (const MassElement& body : m_.masses)  // where units are not given; an angular rate is in positions too
-                for (const ex& x : body.position) is_length = is_length || (p.unit.empty() && m_.z->depends(x, {p.symbol}));
+            for (const MassElement& body :
+                 m_.masses)  // where units are not given; an angular rate is in positions too
+                for (const ex& x : body.position)
+                    is_length = is_length || (p.unit.empty() && m_.z->depends(x, {p.symbol}));
             const bool without_units = m_.masses.empty() && p.unit.empty();
-            if (is_length || (without_units && std::string("lLrRabdhs").find(name[0]) != std::string::npos)) lengths_.insert(name);
+            if (is_length || (without_units && std::string("lLrRabdhs").find(name[0]) != std::string::npos))
+                lengths_.insert(name);
         }
     }
 
@@ -253,7 +275,8 @@ private:
             if (leaf.tree->kind != Kind::name || lengths_.contains(leaf.tree->text) != lengths) continue;
             if (std::find(parameters_.begin(), parameters_.end(), leaf.tree->text) == parameters_.end()) continue;
             for (const std::string& other : parameters_)
-                if (other != leaf.tree->text && lengths_.contains(other) == lengths && try_change(leaf, other, kind))
+                if (other != leaf.tree->text && lengths_.contains(other) == lengths &&
+                    try_change(leaf, other, kind))
                     return;
             if (try_change(leaf, "1", kind)) return;
             for (const char* exponent : {"2", "3", "-1"})
@@ -278,16 +301,22 @@ private:
                 if (leaf.tree->kind == Kind::number && !leaf.exponent && leaf.tree->text != other &&
                     try_change(leaf, other, leaf.in_angle ? "wrong_argument" : "factor"))
                     return;
-        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4", "3/2", "2/3", "4/3", "3/4", "6", "1/6", "5", "1/5", "8", "1/8", "12", "1/12"}) {
+        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4", "3/2", "2/3", "4/3", "3/4", "6", "1/6", "5",
+                                   "1/5", "8", "1/8", "12", "1/12"}) {
             for (const Summand& s : summands_) {
-                const bool lone = s.first && s.whole.offset == s.at.offset && s.whole.length == s.at.length && sides_are_single(s);
+                const bool lone = s.first && s.whole.offset == s.at.offset && s.whole.length == s.at.length &&
+                                  sides_are_single(s);
                 if (lone) continue;
-                if (try_change(s.at, scaled(s, "*", std::string("(") + factor + ")"), s.in_angle ? "wrong_argument" : "factor", trimmed(s.whole))) return;
+                if (try_change(s.at, scaled(s, "*", std::string("(") + factor + ")"),
+                               s.in_angle ? "wrong_argument" : "factor", trimmed(s.whole)))
+                    return;
             }
         }
         for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4"})  // alone on its side of the equation
             for (const Summand& s : summands_)
-                if (try_change(s.at, scaled(s, "*", std::string("(") + factor + ")"), s.in_angle ? "wrong_argument" : "factor", trimmed(s.whole))) return;
+                if (try_change(s.at, scaled(s, "*", std::string("(") + factor + ")"),
+                               s.in_angle ? "wrong_argument" : "factor", trimmed(s.whole)))
+                    return;
     }
 
     bool sides_are_single(const Summand& s) const {
@@ -301,7 +330,8 @@ private:
             if (leaf.tree->kind != Kind::power || leaf.tree->args[1]->kind != Kind::number) continue;
             const Stretch exponent = stretch(*leaf.tree->args[1], leaf.at.left);
             const Tree& base = *leaf.tree->args[0];
-            const std::string kind = base.kind == Kind::name && lengths_.contains(base.text) ? "wrong_arm" : "factor";
+            const std::string kind =
+                base.kind == Kind::name && lengths_.contains(base.text) ? "wrong_arm" : "factor";
             for (const char* other : {"1", "2", "3", "4"})
                 if (try_change(leaf, exponent, other, kind)) return;
         }
@@ -312,7 +342,8 @@ private:
     /// The claim less `wrong`, as text.
     bool try_without(const Fourier& wrong, const std::string& kind, const std::string& term) {
         const std::string addition = text(readable(Rational(-1) * wrong));
-        const std::string lhs = sides_[0] + (addition.starts_with('-') ? " - " + addition.substr(1) : " + " + addition);
+        const std::string lhs =
+            sides_[0] + (addition.starts_with('-') ? " - " + addition.substr(1) : " + " + addition);
         if (const auto right = ask(lhs, sides_[1])) found_ = Slip{kind, term, *right};
         return found_.has_value();
     }
@@ -334,7 +365,8 @@ private:
             std::vector<Fourier> result;
             GiNaC::exmap still;
             for (const GiNaC::symbol& rate : m_.qdot) still[rate] = 0;
-            for (const ex& force : {e_.applied[i], ex(m_.z->expand(e_.own[i]).subs(still, GiNaC::subs_options::no_pattern))})
+            for (const ex& force :
+                 {e_.applied[i], ex(m_.z->expand(e_.own[i]).subs(still, GiNaC::subs_options::no_pattern))})
                 if (m_.z->tree_size(force) < 3000)
                     if (const auto f = fourier(m_.z->expand(force), *m_.symbols, 2000); f && f->size() > 0) {
                         result.push_back(*f);
@@ -384,13 +416,15 @@ private:
         std::vector<std::string> own;
         for (const Summand& s : summands_)
             if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
-                own.push_back("(" + trimmed(s.negated ? Stretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) + ")");
+                own.push_back(
+                    "(" + trimmed(s.negated ? Stretch{s.at.left, s.at.offset + 1, s.at.length - 1} : s.at) + ")");
         for (const bool there : {true, false}) {
             const auto terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
             for (std::size_t k = 0; k < std::min(most_tried, terms.size()) && !found_; ++k) {
                 const auto& [by, term] = terms[k];
                 const std::string more = by == "1" ? term : by == "-1" ? "-" + term : by + "*" + term;
-                if (const auto right = ask(sides_[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more), sides_[1]))
+                if (const auto right =
+                        ask(sides_[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more), sides_[1]))
                     found_ = there ? Slip{"factor", term, *right} : Slip{"missing_term", more, *right};
             }
         }
@@ -413,8 +447,8 @@ private:
 
 }  // namespace
 
-std::optional<Slip> likely_slip(const Claim& claim, const ex& residual, const Mechanism& mechanism, const Equations& equations,
-                                const Judge& judge) {
+std::optional<Slip> likely_slip(const Claim& claim, const ex& residual, const Mechanism& mechanism,
+                                const Equations& equations, const Judge& judge) {
     return Search(claim, residual, mechanism, equations, judge).find();
 }
 

@@ -3,14 +3,14 @@
 
 /// What a student probably did wrong: the one small change that sets a claim right.
 ///
-///     const auto slip = likely_slip(claim, residual, mechanism, equations, {.is_right = …, .vanishes = …, .absent = …});
-///     slip->kind      // "sign"
-///     slip->term      // "-m*g*sin(theta)", as the claim has it
+///     const auto slip = likely_slip(claim, residual, mechanism, equations, {.is_right = …, .vanishes = …, .absent
+///     = …}); slip->kind      // "sign" slip->term      // "-m*g*sin(theta)", as the claim has it
 ///
-/// Tried, in this order: a sign; sine for cosine; another argument; a dot (or a square) more; another length, or one more or
-/// less; a number, another parameter or a power; a term of the nearest equation that is missing; a force that belongs into
-/// another equation; a term too many; any other term that is missing (check/absent.hpp). The first change after which
-/// `is_right` says yes is the answer, unless it only makes its term vanish; it is asked a few hundred times at the most.
+/// Tried, in this order: a sign; sine for cosine; another argument; a dot (or a square) more; another length, or
+/// one more or less; a number, another parameter or a power; a term of the nearest equation that is missing; a
+/// force that belongs into another equation; a term too many; any other term that is missing (check/absent.hpp).
+/// The first change after which `is_right` says yes is the answer, unless it only makes its term vanish; it is
+/// asked a few hundred times at the most.
 
 #include <functional>
 #include <optional>
@@ -20,7 +20,8 @@
 
 namespace alembert {
 
-/// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm wrong_row unknown.
+/// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm
+/// wrong_row unknown.
 struct Slip {
     std::string kind = "unknown";
     std::string term;    ///< as the claim has it; of a missing one, as it should be
@@ -31,12 +32,14 @@ struct Slip {
 struct Judge {
     std::function<bool(const Claim&)> is_right;
     std::function<bool(const Expression&)> vanishes;  ///< on every motion
-    /// Multiples of `terms`, or of what is usual in mechanics if there are none, each of which `claim` may lack on its left side:
-    /// "2*m" and "r'*phi'". The simplest first.
-    std::function<std::vector<std::pair<std::string, std::string>>(const Claim& claim, std::vector<std::string> terms)> absent;
+    /// Multiples of `terms`, or of what is usual in mechanics if there are none, each of which `claim` may lack on
+    /// its left side: "2*m" and "r'*phi'". The simplest first.
+    std::function<std::vector<std::pair<std::string, std::string>>(const Claim& claim,
+                                                                   std::vector<std::string> terms)>
+        absent;
 };
 
-std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism, const Equations& equations,
-                                const Judge& judge);
+std::optional<Slip> likely_slip(const Claim& claim, const GiNaC::ex& residual, const Mechanism& mechanism,
+                                const Equations& equations, const Judge& judge);
 
 }  // namespace alembert

@@ -21,7 +21,8 @@ int run(const SceneOptions& options) {
 }  // namespace
 
 void add_agree(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SceneOptions>(app, chosen, "agree", "derive by every formalism that applies, and prove that they say the same", run);
+    add_scene_verb<SceneOptions>(app, chosen, "agree",
+                                 "derive by every formalism that applies, and prove that they say the same", run);
 }
 
 }  // namespace alembert

@@ -25,8 +25,9 @@ int run(const SceneOptions& options) {
 }  // namespace
 
 void add_audit(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SceneOptions>(app, chosen, "audit",
-                                 "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", run);
+    add_scene_verb<SceneOptions>(
+        app, chosen, "audit",
+        "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", run);
 }
 
 }  // namespace alembert

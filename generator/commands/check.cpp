@@ -37,11 +37,12 @@ int run(const CheckOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<CheckOptions>(app, chosen, "check", "hold a hand derivation against the derived equations", run,
-                                 [](CLI::App& verb, CheckOptions& options) {
-                                     verb.add_option("claims", options.claims,
-                                                     "a file of claims, one equation a line; without it the scene's [[claim]]s");
-                                 });
+    add_scene_verb<CheckOptions>(
+        app, chosen, "check", "hold a hand derivation against the derived equations", run,
+        [](CLI::App& verb, CheckOptions& options) {
+            verb.add_option("claims", options.claims,
+                            "a file of claims, one equation a line; without it the scene's [[claim]]s");
+        });
 }
 
 }  // namespace alembert

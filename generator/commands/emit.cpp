@@ -25,7 +25,8 @@ int run(const EmitVerb& options) {
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
-    if (failed) throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
+    if (failed)
+        throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
     const std::string path = (std::filesystem::path(options.folder) / e.source.file).string();
     write_file(path, e.source.text, {options.scene});
     if (options.json)
@@ -38,12 +39,14 @@ int run(const EmitVerb& options) {
 }  // namespace
 
 void add_emit(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<EmitVerb>(app, chosen, "emit", "write the specialized C++", run, [](CLI::App& verb, EmitVerb& options) {
-        verb.add_option("-o,--output", options.folder, "folder")->required();
-        verb.add_flag("--fold", options.emission.fold, "parameters as constants");
-        verb.add_flag("--jacobian", options.emission.jacobian, "with the derivatives of the right-hand side by state and parameters");
-        verb.add_flag("--batch", options.emission.batch, "the same functions for eight systems at once too");
-    });
+    add_scene_verb<EmitVerb>(
+        app, chosen, "emit", "write the specialized C++", run, [](CLI::App& verb, EmitVerb& options) {
+            verb.add_option("-o,--output", options.folder, "folder")->required();
+            verb.add_flag("--fold", options.emission.fold, "parameters as constants");
+            verb.add_flag("--jacobian", options.emission.jacobian,
+                          "with the derivatives of the right-hand side by state and parameters");
+            verb.add_flag("--batch", options.emission.batch, "the same functions for eight systems at once too");
+        });
 }
 
 }  // namespace alembert

@@ -14,7 +14,8 @@ struct EvalOptions : SceneOptions {
 
 int run(const EvalOptions& options) {
     const Evaluation e =
-        evaluate(read_scene(options.scene), {.by = options.by, .at = overrides_of(options.at), .reactions = options.reactions});
+        evaluate(read_scene(options.scene),
+                 {.by = options.by, .at = overrides_of(options.at), .reactions = options.reactions});
     warn(e.warnings);
     if (options.json)
         show(as_json(e, options.reactions));

@@ -24,7 +24,8 @@ int run(const SceneOptions& options) {
 
 void add_impact(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(app, chosen, "impact",
-                                 "the rates after the scene's impulses, sudden constraints and closed contacts", run);
+                                 "the rates after the scene's impulses, sudden constraints and closed contacts",
+                                 run);
 }
 
 }  // namespace alembert

@@ -21,12 +21,16 @@ struct ImportOptions {
 
 int run(const ImportOptions& options) {
     const std::string file = std::filesystem::path(options.robot).filename().string();
-    const RobotScene scene = robot_scene(read_robot(options.robot), {.source = file, .floating = options.floating, .quaternion = options.quaternion});
+    const RobotScene scene =
+        robot_scene(read_robot(options.robot),
+                    {.source = file, .floating = options.floating, .quaternion = options.quaternion});
     parse_scene(scene.text, options.output);  // what it refuses is not written
     write_file(options.output, scene.text, {options.robot});
-    for (const std::string& sentence : scene.notes) std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
+    for (const std::string& sentence : scene.notes)
+        std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
-        std::cerr << fmt::format("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what), dropped.of.empty() ? "" : ": ",
+        std::cerr << fmt::format("{}: dropped: {}{}{}\n", options.robot, escaped(dropped.what),
+                                 dropped.of.empty() ? "" : ": ",
                                  escaped(fmt::format("{}", fmt::join(dropped.of, ", ")), 100'000));
     if (options.json) {
         Json result;
@@ -39,7 +43,8 @@ int run(const ImportOptions& options) {
         show(result);
         return 0;
     }
-    fmt::print("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(), fmt::join(scene.coordinates, ", "));
+    fmt::print("{}\n{} bodies, {} coordinates: {}\n", options.output, scene.bodies, scene.coordinates.size(),
+               fmt::join(scene.coordinates, ", "));
     for (const std::string& sentence : scene.merged) fmt::print("{}\n", escaped(sentence, 300));
     return 0;
 }
@@ -52,7 +57,8 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb->add_option("robot", options->robot, "the robot, an .urdf file")->required();
     verb->add_option("-o,--output", options->output, "the scene to be written")->required();
     verb->add_flag("--floating", options->floating, "the root link moves freely; otherwise it is the ground");
-    verb->add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
+    verb->add_flag("--quaternion", options->quaternion,
+                   "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
     verb->add_flag("--json", options->json, "print one JSON object");
     verb->callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }

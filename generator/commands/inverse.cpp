@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/inverse.hpp"
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
-#include "report/inverse.hpp"
 
 namespace alembert {
 
@@ -12,7 +12,8 @@ struct InverseVerb : SceneOptions {
 };
 
 int run(const InverseVerb& options) {
-    const InverseLoads needed = inverse(read_scene(options.scene), {.by = options.by, .at = overrides_of(options.at)});
+    const InverseLoads needed =
+        inverse(read_scene(options.scene), {.by = options.by, .at = overrides_of(options.at)});
     warn(needed.warnings);
     if (options.json)
         show(as_json(needed));
@@ -24,8 +25,9 @@ int run(const InverseVerb& options) {
 }  // namespace
 
 void add_inverse(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<InverseVerb>(app, chosen, "inverse", "the loads along the coordinates that accelerations need: --at \"theta1''=2\"", run,
-                                [](CLI::App& verb, InverseVerb& options) { add_at_option(verb, options.at); });
+    add_scene_verb<InverseVerb>(
+        app, chosen, "inverse", "the loads along the coordinates that accelerations need: --at \"theta1''=2\"",
+        run, [](CLI::App& verb, InverseVerb& options) { add_at_option(verb, options.at); });
 }
 
 }  // namespace alembert

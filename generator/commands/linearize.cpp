@@ -13,7 +13,8 @@ struct LinearizeVerb : SceneOptions {
 
 int run(const LinearizeVerb& verb) {
     LinearizeOptions options{.by = verb.by, .at = overrides_of(verb.at)};
-    for (const std::string& item : verb.at) options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
+    for (const std::string& item : verb.at)
+        options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
     const LinearizedScene near = linearize(read_scene(verb.scene), options);
     warn(near.warnings);
     if (verb.json)
@@ -26,7 +27,8 @@ int run(const LinearizeVerb& verb) {
 }  // namespace
 
 void add_linearize(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<LinearizeVerb>(app, chosen, "linearize", "matrices and eigenvalues near an equilibrium or a steady motion", run,
+    add_scene_verb<LinearizeVerb>(app, chosen, "linearize",
+                                  "matrices and eigenvalues near an equilibrium or a steady motion", run,
                                   [](CLI::App& verb, LinearizeVerb& options) { add_at_option(verb, options.at); });
 }
 

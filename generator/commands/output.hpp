@@ -9,7 +9,8 @@
 namespace alembert {
 
 /// Before the work begins: throws what write_file would throw for this path now, as far as it can be seen without
-/// writing. An empty path is no wish, and good. `inputs`: files that were read, which no output may overwrite; empty names are none.
+/// writing. An empty path is no wish, and good. `inputs`: files that were read, which no output may overwrite;
+/// empty names are none.
 void check_output(const std::string& path, const std::vector<std::string>& inputs);
 
 /// Writes the text to the file of that name. An ordinary file is written beside its place and renamed, so that it

@@ -31,7 +31,8 @@ void Progress::at(std::string_view what, double part) {
     drawn_ = true;
     part = std::clamp(part, 0.0, 1.0);
     const int full = static_cast<int>(part * width);
-    raw_to_terminal(fmt::format("\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='), std::string(width - full, ' '), 100 * part));
+    raw_to_terminal(fmt::format("\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='),
+                                std::string(width - full, ' '), 100 * part));
 }
 
 }  // namespace alembert

@@ -5,9 +5,13 @@
 
 namespace alembert {
 
-void show(const Json& result) { std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << "\n"; }
+void show(const Json& result) {
+    std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+}
 
-void show(const std::string& text) { std::cout << text; }
+void show(const std::string& text) {
+    std::cout << text;
+}
 
 void warn(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) std::cerr << warning;

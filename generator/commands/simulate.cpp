@@ -33,12 +33,14 @@ int run(const RunVerb& verb) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<RunVerb>(app, chosen, "simulate", "emit, compile and integrate", run, [](CLI::App& verb, RunVerb& options) {
-        add_run_options(verb, options);
-        verb.add_option("--sample", options.wishes.sample, "seconds between rows")->check(positive_number());
-        verb.add_flag("!--no-estimate", options.wishes.estimate, "no second run to estimate the error: half the time");
-        add_reactions_option(verb, options.wishes.reactions);
-    });
+    add_scene_verb<RunVerb>(
+        app, chosen, "simulate", "emit, compile and integrate", run, [](CLI::App& verb, RunVerb& options) {
+            add_run_options(verb, options);
+            verb.add_option("--sample", options.wishes.sample, "seconds between rows")->check(positive_number());
+            verb.add_flag("!--no-estimate", options.wishes.estimate,
+                          "no second run to estimate the error: half the time");
+            add_reactions_option(verb, options.wishes.reactions);
+        });
 }
 
 }  // namespace alembert

@@ -45,8 +45,8 @@ int run(const SweepVerb& verb) {
     const SweepTotals sum = totals_of(swept);
     if (sum.failed == 0) return 0;
     std::cout.flush();
-    warn({fmt::format("{}: {} of {} motions failed; the table's column 'status' says why, the first at {}\n", verb.scene, sum.failed, grid.size(),
-                      sum.first_failure)});
+    warn({fmt::format("{}: {} of {} motions failed; the table's column 'status' says why, the first at {}\n",
+                      verb.scene, sum.failed, grid.size(), sum.first_failure)});
     return 4;
 }
 
@@ -58,9 +58,11 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
         [](CLI::App& verb, SweepVerb& options) {
             add_run_options(verb, options);
             verb.add_option("--vary", options.vary,
-                            "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; several make a grid")
+                            "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; "
+                            "several make a grid")
                 ->required();
-            verb.add_option("--threads", options.threads, "as many as there are cores where it is missing")->check(CLI::Range(1, 1024));
+            verb.add_option("--threads", options.threads, "as many as there are cores where it is missing")
+                ->check(CLI::Range(1, 1024));
         });
 }
 

@@ -17,15 +17,20 @@ CLI::Validator number(bool zero) {
         [zero](const std::string& text) {
             const double x = std::strtod(text.c_str(), nullptr);
             const bool is_right = std::isfinite(x) && (x > 0 || (zero && x == 0));
-            return is_right ? std::string() : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
+            return is_right ? std::string()
+                            : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
         },
         zero ? "NONNEGATIVE" : "POSITIVE");
 }
 
 }  // namespace
 
-CLI::Validator positive_number() { return number(false); }
-CLI::Validator nonnegative_number() { return number(true); }
+CLI::Validator positive_number() {
+    return number(false);
+}
+CLI::Validator nonnegative_number() {
+    return number(true);
+}
 
 void add_scene_options(CLI::App& verb, SceneOptions& options) {
     verb.add_option("scene", options.scene, "the scene, a TOML file")->required();
@@ -42,8 +47,8 @@ void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
 }
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
-    for (const auto add : {add_derive, add_agree, add_audit, add_check, add_eval, add_linearize, add_inverse, add_impact, add_emit,
-                           add_import, add_simulate, add_sweep, add_bench})
+    for (const auto add : {add_derive, add_agree, add_audit, add_check, add_eval, add_linearize, add_inverse,
+                           add_impact, add_emit, add_import, add_simulate, add_sweep, add_bench})
         add(app, chosen);
 }
 
@@ -59,7 +64,8 @@ Overrides overrides_of(const std::vector<std::string>& at) {
             used = 0;
         }
         if (equals == std::string::npos || equals == 0 || used == 0 || used != item.size() - equals - 1)
-            throw ModelError(fmt::format("--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3", item));
+            throw ModelError(
+                fmt::format("--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3", item));
         result.emplace_back(item.substr(0, equals), value);
     }
     return result;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verbs of the command line. Each registers itself with its options; when it is chosen, it makes one call of the library and
-/// shows the result, for a person or, with --json, for a program.
+/// The verbs of the command line. Each registers itself with its options; when it is chosen, it makes one call of
+/// the library and shows the result, for a person or, with --json, for a program.
 ///
 ///     CLI::App app;
 ///     Chosen chosen;
@@ -24,8 +24,8 @@ namespace alembert {
 
 /// What the command line asks for.
 struct Chosen {
-    std::string subject;            ///< the file that messages name: the scene
-    std::function<int()> action;    ///< gives the exit code
+    std::string subject;          ///< the file that messages name: the scene
+    std::function<int()> action;  ///< gives the exit code
 };
 
 /// What every verb takes.
@@ -67,8 +67,8 @@ void add_at_option(CLI::App& verb, std::vector<std::string>& at);
 
 void add_scene_options(CLI::App& verb, SceneOptions& options);
 
-/// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run` does the work and gives
-/// the exit code.
+/// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run`
+/// does the work and gives the exit code.
 template <typename Options>
 void add_scene_verb(CLI::App& app, Chosen& chosen, const char* name, const char* about, int (*run)(const Options&),
                     const std::function<void(CLI::App&, Options&)>& more = {}) {
@@ -76,7 +76,9 @@ void add_scene_verb(CLI::App& app, Chosen& chosen, const char* name, const char*
     CLI::App* const verb = app.add_subcommand(name, about);
     add_scene_options(*verb, *options);
     if (more) more(*verb, *options);
-    verb->callback([options, run, &chosen] { chosen = {options->scene, [options, run] { return run(*options); }}; });
+    verb->callback([options, run, &chosen] {
+        chosen = {options->scene, [options, run] { return run(*options); }};
+    });
 }
 
 }  // namespace alembert

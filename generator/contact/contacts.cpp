@@ -44,7 +44,8 @@ Program view_of(const Mechanism& mechanism) {
     energy.power = 0;  // it holds multipliers
     Program program = lower(closed, routh(closed), energy);
     const auto is_wanted = [](const Root& root) {
-        for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position, Group::velocity})
+        for (const Group group :
+             {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position, Group::velocity})
             if (root.group == group) return true;
         return false;
     };
@@ -55,7 +56,9 @@ Program view_of(const Mechanism& mechanism) {
 }  // namespace
 
 ContactView::ContactView(const Mechanism& mechanism)
-    : program_(view_of(mechanism)), n_(mechanism.size()), bilateral_(static_cast<int>(mechanism.constraints.size())) {
+    : program_(view_of(mechanism)),
+      n_(mechanism.size()),
+      bilateral_(static_cast<int>(mechanism.constraints.size())) {
     for (const Mechanism::Unilateral& contact : mechanism.unilateral) names_.push_back(contact.gap.name);
 }
 
@@ -68,12 +71,16 @@ Situation ContactView::at(const State<double>& state) const {
         return result;
     };
     Situation here{.M = Eigen::MatrixXd(n_, n_), .f = of(Group::forcing), .bilateral = {}, .contacts = {}};
-    const Eigen::VectorXd mass = of(Group::mass), row = of(Group::row), u = Eigen::Map<const Eigen::VectorXd>(state.qdot.data(), n_);
+    const Eigen::VectorXd mass = of(Group::mass), row = of(Group::row),
+                          u = Eigen::Map<const Eigen::VectorXd>(state.qdot.data(), n_);
     for (Eigen::Index i = 0, k = 0; i < n_; ++i)
         for (Eigen::Index j = 0; j <= i; ++j, ++k) here.M(i, j) = here.M(j, i) = mass[k];
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Index contacts = static_cast<Eigen::Index>(names_.size()), all = bilateral_ + contacts;
-    Situation::Rows rows{.rows = Eigen::Map<const Rows>(row.data(), all, n_), .value = of(Group::position), .drift = {}, .acceleration = of(Group::gamma)};
+    Situation::Rows rows{.rows = Eigen::Map<const Rows>(row.data(), all, n_),
+                         .value = of(Group::position),
+                         .drift = {},
+                         .acceleration = of(Group::gamma)};
     rows.drift = of(Group::velocity) - rows.rows * u;
     std::vector<int> which(static_cast<std::size_t>(all));
     std::iota(which.begin(), which.end(), 0);
@@ -87,14 +94,15 @@ std::vector<double> restitutions(const Mechanism& mechanism, const std::vector<d
     std::vector<int> nodes;
     for (const Mechanism::Unilateral& contact : mechanism.unilateral)
         nodes.push_back(lower_expression(program, mechanism, contact.restitution));
-    const std::vector<double> value = interpret<double>(program, {.parameters = parameters, .q = {}, .qdot = {}, .qddot = {}});
+    const std::vector<double> value =
+        interpret<double>(program, {.parameters = parameters, .q = {}, .qdot = {}, .qddot = {}});
     std::vector<double> result;
     for (const int node : nodes) result.push_back(value[node]);
     return result;
 }
 
-void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactView& view, const State<double>& state,
-                double tolerance) {
+void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactView& view,
+                const State<double>& state, double tolerance) {
     const Situation here = view.at(state);
     const Eigen::VectorXd slack =
         negligible_gaps(here, Eigen::Map<const Eigen::VectorXd>(state.q.data(), mechanism.size()), tolerance);
@@ -103,9 +111,10 @@ void check_gaps(const Scene& scene, const Mechanism& mechanism, const ContactVie
         const double gap = here.contacts.value[static_cast<Eigen::Index>(k)];
         if (!(gap < -slack[static_cast<Eigen::Index>(k)])) continue;
         const Mechanism::Constraint& contact = mechanism.unilateral[k].gap;
-        negative.push_back({contact.place, fmt::format("the gap of '{}' is {:.6g} at the start; a gap is never negative: give "
-                                                       "initial values that leave it open or closed",
-                                                       contact.name, gap)});
+        negative.push_back(
+            {contact.place, fmt::format("the gap of '{}' is {:.6g} at the start; a gap is never negative: give "
+                                        "initial values that leave it open or closed",
+                                        contact.name, gap)});
     }
     if (!negative.empty()) fail(scene, negative);
 }
@@ -114,7 +123,8 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     const Situation here = view.at(state);
     const auto n = static_cast<Eigen::Index>(state.q.size());
     const Eigen::Map<const Eigen::VectorXd> q(state.q.data(), n), u(state.qdot.data(), n);
-    const Eigen::VectorXd slack = negligible_gaps(here, q, tolerance), speed = gap_rates(here, u), still = negligible_rates(here, u);
+    const Eigen::VectorXd slack = negligible_gaps(here, q, tolerance), speed = gap_rates(here, u),
+                          still = negligible_rates(here, u);
     std::vector<int> closed;
     std::string names;
     for (std::size_t k = 0; k < view.names().size(); ++k) {
@@ -125,14 +135,16 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     }
     const Lasting lasting = lasting_contacts(here, closed);
     if (!lasting && !closed.empty())
-        throw IntegrationError(fmt::format("no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", state.t,
-                                           names, lasting.failure),
-                               state.t, state.q);
+        throw IntegrationError(
+            fmt::format("no contact mode is consistent at t = {:.17g} with the contacts {} closed: {}", state.t,
+                        names, lasting.failure),
+            state.t, state.q);
     return lasting;
 }
 
 // M q'' − f = Aᵀλ + Gᵀπ, of full rank in λ and π but for bilateral rows that depend on each other.
-std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state, const Lasting& lasting) {
+std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state,
+                                                const Lasting& lasting) {
     constexpr double nothing = 1e-9;  // of the largest force
     if (lasting.closed.empty()) return {};
     const Situation here = view.at(state);
@@ -140,7 +152,8 @@ std::vector<std::string> touching_without_force(const ContactView& view, const S
     Eigen::MatrixXd rows(here.bilateral.rows.rows() + closed, here.M.cols());
     rows.topRows(here.bilateral.rows.rows()) = here.bilateral.rows;
     for (Eigen::Index k = 0; k < closed; ++k)
-        rows.row(here.bilateral.rows.rows() + k) = here.contacts.rows.row(lasting.closed[static_cast<std::size_t>(k)]);
+        rows.row(here.bilateral.rows.rows() + k) =
+            here.contacts.rows.row(lasting.closed[static_cast<std::size_t>(k)]);
     const Eigen::VectorXd reaction = here.M * lasting.acceleration - here.f;
     const Eigen::VectorXd force = rows.transpose().completeOrthogonalDecomposition().solve(reaction).tail(closed);
     std::vector<std::string> names;

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "state/assemble.hpp"
 #include "contact/impact_algebra.hpp"
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "state/assemble.hpp"
 
 namespace alembert {
 
@@ -49,7 +49,8 @@ public:
         value_ = interpret(program_, result.start.state());
         find_contacts(result);
         find_broken(result);
-        const Eigen::Index n = m_.size(), m = rows(Group::velocity), k = static_cast<Eigen::Index>(result.contacts.size());
+        const Eigen::Index n = m_.size(), m = rows(Group::velocity),
+                           k = static_cast<Eigen::Index>(result.contacts.size());
         Eigen::MatrixXd M(n, n), A(m, n), G(k, n);
         const std::vector<int> mass = program_.nodes_of(Group::mass), row = program_.nodes_of(Group::row);
         for (Eigen::Index i = 0, next = 0; i < n; ++i)
@@ -94,9 +95,10 @@ private:
             for (int i = 0; i < m_.size(); ++i) size += std::abs(wanted(at + 3 + i) * result.start.q[i]);
             const double gap = wanted(at);
             if (gap < -closed * size)
-                throw ModelError(fmt::format("the gap '{}' is {:.6g} at the start; expected zero (contact) or more: give "
-                                             "initial values at which nothing penetrates",
-                                             m_.unilateral[u].gap.name, gap));
+                throw ModelError(
+                    fmt::format("the gap '{}' is {:.6g} at the start; expected zero (contact) or more: give "
+                                "initial values at which nothing penetrates",
+                                m_.unilateral[u].gap.name, gap));
             if (gap <= closed * size) result.contacts.push_back(static_cast<int>(u));
         }
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// [M −Aᵀ −Gᵀ; A 0 0; G 0 0] (q'⁺, Λ, Π) = (M q'⁻ + Q̂, −b, −c − e gap'⁻), the contacts being those that were struck, e = 0
-// for those that did not approach. Where a constraint is imposed and a contact bounces, the constraint comes first:
-// gap'⁻ is then that of the rates that solve the same system without Q̂ and G.
+// [M −Aᵀ −Gᵀ; A 0 0; G 0 0] (q'⁺, Λ, Π) = (M q'⁻ + Q̂, −b, −c − e gap'⁻), the contacts being those that were
+// struck, e = 0 for those that did not approach. Where a constraint is imposed and a contact bounces, the
+// constraint comes first: gap'⁻ is then that of the rates that solve the same system without Q̂ and G.
 #include "contact/impact_algebra.hpp"
 
 #include <cmath>
@@ -94,7 +94,8 @@ private:
         for (std::size_t i = 0; i < n_; ++i) {
             exvector change, cause{impulse_[i]};
             for (std::size_t j = 0; j < n_; ++j)
-                change.push_back(M_(static_cast<unsigned>(i), static_cast<unsigned>(j)) * (m_.qdot[j] - before_[j]));
+                change.push_back(M_(static_cast<unsigned>(i), static_cast<unsigned>(j)) *
+                                 (m_.qdot[j] - before_[j]));
             for (const Row& row : rows_) cause.push_back(row.a[i] * row.multiplier);
             const auto left = normal(GiNaC::add(std::move(change))), right = normal(GiNaC::add(std::move(cause)));
             if (!left || !right) return false;
@@ -102,7 +103,8 @@ private:
         }
         for (const Row& row : rows_) {
             const auto left = normal(rates(row, m_.qdot) + (row.contact ? row.b : ex(0)));
-            const auto right = normal(row.contact ? ex(-row.restitution * (rates(row, before_) + row.b)) : ex(-row.b));
+            const auto right =
+                normal(row.contact ? ex(-row.restitution * (rates(row, before_) + row.b)) : ex(-row.b));
             if (!left || !right) return false;
             impact_.conditions.emplace_back(row.name, readable_equation(*left, *right));
         }
@@ -123,7 +125,8 @@ private:
             if (p.independent) values_[p.symbol] = impact_.start.parameters[independent++];
         for (std::size_t round = 0; round < m_.parameters.size(); ++round)
             for (const Mechanism::Parameter& p : m_.parameters)
-                if (!p.independent) values_[p.symbol] = p.value.subs(values_, GiNaC::subs_options::no_pattern).evalf();
+                if (!p.independent)
+                    values_[p.symbol] = p.value.subs(values_, GiNaC::subs_options::no_pattern).evalf();
         values_[m_.t] = impact_.start.t;
         const ex t = m_.run.start.value_or(0);
         for (std::size_t i = 0; i < n_; ++i) {
@@ -153,7 +156,8 @@ private:
         };
         for (std::size_t a = 0; a < n_; ++a) {
             for (std::size_t b = 0; b <= a; ++b)
-                if (inside(m_.z->expand(M_(static_cast<unsigned>(a), static_cast<unsigned>(b))), inside)) return true;
+                if (inside(m_.z->expand(M_(static_cast<unsigned>(a), static_cast<unsigned>(b))), inside))
+                    return true;
             if (inside(m_.z->expand(impulse_[a]), inside)) return true;
             for (const Row& row : rows_)
                 if (inside(m_.z->expand(row.a[a]), inside)) return true;
@@ -168,7 +172,8 @@ private:
     // The solution
 
     /// Rates after and the multipliers of `rows`.
-    std::optional<exvector> solved(const exvector& before, bool with_impulses, const std::vector<Row>& rows, const exvector& conditions) const {
+    std::optional<exvector> solved(const exvector& before, bool with_impulses, const std::vector<Row>& rows,
+                                   const exvector& conditions) const {
         const std::size_t size = n_ + rows.size();
         ExactRows K(size, exvector(size, 0));
         exvector right(size, 0);
@@ -194,7 +199,8 @@ private:
             return true;
         }
         if (impact_.numbers.collisions > 1) {
-            impact_.silence = "several collisions follow each other in one instant; they are computed in numbers only";
+            impact_.silence =
+                "several collisions follow each other in one instant; they are computed in numbers only";
             return true;
         }
         std::vector<Row> rows = independent_rows();
@@ -203,7 +209,8 @@ private:
         exvector before;
         for (std::size_t i = 0; i < n_; ++i) {
             before.push_back(at_pose(before_[i]));
-            for (std::size_t j = 0; j < n_; ++j) mass_[i][j] = at_pose(M_(static_cast<unsigned>(i), static_cast<unsigned>(j)));
+            for (std::size_t j = 0; j < n_; ++j)
+                mass_[i][j] = at_pose(M_(static_cast<unsigned>(i), static_cast<unsigned>(j)));
         }
         std::vector<Row> bilateral;
         for (Row& row : rows) {
@@ -237,7 +244,8 @@ private:
         std::vector<Eigen::VectorXd> basis;
         for (const Row& row : rows_) {
             Eigen::VectorXd a(static_cast<Eigen::Index>(n_));
-            for (std::size_t i = 0; i < n_; ++i) a[static_cast<Eigen::Index>(i)] = number(m_.z->expand(row.a[i]).subs(pose_));
+            for (std::size_t i = 0; i < n_; ++i)
+                a[static_cast<Eigen::Index>(i)] = number(m_.z->expand(row.a[i]).subs(pose_));
             const double size = a.norm();
             for (int round = 0; round < 2; ++round)
                 for (const Eigen::VectorXd& unit : basis) a -= a.dot(unit) * unit;
@@ -255,8 +263,10 @@ private:
         return readable_quotient(e, *m_.symbols, most_terms, [this](const ex& part) { return number(part); });
     }
 
-    bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before, const exvector& conditions) {
-        // Another route to the same: what the numbers say. Signs that only the scene's values decide would show here.
+    bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before,
+                        const exvector& conditions) {
+        // Another route to the same: what the numbers say. Signs that only the scene's values decide would show
+        // here.
         double size = 0, misfit = 0;
         for (std::size_t i = 0; i < n_; ++i) {
             const double after = impact_.numbers.after[static_cast<Eigen::Index>(i)];
@@ -308,6 +318,8 @@ private:
 
 }  // namespace
 
-void add_algebra(Impact& impact, const Mechanism& mechanism) { Algebra(impact, mechanism).go(); }
+void add_algebra(Impact& impact, const Mechanism& mechanism) {
+    Algebra(impact, mechanism).go();
+}
 
 }  // namespace alembert

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "state/assemble.hpp"
 #include "lower/lower.hpp"
+#include "state/assemble.hpp"
 
 namespace alembert {
 
@@ -31,7 +31,8 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
         wanted.insert(wanted.end(), gradient.begin(), gradient.end());
     }
     for (const Mechanism::Speed& speed : m.speeds) wanted.push_back(speed.form);
-    for (const Mechanism::Occasion& event : m.occasions) wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
+    for (const Mechanism::Occasion& event : m.occasions)
+        wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
     const std::vector<int> nodes = lower_expressions(program_, m, wanted);
     auto next = nodes.begin();
     const auto taken = [&next](std::size_t count) {
@@ -63,13 +64,15 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
         double size = size_of_terms(program_, values_[k], b);
         const bool has_jumped = std::abs(value - a[values_[k]]) > negligible * size;
         const double rounding = 2 * std::abs(value) + 16 * epsilon * size;
-        for (std::size_t i = 0; i < after.q.size(); ++i) size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
+        for (std::size_t i = 0; i < after.q.size(); ++i)
+            size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
         PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
         if (has_jumped) {  // the value as it is tells
         } else if (std::abs(slope) > negligible * std::abs(one.slope)) {
             one.side = slope > 0 ? 1 : -1;
             one.hold = rounding / std::abs(slope);
-            if (slope * bend < 0) one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
+            if (slope * bend < 0)
+                one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
         } else if (std::abs(bend) > negligible * size_of_terms(program_, bends_[k], b)) {
             one.side = bend > 0 ? 1 : -1;
             one.hold = std::sqrt(2 * rounding / std::abs(bend));

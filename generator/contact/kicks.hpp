@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What the runtime must know of the scene's events where their impulses act (alembert/phases.hpp), by interpretation.
+/// What the runtime must know of the scene's events where their impulses act (alembert/phases.hpp), by
+/// interpretation.
 ///
 ///     const KickView view(mechanism);
 ///     view.impulse(0, state);                 // Q̂ of event 0, of the rates in `state`
@@ -25,8 +26,8 @@ public:
     /// n; of an event that has impulses.
     Eigen::VectorXd impulse(int event, const State<double>& state) const;
 
-    /// For each event, in case its zero has just been passed. Its value as it is tells where the jump of the rates has changed it; else the
-    /// sign of its rate, or of its second derivative where the rate is gone.
+    /// For each event, in case its zero has just been passed. Its value as it is tells where the jump of the rates
+    /// has changed it; else the sign of its rate, or of its second derivative where the rate is gone.
     std::vector<PassedZero> passed(const State<double>& before, const State<double>& after) const;
 
     /// Of the scene, from the rates.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "formalism/lagrange.hpp"
-#include "lower/lower.hpp"
 #include "derive/euler_form.hpp"
 #include "derive/intermediate_form.hpp"
+#include "formalism/lagrange.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
@@ -14,8 +14,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_tree = 30000;        // nodes of all equations, written out
-constexpr std::size_t most_terms = 150;       // of one equation in normal form; beyond, nobody reads it
+constexpr double largest_tree = 30000;   // nodes of all equations, written out
+constexpr std::size_t most_terms = 150;  // of one equation in normal form; beyond, nobody reads it
 
 class Making {
 public:
@@ -27,11 +27,13 @@ public:
         for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
         gaps();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
-        for (int i = 0; i < e_.size(); ++i) result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
+        for (int i = 0; i < e_.size(); ++i)
+            result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
         if (!e_.speeds_are_rates() && m_.speeds.empty()) choice();
         for (const ex& pole : e_.poles)
             if (const auto f = normal(pole))
-                result_.poles.push_back(readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
+                result_.poles.push_back(
+                    readable(f->size() > 0 && f->terms()[0].coefficient < 0 ? Rational(-1) * *f : *f));
         if (!readable_equations() || !energies()) return with_definitions();
         angular_velocities();
         forces();
@@ -80,7 +82,8 @@ private:
     void choice() {
         std::string kept, solved;
         for (int i = 0; i < m_.size(); ++i) {
-            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(), [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
+            const bool is_free = std::any_of(e_.u.begin(), e_.u.end(),
+                                             [&](const GiNaC::symbol& u) { return u.is_equal(m_.qdot[i]); });
             if (!is_free) solved += (solved.empty() ? "" : ", ") + m_.q[i].get_name() + "'";
         }
         for (int k = 0; k < e_.size(); ++k) {
@@ -88,8 +91,8 @@ private:
             if (m_.symbols->info(e_.u[k]).kind != SymbolInfo::Kind::speed) continue;
             if (const auto f = normal(e_.form[k])) result_.speeds.emplace_back(symbol_of(e_.u[k]), readable(*f));
         }
-        result_.choice = "The nonholonomic constraints are solved for " + solved + "; the independent speeds are " + kept +
-                         (result_.speeds.empty() ? "." : ", with");
+        result_.choice = "The nonholonomic constraints are solved for " + solved +
+                         "; the independent speeds are " + kept + (result_.speeds.empty() ? "." : ", with");
     }
 
     bool add(std::vector<Statement>& to, Statement statement, const ex& value) {
@@ -103,9 +106,12 @@ private:
     /// ω along the axes of each body that turns in space.
     void angular_velocities() {
         for (const MassElement& body : m_.masses) {
-            if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero())) continue;
+            if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero()))
+                continue;
             for (int k = 0; k < 3; ++k)
-                add(result_.angular, {Statement::Kind::energy, std::string("w_") + "xyz"[k], label(body.origin), {}, {}}, body.rotation->w_NB_B[k]);
+                add(result_.angular,
+                    {Statement::Kind::energy, std::string("w_") + "xyz" [k], label(body.origin), {}, {}},
+                    body.rotation->w_NB_B[k]);
         }
     }
 
@@ -135,14 +141,16 @@ private:
                 total[i] += Q[i];
             }
         };
-        for (const Part& part : m_.potential) add_all(label(part.origin), m_.z->pull_back({{part.value, -1}}, m_.q));
+        for (const Part& part : m_.potential)
+            add_all(label(part.origin), m_.z->pull_back({{part.value, -1}}, m_.q));
         for (const Load& load : m_.loads) {
             std::vector<std::pair<ex, ex>> targets;
             for (const Load::Pair& pair : load.pairs) targets.emplace_back(pair.velocity, pair.force);
             add_all(label(load.origin), m_.z->pull_back(targets, m_.qdot));
         }
         if (result_.forces.empty()) return;
-        for (int i = 0; i < m_.size(); ++i) add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
+        for (int i = 0; i < m_.size(); ++i)
+            add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
     }
 
     /// ∂T/∂q' and ∂T/∂q, or those of L where the scene gives it.
@@ -154,7 +162,8 @@ private:
         const ex energy = m_.given_lagrangian ? m_.lagrangian() : m_.kinetic_energy();
         const std::vector<ex> gradient = m_.z->pull_back({{energy, 1}}, state);
         for (int i = 0; i < m_.size(); ++i) {
-            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}}, gradient[m_.size() + i]);
+            add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.qdot[i]), {}},
+                gradient[m_.size() + i]);
             add(result_.derivatives, {Kind::partial, letter, "", symbol_of(m_.q[i]), {}}, gradient[i]);
         }
     }
@@ -171,13 +180,15 @@ private:
 
     /// A unilateral constraint among the others, for the sake of its reaction.
     bool is_gap(const Mechanism::Constraint& c) const {
-        return std::any_of(m_.unilateral.begin(), m_.unilateral.end(),
-                           [&](const Mechanism::Unilateral& contact) { return contact.gap.multiplier.is_equal(c.multiplier); });
+        return std::any_of(m_.unilateral.begin(), m_.unilateral.end(), [&](const Mechanism::Unilateral& contact) {
+            return contact.gap.multiplier.is_equal(c.multiplier);
+        });
     }
 
     void gaps() {
         for (const Mechanism::Unilateral& contact : m_.unilateral)
-            if (const auto f = normal(*contact.gap.position)) result_.gaps.emplace_back(contact.gap.name, readable(*f));
+            if (const auto f = normal(*contact.gap.position))
+                result_.gaps.emplace_back(contact.gap.name, readable(*f));
     }
 
     Derivation with_definitions() {

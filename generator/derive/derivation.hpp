@@ -15,29 +15,30 @@
 
 namespace alembert {
 
-/// What a derivation shows to a reader, as phrases that any notation can print: the four steps of Zhang & Qin, §1.5:
+/// What a derivation shows to a reader, as phrases that any notation can print: the four steps of Zhang & Qin,
+/// §1.5:
 /// 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations.
 /// Beyond the readable size the steps are left out and `definitions` carries intermediate symbols.
 struct Derivation {
     std::string formalism;
-    std::string title;                     ///< "Kane's equations"
-    std::vector<Section> sections;         ///< partial velocities, virtual works, H, R …
+    std::string title;              ///< "Kane's equations"
+    std::vector<Section> sections;  ///< partial velocities, virtual works, H, R …
     int degrees_of_freedom = 0;
     std::vector<Phrase> coordinates;
     std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size
-    std::vector<Statement> angular;        ///< angular velocities along the axes of bodies that turn in space
-    std::vector<Statement> energies;       ///< T and V of each body and spring
+    std::vector<Statement> angular;   ///< angular velocities along the axes of bodies that turn in space
+    std::vector<Statement> energies;  ///< T and V of each body and spring
     Phrase kinetic, potential;
-    std::optional<Phrase> lagrangian;      ///< where the scene gives it
-    std::vector<Statement> forces;         ///< generalized forces of each part of V and each load, then in all
-    std::vector<Statement> derivatives;    ///< ∂T/∂q', ∂T/∂q, or those of L
+    std::optional<Phrase> lagrangian;    ///< where the scene gives it
+    std::vector<Statement> forces;       ///< generalized forces of each part of V and each load, then in all
+    std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
-    std::vector<Phrase> rows;              ///< whose equation each is: coordinates, or speeds
+    std::vector<Phrase> rows;                           ///< whose equation each is: coordinates, or speeds
     std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty where u = q'
-    std::vector<Phrase> poles;             ///< where one of these vanishes the rates do not follow from the speeds
-    std::vector<std::pair<Phrase, Phrase>> speeds;      ///< chosen by the program: u = N(q,t) q'
-    std::string choice;                    ///< in words, where the speeds were chosen by the program
-    std::vector<Statement> reactions;         ///< of each constraint along each coordinate, where they are asked for
+    std::vector<Phrase> poles;  ///< where one of these vanishes the rates do not follow from the speeds
+    std::vector<std::pair<Phrase, Phrase>> speeds;  ///< chosen by the program: u = N(q,t) q'
+    std::string choice;                             ///< in words, where the speeds were chosen by the program
+    std::vector<Statement> reactions;  ///< of each constraint along each coordinate, where they are asked for
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
     std::vector<std::pair<std::string, Phrase>> gaps;         ///< by name: what is not negative
 };

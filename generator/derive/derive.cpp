@@ -24,15 +24,21 @@ std::vector<Statement> borne(const Derived& d) {
             for (const Mechanism::Constraint& c : *list) find(name, c);
         for (const Mechanism::Unilateral& contact : d.mechanism.unilateral) find(name, contact.gap);
     }
-    const std::vector<int> force = reactions.program.nodes_of(Group::force), moment = reactions.program.nodes_of(Group::moment);
+    const std::vector<int> force = reactions.program.nodes_of(Group::force),
+                           moment = reactions.program.nodes_of(Group::moment);
     std::vector<Statement> result;
     for (std::size_t k = 0; k < reactions.joints.size(); ++k)
         for (std::size_t i = 0; i < 6; ++i) {
-            const auto e = expression_of(reactions.program, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3], d.mechanism, multipliers);
+            const auto e = expression_of(reactions.program, i < 3 ? force[3 * k + i] : moment[3 * k + i - 3],
+                                         d.mechanism, multipliers);
             if (!e) continue;
             const auto f = fourier(*e, *d.mechanism.symbols, 20 * most_terms);
             if (!f || f->size() > most_terms) continue;
-            result.push_back({.kind = Statement::Kind::energy, .letter = letters[i], .of = reactions.joints[k], .by = {}, .value = readable(*f)});
+            result.push_back({.kind = Statement::Kind::energy,
+                              .letter = letters[i],
+                              .of = reactions.joints[k],
+                              .by = {},
+                              .value = readable(*f)});
         }
     return result;
 }
@@ -43,7 +49,8 @@ DerivedScene derive(Scene scene, const ShowOptions& options) {
     DerivedScene d{derived(std::move(scene), {.by = options.by})};
     const bool independent = !options.by.empty() && formalism(options.by).independent;
     d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
-    if (d.has_unilateral_reactions) static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
+    if (d.has_unilateral_reactions)
+        static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
     d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);

@@ -16,11 +16,11 @@ struct ShowOptions {
     bool reactions = false;  ///< the share of each constraint along each coordinate, and what joints bear
 };
 
-/// Reactions of unilateral constraints stand in the equations, zero while their gap is open, unless the formalism is one for independent
-/// coordinates.
+/// Reactions of unilateral constraints stand in the equations, zero while their gap is open, unless the formalism
+/// is one for independent coordinates.
 struct DerivedScene : Derived {
     Derivation shown = {};
-    std::vector<Statement> joint_loads = {}; ///< F_x … M_z on the child of each joint, as far as they are short
+    std::vector<Statement> joint_loads = {};  ///< F_x … M_z on the child of each joint, as far as they are short
     bool has_unilateral_reactions = false;
 };
 

@@ -25,17 +25,20 @@ namespace {
 /// The formalism of that name; without one, the one a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
-    if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism)) return formalism("kane").derive(mechanism);
+    if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism))
+        return formalism("kane").derive(mechanism);
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
-constexpr int many_pairs = 128;  // of bodies above each other: 16 in a row
+constexpr int many_pairs = 128;       // of bodies above each other: 16 in a row
 constexpr int most_with_matrix = 80;  // joints; of more, M would be most of what is derived, emitted and compiled
 
-/// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are as many operations for
-/// all formalisms but articulated bodies.
+/// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are
+/// as many operations for all formalisms but articulated bodies.
 std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
-    if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() || m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m)) return {};
+    if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() ||
+        m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m))
+        return {};
     const Possible<JointTree> tree = joint_tree(m);
     if (!tree.exists()) return {};
     std::vector<int> depth;
@@ -49,7 +52,8 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) 
     return recursive(m);
 }
 
-/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need them.
+/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need
+/// them.
 void refuse_contradiction(const Mechanism& m) {
     if (m.constraints.empty()) return;
     Start start = start_of(m);
@@ -74,11 +78,13 @@ std::vector<ReactionOutput> add_reactions(Mechanism& m) {
     return result;
 }
 
-/// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else needs to. A joint that
-/// closes a loop likewise.
+/// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else
+/// needs to. A joint that closes a loop likewise.
 std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
     if (c.joint) return {};
-    if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(), [&](const RollingRule& r) { return r.name.place == c.place; })) return {};
+    if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(),
+                    [&](const RollingRule& r) { return r.name.place == c.place; }))
+        return {};
     return describe(p.scene, {{c.place,
                                fmt::format("constraint '{}' follows from the others; its equation is left "
                                            "out, and the reactions of all are the least that keep them",
@@ -95,7 +101,8 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
     for (const int k : redundant)
-        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k])) d.warnings.push_back(*std::move(warning));
+        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k]))
+            d.warnings.push_back(*std::move(warning));
     d.mechanism = without_constraints(std::move(d.mechanism), redundant);
     refuse_contradiction(d.mechanism);
     if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
@@ -104,8 +111,11 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
-        d.warnings.emplace_back("warning: the rates that remain when the nonholonomic constraints are solved do not determine the others at "
-                                "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, [speeds]\n");
+        d.warnings.emplace_back(
+            "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
+            "others at "
+            "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "
+            "[speeds]\n");
     d.seconds = process_seconds() - start;
     return d;
 }
@@ -122,8 +132,10 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
 
 void need_rates(const Derived& d) {
     if (!d.equations.speeds_are_rates())
-        throw ModelError("contacts are followed in coordinates and their rates, and impulses of events in these or the scene's own speeds; derive by routh instead of "
-                         "kane");
+        throw ModelError(
+            "contacts are followed in coordinates and their rates, and impulses of events in these or the scene's "
+            "own speeds; derive by routh instead of "
+            "kane");
 }
 
 Choice lowered(const Derived& d, bool fold) {
@@ -139,8 +151,9 @@ std::optional<std::string> failure_at(const Derived& d, const State<double>& sta
     if (d.equations.M.rows() == 0) options.recursion = RecursionForm{.solve = RecursionForm::Solve::articulated};
     const Program program = lower(d.mechanism, d.equations, energy_of(d.mechanism), options);
     if (const auto combination = massless_combination(program, state))
-        return fmt::format("no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
-                           *combination);
+        return fmt::format(
+            "no inertia resists {}: the mass matrix is singular; give it a mass, or remove a coordinate",
+            *combination);
     if (auto lost = lost_rank(program, state, d.equations.kept(d.mechanism))) return lost;
     return not_finite(program, state, program.singular ? Group::forcing : Group::acceleration);
 }

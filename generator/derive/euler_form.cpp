@@ -9,10 +9,13 @@ namespace {
 
 using Kind = Phrase::Kind;
 
-bool is_symbol(const Phrase& p, const Phrase& of) { return p.kind == Kind::symbol && p.symbol.is_equal(of.symbol); }
+bool is_symbol(const Phrase& p, const Phrase& of) {
+    return p.kind == Kind::symbol && p.symbol.is_equal(of.symbol);
+}
 
 bool is_difference(const Phrase& p) {
-    return p.kind == Kind::sum && p.args.size() == 2 && (p.args[0].kind == Kind::negative) != (p.args[1].kind == Kind::negative);
+    return p.kind == Kind::sum && p.args.size() == 2 &&
+           (p.args[0].kind == Kind::negative) != (p.args[1].kind == Kind::negative);
 }
 
 /// Position in the sum of the one term (P − Q)·first·second, with nothing else in it; −1 where there is none.
@@ -21,7 +24,9 @@ int gyroscopic_term(const Phrase& sum, const Phrase& first, const Phrase& second
     for (std::size_t i = 0; i < sum.args.size(); ++i) {
         const Phrase& term = sum.args[i].kind == Kind::negative ? sum.args[i].args[0] : sum.args[i];
         if (term.kind != Kind::product || term.args.size() != 3) continue;
-        const auto count = [&](const auto& test) { return std::count_if(term.args.begin(), term.args.end(), test); };
+        const auto count = [&](const auto& test) {
+            return std::count_if(term.args.begin(), term.args.end(), test);
+        };
         if (count(is_difference) == 1 && count([&](const Phrase& p) { return is_symbol(p, first); }) == 1 &&
             count([&](const Phrase& p) { return is_symbol(p, second); }) == 1)
             return static_cast<int>(i);
@@ -56,7 +61,8 @@ void write_as_euler(std::vector<ReadableEquation>& equations, const std::vector<
                 }
                 for (int k = 0; count >= 2 && k < 3; ++k)
                     if (found[k] >= 0)
-                        rewrite(equations[of[k]].lhs.args[static_cast<std::size_t>(found[k])], rows[of[(k + 1) % 3]], rows[of[(k + 2) % 3]]);
+                        rewrite(equations[of[k]].lhs.args[static_cast<std::size_t>(found[k])],
+                                rows[of[(k + 1) % 3]], rows[of[(k + 2) % 3]]);
             }
 }
 

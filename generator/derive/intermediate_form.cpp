@@ -60,11 +60,17 @@ private:
 
     Phrase variable(const Variable& v) const {
         switch (v.kind) {
-            case Variable::Kind::time: return symbol_of(m_.t);
-            case Variable::Kind::coordinate: return symbol_of(m_.q[v.index]);
-            case Variable::Kind::rate: return symbol_of(e_.u[v.index]);
-            case Variable::Kind::acceleration: return symbol_of(e_.udot[v.index]);
-            case Variable::Kind::parameter: case Variable::Kind::unknown: break;
+            case Variable::Kind::time:
+                return symbol_of(m_.t);
+            case Variable::Kind::coordinate:
+                return symbol_of(m_.q[v.index]);
+            case Variable::Kind::rate:
+                return symbol_of(e_.u[v.index]);
+            case Variable::Kind::acceleration:
+                return symbol_of(e_.udot[v.index]);
+            case Variable::Kind::parameter:
+            case Variable::Kind::unknown:
+                break;
         }
         int position = v.index;
         for (const Mechanism::Parameter& p : m_.parameters)
@@ -74,16 +80,20 @@ private:
 
     Phrase unfolded(const Node& node) const {
         switch (node.op) {
-            case Op::number: return number(node.number);
-            case Op::pi: return pi();
-            case Op::variable: return variable(node.variable);
+            case Op::number:
+                return number(node.number);
+            case Op::pi:
+                return pi();
+            case Op::variable:
+                return variable(node.variable);
             case Op::sum: {
                 std::vector<Phrase> terms;
                 for (std::size_t k = 0; k < node.args.size(); ++k) {
                     const Rational size = cln::abs(node.coefficients[k]);
                     Phrase term = of(node.args[k]);
                     if (!cln::equal(size, 1)) term = product({number(size), std::move(term)});
-                    terms.push_back(cln::minusp(node.coefficients[k]) ? negative(std::move(term)) : std::move(term));
+                    terms.push_back(cln::minusp(node.coefficients[k]) ? negative(std::move(term))
+                                                                      : std::move(term));
                 }
                 if (!cln::zerop(node.number)) terms.push_back(number(node.number));
                 return sum(std::move(terms));
@@ -95,12 +105,14 @@ private:
                     if (node.exponents[k] == -1)
                         factors.push_back(quotient(number(1), std::move(factor)));
                     else
-                        factors.push_back(node.exponents[k] == 1 ? std::move(factor)
-                                                                 : power(std::move(factor), Rational(node.exponents[k])));
+                        factors.push_back(node.exponents[k] == 1
+                                              ? std::move(factor)
+                                              : power(std::move(factor), Rational(node.exponents[k])));
                 }
                 return product(std::move(factors));
             }
-            case Op::pow: return power(of(node.args[0]), of(node.args[1]));
+            case Op::pow:
+                return power(of(node.args[0]), of(node.args[1]));
             default: {
                 std::vector<Phrase> args;
                 for (const int arg : node.args) args.push_back(of(arg));
@@ -126,7 +138,8 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m, c
     std::vector<int> roots = mass;
     roots.insert(roots.end(), forcing.begin(), forcing.end());
     const bool own_speeds = !program.speeds.empty();
-    const std::vector<int> rows = program.nodes_of(own_speeds ? Group::speed_row : Group::row), h = program.nodes_of(Group::rate);
+    const std::vector<int> rows = program.nodes_of(own_speeds ? Group::speed_row : Group::row),
+                           h = program.nodes_of(Group::rate);
     roots.insert(roots.end(), rows.begin(), rows.end());
     roots.insert(roots.end(), h.begin(), h.end());
     roots.push_back(kinetic);
@@ -155,7 +168,8 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m, c
                 terms.push_back(phrases::negative(
                     phrases::product({unfolding.of(entry), phrases::symbol(lambda, m.symbols->info(lambda))})));
         }
-        form.equations.push_back({.lhs = phrases::sum(std::move(terms)), .rhs = phrases::number(0), .divided_by = {}});
+        form.equations.push_back(
+            {.lhs = phrases::sum(std::move(terms)), .rhs = phrases::number(0), .divided_by = {}});
     }
     for (std::size_t i = 0; i < h.size(); ++i)
         form.kinematics.emplace_back(phrases::symbol(m.qdot[i], m.symbols->info(m.qdot[i])), unfolding.of(h[i]));

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "formalism/equations.hpp"
-#include "program/program.hpp"
 #include "notation/readable.hpp"
+#include "program/program.hpp"
 
 namespace alembert {
 

@@ -13,35 +13,37 @@ namespace alembert {
 namespace {
 
 constexpr std::array keywords{
-    "alignas",      "alignof",      "and",         "and_eq",      "asm",          "auto",       "bitand",
-    "bitor",        "bool",         "break",       "case",        "catch",        "char",       "char8_t",
-    "char16_t",     "char32_t",     "class",       "compl",       "concept",      "const",      "consteval",
-    "constexpr",    "constinit",    "const_cast",  "continue",    "co_await",     "co_return",  "co_yield",
-    "decltype",     "default",      "delete",      "do",          "double",       "dynamic_cast", "else",
-    "enum",         "explicit",     "export",      "extern",      "false",        "float",      "for",
-    "friend",       "goto",         "if",          "inline",      "int",          "long",       "mutable",
-    "namespace",    "new",          "noexcept",    "not",         "not_eq",       "nullptr",    "operator",
-    "or",           "or_eq",        "private",     "protected",   "public",       "register",   "reinterpret_cast",
-    "requires",     "return",       "short",       "signed",      "sizeof",       "static",     "static_assert",
-    "static_cast",  "struct",       "switch",      "template",    "this",         "thread_local", "throw",
-    "true",         "try",          "typedef",     "typeid",      "typename",     "union",      "unsigned",
-    "using",        "virtual",      "void",        "volatile",    "wchar_t",      "while",      "xor",
-    "xor_eq",       "typeof",       "linux",       "unix",        "i386",         "final",      "override",
-    "import",       "module"};
+    "alignas",     "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
+    "bitor",       "bool",      "break",      "case",      "catch",    "char",         "char8_t",
+    "char16_t",    "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
+    "constexpr",   "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
+    "decltype",    "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
+    "enum",        "explicit",  "export",     "extern",    "false",    "float",        "for",
+    "friend",      "goto",      "if",         "inline",    "int",      "long",         "mutable",
+    "namespace",   "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
+    "or",          "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
+    "requires",    "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
+    "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
+    "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
+    "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
+    "xor_eq",      "typeof",    "linux",      "unix",      "i386",     "final",        "override",
+    "import",      "module"};
 
 // What templates/solver.cpp.mustache declares.
-constexpr std::array own{"Real",   "t",       "state",  "par",  "rate",  "mass", "forcing", "carried", "out",    "energy",
-                         "jacobi", "prepare", "rhs",    "pair", "sincos", "sin", "cos",     "tan",    "asin",
-                         "acos",   "atan",    "sinh",   "cosh", "tanh",  "exp",  "log",     "sqrt",   "abs",
-                         "sign",   "pow",     "atan2",  "min",  "max",   "pi",   "std",     "main",   "mass_forcing",
-                         "outputs_at", "events_at", "constraints_at", "multipliers_at", "position", "velocity",
-                         "rows", "pivots", "project", "gamma_at", "lambda", "table", "solver", "real2", "real4", "real8", "bits2", "bits4", "bits8", "sines", "sine", "cosine", "is_near",
-                         "sines_near", "sines_far", "sincos_in"};
+// clang-format off
+constexpr std::array own{
+    "Real", "t", "state", "par", "rate", "mass", "forcing", "carried", "out", "energy", "jacobi", "prepare", "rhs",
+    "pair", "sincos", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt",
+    "abs", "sign", "pow", "atan2", "min", "max", "pi", "std", "main", "mass_forcing", "outputs_at", "events_at",
+    "constraints_at", "multipliers_at", "position", "velocity", "rows", "pivots", "project", "gamma_at", "lambda",
+    "table", "solver", "real2", "real4", "real8", "bits2", "bits4", "bits8", "sines", "sine", "cosine", "is_near",
+    "sines_near", "sines_far", "sincos_in"};
+// clang-format on
 
 constexpr std::array<std::string_view, 25> greek{
-    "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta",     "theta", "iota",
-    "kappa", "lambda",  "mu",    "nu",    "xi",      "omicron", "pi",    "rho",   "sigma",
-    "sigma", "tau",     "upsilon", "phi", "chi",     "psi",   "omega"};
+    "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",  "theta", "iota",
+    "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",   "rho",   "sigma",
+    "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega"};
 
 std::string spelled(std::uint32_t code) {
     if (code >= 0x3b1 && code <= 0x3c9) return std::string(greek[code - 0x3b1]);

@@ -16,8 +16,12 @@ struct Terms {
 bool collect(const Program& program, int id, const Rational& factor, Terms& terms) {
     const Node& node = program[id];
     switch (node.op) {
-        case Op::number: terms.number = terms.number + factor * node.number; return true;
-        case Op::pi: terms.half_turns = terms.half_turns + factor; return true;
+        case Op::number:
+            terms.number = terms.number + factor * node.number;
+            return true;
+        case Op::pi:
+            terms.half_turns = terms.half_turns + factor;
+            return true;
         case Op::variable: {
             Rational& c = terms.variables[{node.variable.kind, node.variable.index}];
             c = c + factor;
@@ -28,7 +32,8 @@ bool collect(const Program& program, int id, const Rational& factor, Terms& term
             for (std::size_t k = 0; k < node.args.size(); ++k)
                 if (!collect(program, node.args[k], factor * node.coefficients[k], terms)) return false;
             return true;
-        default: return false;
+        default:
+            return false;
     }
 }
 
@@ -62,7 +67,8 @@ bool set_angle(ModularPoint& point, const AngleSum& sum, Prime value) {
     const auto by_pi = PrimeTurn::by_pi(sum.half_turns / cln::expt(cln::cl_I(2), point.halves));
     if (!by_pi) return false;
     PrimeTurn turn = *by_pi * point.angle(1).power(sum.number);
-    for (const auto& [variable, exponent] : sum.multiples) turn = turn * point.angle(point.variable(variable)).power(exponent);
+    for (const auto& [variable, exponent] : sum.multiples)
+        turn = turn * point.angle(point.variable(variable)).power(exponent);
     point.given_angles[value] = turn;
     return true;
 }

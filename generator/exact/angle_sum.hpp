@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A variable that a condition makes a sum of multiples of others, as gears do: its turn is the product of theirs. The circle's
-/// group has every odd part of a turn: of the variables of a condition there is always one that can be had from the others.
+/// A variable that a condition makes a sum of multiples of others, as gears do: its turn is the product of theirs.
+/// The circle's group has every odd part of a turn: of the variables of a condition there is always one that can
+/// be had from the others.
 ///
-///     if (const auto sum = angle_sum(program, condition, {Variable::Kind::coordinate, 2}))    // c − 2a + 3b − 1 = 0
-///         set_angle(point, *sum, value_of_c);                                               // turn(c) = turn(a)²·turn(b)⁻³·turn(1)
+///     if (const auto sum = angle_sum(program, condition, {Variable::Kind::coordinate, 2}))    // c − 2a + 3b − 1
+///     = 0
+///         set_angle(point, *sum, value_of_c);                                               // turn(c) =
+///         turn(a)²·turn(b)⁻³·turn(1)
 ///
 /// Without this a point knows the angle's value and not that its sine has to do with those of the others.
 
@@ -18,11 +21,12 @@ namespace alembert {
 
 struct AngleSum {
     std::vector<std::pair<Variable, std::uint64_t>> multiples{};  ///< modulo the order of the circle's group
-    std::uint64_t number = 0;                                  ///< a turn by so many radians
-    Rational half_turns = 0;                                   ///< and by so many π
+    std::uint64_t number = 0;                                     ///< a turn by so many radians
+    Rational half_turns = 0;                                      ///< and by so many π
 };
 
-/// Nothing if the condition is not a sum of numbers times variables (and π), or the denominator of a multiple is even.
+/// Nothing if the condition is not a sum of numbers times variables (and π), or the denominator of a multiple is
+/// even.
 std::optional<AngleSum> angle_sum(const Program& program, int condition, const Variable& unknown);
 
 /// The condition is such a sum, whatever the multiples.

@@ -9,10 +9,13 @@ namespace {
 
 using Pair = std::array<PrimePolynomial, 2>;
 
-Prime cleared(bool turned, Prime x, std::size_t degree) { return turned ? (x * x + 1).power(degree / 2) : Prime(1); }
+Prime cleared(bool turned, Prime x, std::size_t degree) {
+    return turned ? (x * x + 1).power(degree / 2) : Prime(1);
+}
 
 /// f(x, ·) and g(x, ·); nothing where they have more than this degree.
-std::optional<Pair> in_second(const TwoConditions& conditions, const ZerosOptions& options, Prime x, std::size_t degree) {
+std::optional<Pair> in_second(const TwoConditions& conditions, const ZerosOptions& options, Prime x,
+                              std::size_t degree) {
     std::vector<Prime> y;
     std::array<std::vector<Prime>, 2> values;
     const ModularPoint random{.seed = options.seed};
@@ -21,7 +24,8 @@ std::optional<Pair> in_second(const TwoConditions& conditions, const ZerosOption
         const auto at = conditions(x, y.back());
         if (!at) return std::nullopt;
         for (std::size_t which = 0; which < 2; ++which)
-            values[which].push_back((*at)[which] * cleared(options.turned[0], x, degree) * cleared(options.turned[1], y.back(), degree));
+            values[which].push_back((*at)[which] * cleared(options.turned[0], x, degree) *
+                                    cleared(options.turned[1], y.back(), degree));
     }
     Pair result{interpolate(y, values[0]), interpolate(y, values[1])};
     if (result[0].size() > degree + 1 || result[1].size() > degree + 1) return std::nullopt;
@@ -46,7 +50,8 @@ CommonZeros common_zeros(const TwoConditions& conditions, const ZerosOptions& op
         PrimePolynomial eliminated = interpolate(x, y);
         if (eliminated.size() > highest + 1) continue;
         const PrimePolynomial circle{1, 0, 1};  // what was multiplied by too often
-        while (options.turned[0] && eliminated.size() > 3 && prime_polynomial::remainder(eliminated, circle).empty())
+        while (options.turned[0] && eliminated.size() > 3 &&
+               prime_polynomial::remainder(eliminated, circle).empty())
             eliminated = prime_polynomial::quotient(eliminated, circle);
         CommonZeros result;
         result.degree = eliminated.empty() ? 0 : eliminated.size() - 1;

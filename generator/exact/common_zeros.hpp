@@ -6,9 +6,10 @@
 ///     const CommonZeros at = common_zeros(values, {.turned = {true, true}, .seed = 7});
 ///     at.list[0]           // {tan(beta/2), tan(gamma/2)}
 ///
-/// y is eliminated: Res_y(f(x, y), g(x, y)) is interpolated over x, its roots are found, and at each the common roots of f(x, ·)
-/// and g(x, ·) (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 3rd ed., §3.6, proposition 3). What depends on a sine and
-/// a cosine is a fraction over powers of 1 + x², in the tangent of the half angle, and is multiplied by these.
+/// y is eliminated: Res_y(f(x, y), g(x, y)) is interpolated over x, its roots are found, and at each the common
+/// roots of f(x, ·) and g(x, ·) (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 3rd ed., §3.6,
+/// proposition 3). What depends on a sine and a cosine is a fraction over powers of 1 + x², in the tangent of the
+/// half angle, and is multiplied by these.
 
 #include <array>
 #include <functional>

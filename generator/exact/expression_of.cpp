@@ -13,7 +13,8 @@ namespace {
 
 class Raising {
 public:
-    Raising(const Program& program, const Mechanism& mechanism, const std::vector<GiNaC::symbol>& unknown) : p_(program), m_(mechanism), unknown_(unknown) {}
+    Raising(const Program& program, const Mechanism& mechanism, const std::vector<GiNaC::symbol>& unknown)
+        : p_(program), m_(mechanism), unknown_(unknown) {}
 
     std::optional<ex> operator()(int id) {
         if (const auto found = known_.find(id); found != known_.end()) return found->second;
@@ -31,12 +32,16 @@ private:
             args.push_back(*value);
         }
         switch (node.op) {
-            case Op::number: return number(node.number);
-            case Op::pi: return ex(GiNaC::Pi);
-            case Op::variable: return symbol(node.variable);
+            case Op::number:
+                return number(node.number);
+            case Op::pi:
+                return ex(GiNaC::Pi);
+            case Op::variable:
+                return symbol(node.variable);
             case Op::sum: {
                 GiNaC::exvector terms{number(node.number)};
-                for (std::size_t k = 0; k < args.size(); ++k) terms.push_back(number(node.coefficients[k]) * args[k]);
+                for (std::size_t k = 0; k < args.size(); ++k)
+                    terms.push_back(number(node.coefficients[k]) * args[k]);
                 return ex(GiNaC::add(terms));
             }
             case Op::product: {
@@ -44,20 +49,28 @@ private:
                 for (std::size_t k = 0; k < args.size(); ++k) factors.push_back(pow(args[k], node.exponents[k]));
                 return ex(GiNaC::mul(factors));
             }
-            case Op::pow: return ex(pow(args[0], args[1]));
-            default: return apply_function(name_of(node.op), args);
+            case Op::pow:
+                return ex(pow(args[0], args[1]));
+            default:
+                return apply_function(name_of(node.op), args);
         }
     }
 
     std::optional<ex> symbol(const Variable& v) const {
         const auto i = static_cast<std::size_t>(v.index);
         switch (v.kind) {
-            case Variable::Kind::time: return m_.t;
-            case Variable::Kind::coordinate: return m_.q[i];
-            case Variable::Kind::rate: return m_.qdot[i];
-            case Variable::Kind::acceleration: return m_.qddot[i];
-            case Variable::Kind::unknown: return unknown_[i];
-            case Variable::Kind::parameter: break;
+            case Variable::Kind::time:
+                return m_.t;
+            case Variable::Kind::coordinate:
+                return m_.q[i];
+            case Variable::Kind::rate:
+                return m_.qdot[i];
+            case Variable::Kind::acceleration:
+                return m_.qddot[i];
+            case Variable::Kind::unknown:
+                return unknown_[i];
+            case Variable::Kind::parameter:
+                break;
         }
         std::size_t position = 0;
         for (const Mechanism::Parameter& p : m_.parameters) {
@@ -75,7 +88,8 @@ private:
 
 }  // namespace
 
-std::optional<ex> expression_of(const Program& program, int node, const Mechanism& mechanism, const std::vector<GiNaC::symbol>& unknown, double largest) {
+std::optional<ex> expression_of(const Program& program, int node, const Mechanism& mechanism,
+                                const std::vector<GiNaC::symbol>& unknown, double largest) {
     if (program[node].size > largest) return {};
     return Raising(program, mechanism, unknown)(node);
 }

@@ -6,10 +6,10 @@
 #include <set>
 #include <tuple>
 
-#include "exact/common_zeros.hpp"
 #include "exact/angle_sum.hpp"
-#include "program/reduce_rows.hpp"
+#include "exact/common_zeros.hpp"
 #include "lower/lower.hpp"
+#include "program/reduce_rows.hpp"
 
 namespace alembert {
 
@@ -51,14 +51,17 @@ struct Coupled {
     Motions::Step step;
 };
 
-std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const std::set<std::pair<Variable::Kind, int>>& taken) {
+std::optional<Coupled> coupled(const std::vector<Occurrences>& held,
+                               const std::set<std::pair<Variable::Kind, int>>& taken) {
     const auto usable = [&](const auto& variable, std::size_t a, std::size_t b) {
         if (taken.contains(variable) || !held[b].contains(variable)) return false;
         for (std::size_t c = 0; c < held.size(); ++c) {
             const auto found = held[c].find(variable);
-            if (found != held[c].end() && ((c != a && c != b) || (found->second.plain && found->second.turned))) return false;
+            if (found != held[c].end() && ((c != a && c != b) || (found->second.plain && found->second.turned)))
+                return false;
         }
-        return held[a].at(variable).turned == held[b].at(variable).turned && variable.first != Variable::Kind::time;
+        return held[a].at(variable).turned == held[b].at(variable).turned &&
+               variable.first != Variable::Kind::time;
     };
     for (std::size_t a = 0; a < held.size(); ++a)
         for (std::size_t b = a + 1; b < held.size(); ++b) {
@@ -119,8 +122,11 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
         GiNaC::exmap still;
         for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
         std::vector<ex> balance;
-        for (int k = 0; k < m_; ++k) given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
-        const auto at_rest = [&](const ex& value) { return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern); };
+        for (int k = 0; k < m_; ++k)
+            given.emplace_back(e.lambda[k], program_.variable({Variable::Kind::unknown, k}));
+        const auto at_rest = [&](const ex& value) {
+            return m.z->expand(value).subs(still, GiNaC::subs_options::no_pattern);
+        };
         for (int i = 0; i < n_; ++i) {
             GiNaC::exvector terms{at_rest(e.forcing(i))};
             for (int k = 0; k < m_; ++k) terms.push_back(at_rest(e.A[k][i]) * e.lambda[k]);
@@ -146,7 +152,8 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     find_branches();
 }
 
-// From the last step to the first: a variable that no other condition contains can be found when all else is known.
+// From the last step to the first: a variable that no other condition contains can be found when all else is
+// known.
 void Motions::order(std::vector<int> conditions) {
     std::sort(conditions.begin(), conditions.end());
     conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
@@ -154,11 +161,13 @@ void Motions::order(std::vector<int> conditions) {
     for (const int node : conditions) held.push_back(occurrences(program_, node));
     std::set<std::pair<Variable::Kind, int>> taken;
     while (!conditions.empty()) {
-        // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns of the others.
+        // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns
+        // of the others.
         constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
         std::optional<std::pair<std::size_t, Step>> chosen;
         constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
-        for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {  // under a root only where nothing else is left
+        for (std::size_t choice = 0; choice < 2 * orders.size();
+             ++choice) {  // under a root only where nothing else is left
             const bool roots = choice >= orders.size();
             const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
             const bool any_multiple = orders[choice % orders.size()].second;
@@ -173,9 +182,12 @@ void Motions::order(std::vector<int> conditions) {
                     const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
                         return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
                     });
-                    if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned)) continue;
+                    if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned))
+                        continue;
                     const Variable unknown{variable.first, variable.second};
-                    if (!any_multiple && is_sum_of_variables(program_, conditions[c]) && !angle_sum(program_, conditions[c], unknown)) continue;
+                    if (!any_multiple && is_sum_of_variables(program_, conditions[c]) &&
+                        !angle_sum(program_, conditions[c], unknown))
+                        continue;
                     chosen.emplace(c, Step{{conditions[c], unknown, how.turned}, std::nullopt});
                     break;
                 }
@@ -233,7 +245,8 @@ Motions::Outcome Motions::solve_two(const Step& step, ExactState& state) const {
         },
         {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
     if (zeros.list.empty()) return {false, zeros.degree};
-    const auto& zero = zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
+    const auto& zero =
+        zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
     put(0, zero[0]), put(1, zero[1]);
     state.degree *= static_cast<double>(zeros.degree + 1);
     return {true, zeros.degree};
@@ -274,13 +287,15 @@ Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
         }
         const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
         if (all.empty()) return {false, count};
-        const std::size_t pick = state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
+        const std::size_t pick =
+            state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
         if (all[pick])
             put(*all[pick]);
         else
             state.point.given_angles[plain] = PrimeTurn{-1, 0};
         if (!step.turned)
-            if (const auto sum = angle_sum(program_, step.node, step.variable)) set_angle(state.point, *sum, *all[pick]);
+            if (const auto sum = angle_sum(program_, step.node, step.variable))
+                set_angle(state.point, *sum, *all[pick]);
         state.degree *= static_cast<double>(f.size() - 1);
         return {value_of(program_, step.node, state) == Prime(0), count};
     }
@@ -291,7 +306,9 @@ void Motions::find_branches() {
     irreducible_.assign(steps_.size(), false);
     constexpr std::uint64_t most_tries = 40, other_seeds = 1000000;
     std::vector<bool> known(steps_.size(), false);
-    for (std::uint64_t seed = 1; seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end(); ++seed) {
+    for (std::uint64_t seed = 1;
+         seed < most_tries && obstacle_.empty() && std::find(known.begin(), known.end(), false) != known.end();
+         ++seed) {
         ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
         for (std::size_t k = 0; k < steps_.size(); ++k) {
             const Outcome outcome = solve(steps_[k], state);
@@ -305,12 +322,14 @@ void Motions::find_branches() {
     }
 }
 
-std::optional<ExactState> Motions::at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
+std::optional<ExactState> Motions::at(std::uint64_t seed,
+                                      const std::map<std::pair<Variable::Kind, int>, Prime>& given) const {
     if (!obstacle_.empty()) return std::nullopt;
     ExactState state{.point = {.seed = seed, .given = given, .halves = halves_, .finer = finer_}};
     if (at_ == At::rest)
         for (int i = 0; i < n_; ++i)
-            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.point.given[{kind, i}] = 0;
+            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
+                state.point.given[{kind, i}] = 0;
     auto point = usable_->at(std::move(state.point));
     if (!point) return std::nullopt;
     state.point = std::move(*point);
@@ -341,7 +360,8 @@ bool Motions::move(ExactState& state) const {
         rows.back().push_back(-geometry->value[system_.drift[k]]);
     }
     reduce_rows(rows, n);
-    for (std::size_t i = 0; i < n; ++i) state.point.given[{Variable::Kind::rate, static_cast<int>(i)}] = state.point.random(800, i);
+    for (std::size_t i = 0; i < n; ++i)
+        state.point.given[{Variable::Kind::rate, static_cast<int>(i)}] = state.point.random(800, i);
     for (std::size_t k = rows.size(); k-- > 0;) {
         const auto pivot = std::find_if(rows[k].begin(), rows[k].end(), [](Prime p) { return !p.is_zero(); });
         if (pivot == rows[k].end()) continue;
@@ -354,7 +374,8 @@ bool Motions::move(ExactState& state) const {
     }
 
     wanted = system_.M;
-    for (const auto* part : {&system_.f, &system_.A, &system_.gamma}) wanted.insert(wanted.end(), part->begin(), part->end());
+    for (const auto* part : {&system_.f, &system_.A, &system_.gamma})
+        wanted.insert(wanted.end(), part->begin(), part->end());
     const auto at = evaluate_mod(program_, state.point, wanted);
     if (!at) return false;
     note(*at);
@@ -380,7 +401,8 @@ bool Motions::move(ExactState& state) const {
     if (reduce_rows(rows, n + m) < static_cast<int>(n + m)) return false;
     for (std::size_t i = 0; i < n; ++i)
         state.point.given[{Variable::Kind::acceleration, static_cast<int>(i)}] = rows[i][n + m];
-    for (std::size_t k = 0; k < m; ++k) state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = rows[n + k][n + m];
+    for (std::size_t k = 0; k < m; ++k)
+        state.point.given[{Variable::Kind::unknown, static_cast<int>(k)}] = rows[n + k][n + m];
     state.degree *= static_cast<double>(n + m) * entry + right + 1;
     return true;
 }

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Random states of a mechanism that are exact: they obey the constraints and their derivatives, with the accelerations and
-/// multipliers that the equations give, modulo 2⁶¹ − 1.
+/// Random states of a mechanism that are exact: they obey the constraints and their derivatives, with the
+/// accelerations and multipliers that the equations give, modulo 2⁶¹ − 1.
 ///
 ///     const Motions motions(mechanism, equations);
 ///     if (const auto state = motions.at(seed))
 ///         evaluate_mod(claim, state->point, roots);         // zero at each seed, if the claim is right
 ///
-/// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for all values of
-/// the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of them taken. An angle that
-/// occurs in sines and cosines alone is solved for by the tangent of its half. Two constraints that share two unknowns and
-/// leave no other way are solved together (exact/common_zeros.hpp). Conditions of a motion that have no order of solving of this
-/// kind are `loose`: the states are then on f(q, t) = const with any constants for these. What holds there, and divides by
-/// nothing that vanishes with f, holds on f = 0. Equations of rest without such an order have no states, and `obstacle` says so.
-/// Rates obey A q' + b = 0, accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
+/// Positions: each holonomic constraint is solved for one coordinate, or one parameter (what is asked holds for
+/// all values of the parameters), as the root of a polynomial: interpolated, all roots in the field found, one of
+/// them taken. An angle that occurs in sines and cosines alone is solved for by the tangent of its half. Two
+/// constraints that share two unknowns and leave no other way are solved together (exact/common_zeros.hpp).
+/// Conditions of a motion that have no order of solving of this kind are `loose`: the states are then on f(q, t) =
+/// const with any constants for these. What holds there, and divides by nothing that vanishes with f, holds on f =
+/// 0. Equations of rest without such an order have no states, and `obstacle` says so. Rates obey A q' + b = 0,
+/// accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
-/// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(), random, in equations that hold it.
+/// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(), random, in equations that hold
+/// it.
 ///
-/// Constraints may have several branches (x² = l²: x = l and x = −l), and what holds on one need not hold on the others: of the
-/// roots of a polynomial of degree d one is drawn, so that a branch is met at 1/d of the seeds at least. Where a quadratic equation
-/// has no root at some seed it is irreducible, and what holds at a random one of its roots holds at the other.
+/// Constraints may have several branches (x² = l²: x = l and x = −l), and what holds on one need not hold on the
+/// others: of the roots of a polynomial of degree d one is drawn, so that a branch is met at 1/d of the seeds at
+/// least. Where a quadratic equation has no root at some seed it is irreducible, and what holds at a random one of
+/// its roots holds at the other.
 ///
-/// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the general
-/// equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
+/// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
+/// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
 
 #include "exact/square_points.hpp"
 #include "formalism/equations.hpp"
@@ -32,9 +35,10 @@
 namespace alembert {
 
 struct ExactState {
-    ModularPoint point;     ///< coordinates, rates, accelerations; `unknown` k is the multiplier of constraint k
-    double degree = 1;      ///< of the accelerations in the random values, at most: for Schwartz's bound
-    double branches = 1;    ///< roots that the conditions have, each perhaps on a branch of its own: this one was drawn from them
+    ModularPoint point;  ///< coordinates, rates, accelerations; `unknown` k is the multiplier of constraint k
+    double degree = 1;   ///< of the accelerations in the random values, at most: for Schwartz's bound
+    double branches =
+        1;  ///< roots that the conditions have, each perhaps on a branch of its own: this one was drawn from them
     double conditions = 0;  ///< doublings of the chance of a failure (ModularValues)
     bool exact = true;      ///< no function was met whose identities are unknown
 };
@@ -43,15 +47,17 @@ class Motions {
 public:
     enum class At { motion, rest };
 
-    /// `halves`: angles that are solved for may occur in parts of 1/2^halves; `halvings`: all others in these (exact/square_points.hpp),
-    /// if not in the equations, in what will be asked.
-    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0, int halvings = 0);
+    /// `halves`: angles that are solved for may occur in parts of 1/2^halves; `halvings`: all others in these
+    /// (exact/square_points.hpp), if not in the equations, in what will be asked.
+    Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0,
+            int halvings = 0);
     Motions(const Motions&) = delete;
     Motions& operator=(const Motions&) = delete;
 
     /// Nothing at an unusable seed: no root in the field, a zero denominator.
     /// `given`: values instead of random ones, of what is not solved for.
-    std::optional<ExactState> at(std::uint64_t seed, const std::map<std::pair<Variable::Kind, int>, Prime>& given = {}) const;
+    std::optional<ExactState> at(std::uint64_t seed,
+                                 const std::map<std::pair<Variable::Kind, int>, Prime>& given = {}) const;
 
     /// Conditions, in program(), that the states need not obey.
     const std::vector<int>& loose() const { return loose_; }
@@ -64,7 +70,7 @@ public:
 
     /// A condition and the variable that it is solved for, and how; or two of each. In the order of solving.
     struct Unknown {
-        int node = 0;        ///< the condition, in program()
+        int node = 0;  ///< the condition, in program()
         Variable variable{};
         bool turned = false;  ///< as an angle in sines and cosines
     };
@@ -75,9 +81,9 @@ public:
 
     /// The system's entries as nodes: what other arithmetic can evaluate too.
     struct System {
-        std::vector<int> M;        ///< n·n, by rows
-        std::vector<int> f;        ///< n
-        std::vector<int> A;        ///< m·n, by rows
+        std::vector<int> M;             ///< n·n, by rows
+        std::vector<int> f;             ///< n
+        std::vector<int> A;             ///< m·n, by rows
         std::vector<int> drift, gamma;  ///< m
     };
     const Program& program() const { return program_; }

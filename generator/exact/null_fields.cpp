@@ -8,8 +8,8 @@ namespace alembert {
 
 using GiNaC::ex;
 
-std::optional<NullFields> null_fields(std::vector<std::vector<ex>> rows, std::vector<std::vector<std::vector<Prime>>> values,
-                                      Intermediates& z) {
+std::optional<NullFields> null_fields(std::vector<std::vector<ex>> rows,
+                                      std::vector<std::vector<std::vector<Prime>>> values, Intermediates& z) {
     NullFields result;
     const std::size_t size = rows.empty() ? 0 : rows[0].size();
     const auto is_zero = [&](std::size_t r, std::size_t i) {
@@ -18,7 +18,8 @@ std::optional<NullFields> null_fields(std::vector<std::vector<ex>> rows, std::ve
     const auto pivot_of = [&](std::size_t r) {
         std::size_t best = size;
         for (std::size_t i = 0; i + 1 < size; ++i) {
-            if (std::any_of(values.begin(), values.end(), [&](const auto& at) { return at[r][i].is_zero(); })) continue;
+            if (std::any_of(values.begin(), values.end(), [&](const auto& at) { return at[r][i].is_zero(); }))
+                continue;
             if (best == size || z.tree_size(rows[r][i]) < z.tree_size(rows[r][best])) best = i;
         }
         return best;

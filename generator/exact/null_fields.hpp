@@ -5,7 +5,8 @@
 ///
 ///     x' − r·φ' = 0:    X₁ = r ∂/∂x + ∂/∂φ,   X₂ = ∂/∂t
 ///
-/// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf ∂_p.
+/// Rows in echelon form, dz_p + Σ C_pf dz_f = 0 over the free variables f, have the null fields X_f = ∂_f − Σ C_pf
+/// ∂_p.
 
 #include "program/modular.hpp"
 #include "symbolic/intermediates.hpp"
@@ -17,9 +18,9 @@ struct NullFields {
     std::vector<std::size_t> pivots;             ///< one for each form; never the last variable
 };
 
-/// `forms` are independent without their last entry, `values[point][form][variable]` are their values at random points. What is zero at all
-/// of them counts as zero, also where the points are those of a variety: the fields are then right on that variety.
-/// Nothing where a point is unusable.
+/// `forms` are independent without their last entry, `values[point][form][variable]` are their values at random
+/// points. What is zero at all of them counts as zero, also where the points are those of a variety: the fields
+/// are then right on that variety. Nothing where a point is unusable.
 std::optional<NullFields> null_fields(std::vector<std::vector<GiNaC::ex>> forms,
                                       std::vector<std::vector<std::vector<Prime>>> values, Intermediates& z);
 

@@ -33,10 +33,12 @@ void find_variables(const Program& p, const std::vector<int>& roots, std::set<Ke
 /// Small numbers first, odder ones with the seed.
 class Numbers {
 public:
-    explicit Numbers(unsigned seed) : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
+    explicit Numbers(unsigned seed)
+        : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
     numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
     numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
-    /// Within (−1, 1), all over one denominator: so are the components of a unit quaternion, which rarely is found otherwise.
+    /// Within (−1, 1), all over one denominator: so are the components of a unit quaternion, which rarely is found
+    /// otherwise.
     numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
@@ -45,14 +47,17 @@ public:
     }
 
 private:
-    int pick(int low, int high) { return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1)); }
+    int pick(int low, int high) {
+        return low + static_cast<int>(random_() % static_cast<unsigned>(high - low + 1));
+    }
     std::mt19937 random_;
     int spread_, below_;
 };
 
-/// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where there is one.
-/// `seed` chooses among several.
-std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats, unsigned seed) {
+/// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where
+/// there is one. `seed` chooses among several.
+std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats,
+                               unsigned seed) {
     std::array<numeric, 4> y;
     for (int k = 0; k < 4; ++k) {
         const auto value = f(numeric(k - 1));
@@ -62,8 +67,10 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
     if (y[1].is_zero() && seed % 2 == 0) return numeric(0);
     const numeric c = y[1], b = (y[2] - y[0]) / 2, a = (y[2] + y[0]) / 2 - c;
     const numeric beyond = y[3] - (4 * a + 2 * b + c);
-    const bool quadratic = beyond.is_rational() ? beyond.is_zero() : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
-    if (quadratic && a.is_zero()) return b.is_zero() ? (c.is_zero() ? std::optional(numeric(1)) : std::nullopt) : std::optional(-c / b);
+    const bool quadratic =
+        beyond.is_rational() ? beyond.is_zero() : GiNaC::abs(beyond) < numeric(1, 1000000) * numeric(1, 1000000);
+    if (quadratic && a.is_zero())
+        return b.is_zero() ? (c.is_zero() ? std::optional(numeric(1)) : std::nullopt) : std::optional(-c / b);
     if (quadratic) {
         const numeric discriminant = b * b - 4 * a * c;
         if (discriminant.is_negative()) return std::nullopt;
@@ -98,9 +105,10 @@ void put(RealState& state, const Key& key, const numeric& x) {
         state.value[key] = x;
 }
 
-/// Newton's method in 50 digits from `x`: derivatives from differences of 1e-25, steps of least length where there are more unknowns
-/// than conditions. Angles are moved by the tangent of their half.
-bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions, const std::vector<Key>& keys, std::vector<numeric> x) {
+/// Newton's method in 50 digits from `x`: derivatives from differences of 1e-25, steps of least length where there
+/// are more unknowns than conditions. Angles are moved by the tangent of their half.
+bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions,
+                    const std::vector<Key>& keys, std::vector<numeric> x) {
     const std::size_t rows = conditions.size();
     const numeric small = GiNaC::ex_to<numeric>(GiNaC::ex(GiNaC::pow(numeric(10), numeric(-25))).evalf());
     for (numeric& value : x) value = GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
@@ -140,9 +148,10 @@ bool solve_together(const Motions& motions, RealState& state, const std::vector<
 }
 
 bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
-    return solve_together(motions, state, {step.node, step.second->node},
-                          {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
-                          {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
+    return solve_together(
+        motions, state, {step.node, step.second->node},
+        {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
+        {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
 }
 
 /// All loose conditions together, for all coordinates in them.
@@ -191,7 +200,8 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     const Motions::System& s = motions.entries();
     for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::rate, static_cast<int>(i)}] = numbers.any();
     if (m > 0) {
-        // Rates nearest to the chosen ones would be fractions of large numbers; the pivots' rates are solved for instead.
+        // Rates nearest to the chosen ones would be fractions of large numbers; the pivots' rates are solved for
+        // instead.
         const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.drift);
         if (!A || !b) return false;
         std::vector<std::size_t> pivots;
@@ -203,9 +213,9 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
                 for (std::size_t i = 0; i < n; ++i) rows[k][i] -= factor * rows[p][i];
                 rows[k][pivots[p]] = 0;
             }
-            const auto pivot = std::max_element(rows[k].begin(), rows[k].end(), [](const numeric& a, const numeric& b2) {
-                return GiNaC::abs(a) < GiNaC::abs(b2);
-            });
+            const auto pivot = std::max_element(
+                rows[k].begin(), rows[k].end(),
+                [](const numeric& a, const numeric& b2) { return GiNaC::abs(a) < GiNaC::abs(b2); });
             if (GiNaC::abs(*pivot) < GiNaC::pow(numeric(10), numeric(-30))) return false;
             pivots.push_back(static_cast<std::size_t>(pivot - rows[k].begin()));
         }
@@ -222,7 +232,8 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
         }
         const auto rates = solve_rows(std::move(equations), m);
         if (!rates) return false;
-        for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
+        for (std::size_t k = 0; k < m; ++k)
+            state.value[{Variable::Kind::rate, static_cast<int>(pivots[k])}] = (*rates)[k];
     }
     std::vector<int> roots = s.M;
     for (const auto* part : {&s.f, &s.A, &s.gamma}) roots.insert(roots.end(), part->begin(), part->end());
@@ -240,14 +251,17 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     for (std::size_t k = 0; k < m; ++k) rows[n + k][n + m] = (*value)[n * n + n + m * n + k];
     const auto solution = solve_rows(std::move(rows), n + m);
     if (!solution) return false;
-    for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
-    for (std::size_t k = 0; k < m; ++k) state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
+    for (std::size_t i = 0; i < n; ++i)
+        state.value[{Variable::Kind::acceleration, static_cast<int>(i)}] = (*solution)[i];
+    for (std::size_t k = 0; k < m; ++k)
+        state.value[{Variable::Kind::unknown, static_cast<int>(k)}] = (*solution)[n + k];
     return true;
 }
 
 }  // namespace
 
-std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed) {
+std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
+                                    unsigned seed) {
     if (!motions.obstacle().empty()) return std::nullopt;
     const Precision digits;
     Numbers numbers(seed);
@@ -255,7 +269,8 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     std::set<Key> angles, plain;
     const Motions::System& s = motions.entries();
     std::vector<int> entries = s.M;
-    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma}) entries.insert(entries.end(), part->begin(), part->end());
+    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma})
+        entries.insert(entries.end(), part->begin(), part->end());
     for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
     entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
     entries.insert(entries.end(), motions.implied().begin(), motions.implied().end());
@@ -275,16 +290,19 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
         else if (key.first == Variable::Kind::parameter || key.first == Variable::Kind::time)
             state.value[key] = numbers.positive();
         else
-            state.value[key] = seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
+            state.value[key] =
+                seed % 2 == 1 && key.first == Variable::Kind::coordinate ? numbers.small() : numbers.any();
     }
     if (motions.where() == Motions::At::rest) {
         for (int i = 0; i < motions.size(); ++i)
-            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration}) state.value[{kind, i}] = 0;
+            for (const Variable::Kind kind : {Variable::Kind::rate, Variable::Kind::acceleration})
+                state.value[{kind, i}] = 0;
         for (int k = 0; k < motions.constraints(); ++k) state.value[{Variable::Kind::unknown, k}] = numbers.any();
     }
     if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
     if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
-    for (const auto& [key, value] : state.value) state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
+    for (const auto& [key, value] : state.value)
+        state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
     return state;
 }
 

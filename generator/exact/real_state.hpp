@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// States of a mechanism in numbers that anyone can substitute (exact/real_values.hpp), with accelerations and multipliers that
-/// follow from them exactly.
+/// States of a mechanism in numbers that anyone can substitute (exact/real_values.hpp), with accelerations and
+/// multipliers that follow from them exactly.
 ///
 ///     for (unsigned seed = 0; seed < 100; ++seed)
 ///         if (const auto state = real_state(motions, claims, roots, seed))
-///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …     // a counterexample
+///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …     // a
+///             counterexample
 
 #include "exact/motions.hpp"
 #include "exact/real_values.hpp"
@@ -15,9 +16,11 @@ namespace alembert {
 
 inline constexpr unsigned first_float_seed = 400;
 
-/// A state that obeys the constraints; the larger the seed, the odder the numbers, and only from first_float_seed on floats where a
-/// constraint has no fraction as a solution. `claims`, `roots`: what will be asked of it; variables that stand in sines and cosines
-/// alone, there and in the equations, are angles. Nothing at an unusable seed.
-std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots, unsigned seed);
+/// A state that obeys the constraints; the larger the seed, the odder the numbers, and only from first_float_seed
+/// on floats where a constraint has no fraction as a solution. `claims`, `roots`: what will be asked of it;
+/// variables that stand in sines and cosines alone, there and in the equations, are angles. Nothing at an unusable
+/// seed.
+std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
+                                    unsigned seed);
 
 }  // namespace alembert

@@ -51,9 +51,12 @@ private:
         const Node& node = p_[id];
         const auto arg = [&](std::size_t k) -> const numeric& { return value_[node.args[k]]; };
         switch (node.op) {
-            case Op::number: return number(node.number);
-            case Op::pi: return GiNaC::ex_to<numeric>(GiNaC::Pi.evalf());
-            case Op::variable: return s_.value.at({node.variable.kind, node.variable.index});
+            case Op::number:
+                return number(node.number);
+            case Op::pi:
+                return GiNaC::ex_to<numeric>(GiNaC::Pi.evalf());
+            case Op::variable:
+                return s_.value.at({node.variable.kind, node.variable.index});
             case Op::sum: {
                 numeric sum = number(node.number);
                 for (std::size_t k = 0; k < node.args.size(); ++k) sum += number(node.coefficients[k]) * arg(k);
@@ -77,21 +80,36 @@ private:
                 const numeric x = real(arg(0));
                 return node.op == Op::sin ? GiNaC::sin(x) : node.op == Op::cos ? GiNaC::cos(x) : GiNaC::tan(x);
             }
-            case Op::sqrt: return GiNaC::sqrt(arg(0));  // exact for squares of fractions
-            case Op::abs: return GiNaC::abs(arg(0));
-            case Op::sign: return numeric(arg(0).csgn());
-            case Op::asin: return GiNaC::asin(real(arg(0)));
-            case Op::acos: return GiNaC::acos(real(arg(0)));
-            case Op::atan: return GiNaC::atan(real(arg(0)));
-            case Op::sinh: return GiNaC::sinh(real(arg(0)));
-            case Op::cosh: return GiNaC::cosh(real(arg(0)));
-            case Op::tanh: return GiNaC::tanh(real(arg(0)));
-            case Op::exp: return arg(0).is_zero() ? numeric(1) : GiNaC::exp(real(arg(0)));
-            case Op::log: return arg(0).is_positive() ? std::optional(GiNaC::log(real(arg(0)))) : std::nullopt;
-            case Op::pow: return GiNaC::pow(real(arg(0)), real(arg(1)));
-            case Op::atan2: return GiNaC::atan(real(arg(0)), real(arg(1)));
-            case Op::min: return std::min(arg(0), arg(1));
-            case Op::max: return std::max(arg(0), arg(1));
+            case Op::sqrt:
+                return GiNaC::sqrt(arg(0));  // exact for squares of fractions
+            case Op::abs:
+                return GiNaC::abs(arg(0));
+            case Op::sign:
+                return numeric(arg(0).csgn());
+            case Op::asin:
+                return GiNaC::asin(real(arg(0)));
+            case Op::acos:
+                return GiNaC::acos(real(arg(0)));
+            case Op::atan:
+                return GiNaC::atan(real(arg(0)));
+            case Op::sinh:
+                return GiNaC::sinh(real(arg(0)));
+            case Op::cosh:
+                return GiNaC::cosh(real(arg(0)));
+            case Op::tanh:
+                return GiNaC::tanh(real(arg(0)));
+            case Op::exp:
+                return arg(0).is_zero() ? numeric(1) : GiNaC::exp(real(arg(0)));
+            case Op::log:
+                return arg(0).is_positive() ? std::optional(GiNaC::log(real(arg(0)))) : std::nullopt;
+            case Op::pow:
+                return GiNaC::pow(real(arg(0)), real(arg(1)));
+            case Op::atan2:
+                return GiNaC::atan(real(arg(0)), real(arg(1)));
+            case Op::min:
+                return std::min(arg(0), arg(1));
+            case Op::max:
+                return std::max(arg(0), arg(1));
         }
         return std::nullopt;
     } catch (const std::exception&) {  // a pole
@@ -164,7 +182,8 @@ void put_angle(RealState& state, const RealState::Key& key, const RealState::Ang
                                        : 2 * GiNaC::atan(GiNaC::ex_to<numeric>(GiNaC::ex(angle.tangent).evalf()));
 }
 
-std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots) {
+std::optional<std::vector<numeric>> evaluate(const Program& program, const RealState& state,
+                                             const std::vector<int>& roots) {
     const Precision digits;
     return Evaluation(program, state).run(roots);
 }
@@ -174,7 +193,8 @@ std::optional<std::vector<numeric>> solve_rows(std::vector<std::vector<numeric>>
         std::size_t pivot = c;
         for (std::size_t r = c + 1; r < rows.size(); ++r)
             if (GiNaC::abs(rows[r][c]) > GiNaC::abs(rows[pivot][c])) pivot = r;
-        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30))) return std::nullopt;
+        if (pivot >= rows.size() || GiNaC::abs(rows[pivot][c]) < GiNaC::pow(numeric(10), numeric(-30)))
+            return std::nullopt;
         std::swap(rows[c], rows[pivot]);
         for (std::size_t r = 0; r < rows.size(); ++r) {
             if (r == c || rows[r][c].is_zero()) continue;

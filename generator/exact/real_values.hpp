@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Programs in numbers that anyone can substitute: fractions as long as the arithmetic stays in the rationals, otherwise floats of 50
-/// digits. Angles are such as 2·atan(1/3), whose sines and cosines are fractions.
+/// Programs in numbers that anyone can substitute: fractions as long as the arithmetic stays in the rationals,
+/// otherwise floats of 50 digits. Angles are such as 2·atan(1/3), whose sines and cosines are fractions.
 ///
 ///     if (const auto r = evaluate(program, state, roots)) r->front().is_zero()
 ///     text_of(state, key)                                                           // "2*atan(1/3)"
@@ -45,13 +45,15 @@ private:
 void put_angle(RealState& state, const RealState::Key& key, const RealState::Angle& angle);
 
 /// The values of `roots`; nothing where one is not a finite real number.
-std::optional<std::vector<GiNaC::numeric>> evaluate(const Program& program, const RealState& state, const std::vector<int>& roots);
+std::optional<std::vector<GiNaC::numeric>> evaluate(const Program& program, const RealState& state,
+                                                    const std::vector<int>& roots);
 
 /// As a person types it: "3/7", "2*atan(1/3)", a decimal.
 std::string text_of(const RealState& state, const RealState::Key& key);
 std::string text_of(const GiNaC::numeric& value);
 
 /// Gauss-Jordan elimination of rows of `columns` coefficients and a right-hand side; the solution if it is unique.
-std::optional<std::vector<GiNaC::numeric>> solve_rows(std::vector<std::vector<GiNaC::numeric>> rows, std::size_t columns);
+std::optional<std::vector<GiNaC::numeric>> solve_rows(std::vector<std::vector<GiNaC::numeric>> rows,
+                                                      std::size_t columns);
 
 }  // namespace alembert

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The order of drawing, from its end: the last variable is one that the fewest roots hold, and these are what it decides;
-// among the other roots the next to last likewise. No root then holds a variable that is drawn after the one that decides it.
+// The order of drawing, from its end: the last variable is one that the fewest roots hold, and these are what it
+// decides; among the other roots the next to last likewise. No root then holds a variable that is drawn after the
+// one that decides it.
 #include "exact/square_points.hpp"
 
 #include <algorithm>
@@ -24,9 +25,11 @@ int denominators_power(const Program& program, int id, std::map<int, int>& known
         result = power(node.number);
         for (std::size_t k = 0; k < node.args.size(); ++k)
             if (program[node.args[k]].op != Op::pi)
-                result = std::max(result, power(node.coefficients[k]) + denominators_power(program, node.args[k], known));
+                result = std::max(result,
+                                  power(node.coefficients[k]) + denominators_power(program, node.args[k], known));
     } else if (node.op == Op::product && !node.is_reciprocal()) {
-        for (std::size_t k = 0; k < node.args.size(); ++k) result += node.exponents[k] * denominators_power(program, node.args[k], known);
+        for (std::size_t k = 0; k < node.args.size(); ++k)
+            result += node.exponents[k] * denominators_power(program, node.args[k], known);
     }
     return known[id] = result;
 }
@@ -87,12 +90,15 @@ SquarePoints::SquarePoints(const std::vector<Part>& parts, const std::set<Key>& 
 std::optional<ModularPoint> SquarePoints::at(ModularPoint point) const {
     constexpr std::uint64_t most_draws = 4096;
     for (const Draw& draw : draws_) {
-        const auto exist = [&](const Part& part) { return evaluate_mod(*part.program, point, part.roots).has_value(); };
+        const auto exist = [&](const Part& part) {
+            return evaluate_mod(*part.program, point, part.roots).has_value();
+        };
         const bool is_given = point.given.contains(draw.key);
         std::uint64_t count = 0;
         while (!std::all_of(draw.decides.begin(), draw.decides.end(), exist)) {
             if (is_given || ++count == most_draws) return std::nullopt;
-            point.given[draw.key] = point.random(500 + static_cast<std::uint64_t>(draw.key.first), static_cast<std::uint64_t>(draw.key.second), count);
+            point.given[draw.key] = point.random(500 + static_cast<std::uint64_t>(draw.key.first),
+                                                 static_cast<std::uint64_t>(draw.key.second), count);
         }
     }
     return point;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// f at four values of one unknown: the third difference of a quadratic vanishes. In τ = tan(v/2) a function that is
-// linear in cos v and sin v is a quadratic over 1 + τ².
+// f at four values of one unknown: the third difference of a quadratic vanishes. In τ = tan(v/2) a function that
+// is linear in cos v and sin v is a quadratic over 1 + τ².
 #include "exact/variety.hpp"
 
 #include <algorithm>
@@ -73,23 +73,30 @@ private:
     std::set<Key> variables_of(const std::vector<int>& roots) const {
         std::set<Key> result;
         for (const int id : program_.needed(roots))
-            if (program_[id].op == Op::variable) result.emplace(program_[id].variable.kind, program_[id].variable.index);
+            if (program_[id].op == Op::variable)
+                result.emplace(program_[id].variable.kind, program_[id].variable.index);
         return result;
     }
 
     ModularPoint start(std::uint64_t seed) const {
-        return {.seed = seed, .given = given_, .given_angles = {}, .halves = halves_, .finer = std::max(0, halvings_ - halves_)};
+        return {.seed = seed,
+                .given = given_,
+                .given_angles = {},
+                .halves = halves_,
+                .finer = std::max(0, halvings_ - halves_)};
     }
 
     static void set(ModularPoint& point, const Unknown& unknown, Prime value) {
         if (unknown.how == How::turn)
-            point.given_angles[point.variable({unknown.key.first, unknown.key.second})] = PrimeTurn::rational(value);
+            point.given_angles[point.variable({unknown.key.first, unknown.key.second})] =
+                PrimeTurn::rational(value);
         else
             point.given[unknown.key] = value;
     }
 
     /// Coefficients of f (times 1 + τ² for a turn) as a polynomial in the unknown; nothing if it is not quadratic.
-    std::optional<std::array<Prime, 3>> quadratic(int f, const Unknown& unknown, ModularPoint point, double* degree) const {
+    std::optional<std::array<Prime, 3>> quadratic(int f, const Unknown& unknown, ModularPoint point,
+                                                  double* degree) const {
         std::array<Prime, 4> value;
         for (int k = 0; k < 4; ++k) {
             set(point, unknown, k);
@@ -110,7 +117,8 @@ private:
         while (!left.empty() && solvable_) {
             solvable_ = false;
             for (const How how : {How::plain, How::sum, How::turn})
-                for (const auto kind : {Variable::Kind::coordinate, Variable::Kind::parameter, Variable::Kind::time})
+                for (const auto kind :
+                     {Variable::Kind::coordinate, Variable::Kind::parameter, Variable::Kind::time})
                     for (const int k : left)
                         if (!solvable_ && possible(how, kind) && give(k, kind, how, left)) {
                             solvable_ = true;
@@ -134,8 +142,11 @@ private:
 
     bool give(int k, Variable::Kind kind, How how, const std::set<int>& left) {
         for (const Key& key : depends_[k]) {
-            if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != (how != How::plain)) continue;
-            if (std::any_of(left.begin(), left.end(), [&](int j) { return j != k && depends_[j].count(key) != 0; })) continue;
+            if (key.first != kind || given_.count(key) != 0 || (inside_.count(key) != 0) != (how != How::plain))
+                continue;
+            if (std::any_of(left.begin(), left.end(),
+                            [&](int j) { return j != k && depends_[j].count(key) != 0; }))
+                continue;
             Step step{.position = positions_[k], .unknown = {.key = key, .how = how}};
             if (how == How::sum) {
                 const auto sum = angle_sum(program_, step.position, {key.first, key.second});
@@ -145,7 +156,8 @@ private:
             const int former = halves_;
             if (how == How::turn) halves_ = 0;  // then sin(v/2), v given, makes every point unusable
             for (std::uint64_t seed = 1; seed <= 3; ++seed)
-                if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree); c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
+                if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree);
+                    c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
                     steps_.push_back(step);
                     return true;
                 }

@@ -17,7 +17,7 @@ struct Moving {
     std::vector<ex> places, accelerations;  ///< accelerations with q'' in them
     std::vector<std::pair<ex, ex>> pairs;   ///< place, inertia force
     std::vector<std::array<std::size_t, 2>> couples;
-    std::vector<ex> masses;                 ///< of couples of places: mass·a(first)·δ(second)
+    std::vector<ex> masses;  ///< of couples of places: mass·a(first)·δ(second)
 };
 
 Moving moving(const Mechanism& m) {
@@ -61,7 +61,9 @@ Moving moving(const Mechanism& m) {
 
 }  // namespace
 
-std::optional<std::string> obstacle_to_dalembert(const Mechanism& m) { return masses_unknown(m, "d'Alembert's equations"); }
+std::optional<std::string> obstacle_to_dalembert(const Mechanism& m) {
+    return masses_unknown(m, "d'Alembert's equations");
+}
 
 VirtualWork virtual_work(const Mechanism& m) {
     need_none(obstacle_to_dalembert(m));

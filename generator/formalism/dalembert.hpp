@@ -5,9 +5,9 @@
 ///
 ///     const Equations equations = dalembert(build(scene));
 ///
-/// From positions alone: virtual displacements are ∂r/∂q, accelerations are positions differentiated twice. A rigid body
-/// is its mass points, r_C + R ρ: no angular velocity is used. (Torques, of which only the turning that they work on
-/// is known, take ∂ω/∂q'.) Constraints enter with their multipliers.
+/// From positions alone: virtual displacements are ∂r/∂q, accelerations are positions differentiated twice. A
+/// rigid body is its mass points, r_C + R ρ: no angular velocity is used. (Torques, of which only the turning that
+/// they work on is known, take ∂ω/∂q'.) Constraints enter with their multipliers.
 
 #include "formalism/steps.hpp"
 

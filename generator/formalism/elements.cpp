@@ -23,7 +23,8 @@ std::vector<PlacedForce> conservative_forces(const Mechanism& m) {
         push(gravity_on(body.origin), body.position, scale(body.mass, m.gravity, z));
     for (const SpringElement& spring : m.springs) {
         if (!spring.between) {
-            forces.push_back({spring.origin, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
+            forces.push_back(
+                {spring.origin, spring.along, z.name(spring.stiffness * (spring.free_length - spring.along))});
             continue;
         }
         const auto& [first, second] = *spring.between;
@@ -49,7 +50,8 @@ std::vector<ex> work_of_loads(const Mechanism& m, bool dissipative) {
     for (const Load& load : m.loads)
         if (load.dissipative == dissipative)
             for (const Load::Pair& pair : load.pairs)
-                (pair.position ? displaced : turned).emplace_back(pair.position.value_or(pair.velocity), pair.force);
+                (pair.position ? displaced : turned)
+                    .emplace_back(pair.position.value_or(pair.velocity), pair.force);
     const std::vector<ex> a = m.z->pull_back(displaced, m.q), b = m.z->pull_back(turned, m.qdot);
     std::vector<ex> result;
     for (int i = 0; i < m.size(); ++i) result.push_back(m.z->name(a[i] + b[i]));
@@ -70,7 +72,8 @@ std::array<ex, 6> central_inertia(const MassElement& body, Intermediates& z) {
 }
 
 bool masses_are_known(const Mechanism& m) {
-    return !m.given_lagrangian && (m.kinetic.empty() || m.kinetic.back().origin.kind != Origin::Kind::given_kinetic);
+    return !m.given_lagrangian &&
+           (m.kinetic.empty() || m.kinetic.back().origin.kind != Origin::Kind::given_kinetic);
 }
 
 std::optional<std::string> no_coordinates(const Mechanism& m, const std::string& who) {
@@ -80,9 +83,10 @@ std::optional<std::string> no_coordinates(const Mechanism& m, const std::string&
 
 std::optional<std::string> masses_unknown(const Mechanism& m, const std::string& who) {
     if (m.size() == 0 || masses_are_known(m)) return no_coordinates(m, who);
-    return fmt::format("{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
-                       "use the formalism 'lagrange', or give the scene its particles and bodies",
-                       who, m.given_lagrangian ? "lagrangian" : "kinetic");
+    return fmt::format(
+        "{} start from the velocities of particles and bodies, and [energy] {} belongs to none; "
+        "use the formalism 'lagrange', or give the scene its particles and bodies",
+        who, m.given_lagrangian ? "lagrangian" : "kinetic");
 }
 
 std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, const GiNaC::exmap& by) {
@@ -97,7 +101,8 @@ std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, cons
             stack.pop_back();
             for (const ex& part : top) stack.push_back(part);
             if (!GiNaC::is_a<GiNaC::symbol>(top)) continue;
-            if (const auto* entry = z.find(GiNaC::ex_to<GiNaC::symbol>(top))) needed[entry - z.entries().data()] = 1;
+            if (const auto* entry = z.find(GiNaC::ex_to<GiNaC::symbol>(top)))
+                needed[entry - z.entries().data()] = 1;
         }
     };
     for (const ex& value : values) mark(value);

@@ -6,8 +6,8 @@
 ///     const Equations equations = lagrange(mechanism);
 ///     equations.M(0, 1); equations.f[0];
 ///
-/// The speeds are the rates, h = u, or others: then constraints whose rates they leave out are eliminated; those have no row
-/// of A, and their multipliers are recovered from the motion.
+/// The speeds are the rates, h = u, or others: then constraints whose rates they leave out are eliminated; those
+/// have no row of A, and their multipliers are recovered from the motion.
 ///
 /// For the readable form f is kept in three parts, as a textbook writes the equation:
 /// M u' − own − dissipative = applied + Aᵀλ.
@@ -22,36 +22,38 @@ namespace alembert {
 
 struct JointTree;
 
-/// Are all rates q' = h speeds, each u being its own form? A scene's [speeds] are symbols of their own, whatever they stand for.
+/// Are all rates q' = h speeds, each u being its own form? A scene's [speeds] are symbols of their own, whatever
+/// they stand for.
 inline bool speeds_are_rates(const std::vector<GiNaC::symbol>& u, const std::vector<GiNaC::ex>& form,
                              const std::vector<GiNaC::ex>& h) {
     return u.size() == h.size() &&
-           std::equal(u.begin(), u.end(), form.begin(), [](const GiNaC::symbol& a, const GiNaC::ex& b) { return b.is_equal(a); });
+           std::equal(u.begin(), u.end(), form.begin(),
+                      [](const GiNaC::symbol& a, const GiNaC::ex& b) { return b.is_equal(a); });
 }
 
 struct Equations {
-    std::string formalism;                ///< its name: "lagrange"
-    std::vector<GiNaC::symbol> q, u;      ///< coordinates; speeds
-    std::vector<GiNaC::symbol> udot;      ///< the unknowns
-    GiNaC::matrix M;                      ///< n×n, symmetric; no rows where it is left out (recursive_without_matrix)
-    std::vector<GiNaC::ex> own;           ///< velocity terms and potential forces
-    std::vector<GiNaC::ex> dissipative;   ///< generalized forces of dampers
-    std::vector<GiNaC::ex> applied;       ///< all other generalized forces
+    std::string formalism;            ///< its name: "lagrange"
+    std::vector<GiNaC::symbol> q, u;  ///< coordinates; speeds
+    std::vector<GiNaC::symbol> udot;  ///< the unknowns
+    GiNaC::matrix M;                  ///< n×n, symmetric; no rows where it is left out (recursive_without_matrix)
+    std::vector<GiNaC::ex> own;       ///< velocity terms and potential forces
+    std::vector<GiNaC::ex> dissipative;     ///< generalized forces of dampers
+    std::vector<GiNaC::ex> applied;         ///< all other generalized forces
     std::vector<std::vector<GiNaC::ex>> A;  ///< m rows of n
-    std::vector<GiNaC::ex> gamma;         ///< m
-    std::vector<GiNaC::symbol> lambda;    ///< m
+    std::vector<GiNaC::ex> gamma;           ///< m
+    std::vector<GiNaC::symbol> lambda;      ///< m
     /// Whose terms row i holds, as labels; only where no intermediate symbol is left to tell.
     std::vector<std::vector<std::string>> row_sources;
-    std::shared_ptr<Intermediates> z;     ///< what the intermediate symbols stand for
+    std::shared_ptr<Intermediates> z;  ///< what the intermediate symbols stand for
 
-    std::vector<GiNaC::ex> h = {};        ///< q' in q, u, t
-    std::vector<GiNaC::ex> form = {};     ///< u in q, q', t
+    std::vector<GiNaC::ex> h = {};     ///< q' in q, u, t
+    std::vector<GiNaC::ex> form = {};  ///< u in q, q', t
     struct Eliminated {
-        int constraint;                   ///< position in Mechanism::constraints
-        GiNaC::ex multiplier;             ///< in q, q', q'', t and the lambdas above
+        int constraint;        ///< position in Mechanism::constraints
+        GiNaC::ex multiplier;  ///< in q, q', q'', t and the lambdas above
     };
     std::vector<Eliminated> eliminated = {};
-    std::vector<GiNaC::ex> poles = {};    ///< where one of these vanishes h has no value
+    std::vector<GiNaC::ex> poles = {};           ///< where one of these vanishes h has no value
     std::shared_ptr<const JointTree> tree = {};  ///< of the recursive formalism: what its programs are made from
 
     int size() const { return static_cast<int>(u.size()); }
@@ -61,7 +63,8 @@ struct Equations {
     std::vector<int> kept(const Mechanism& mechanism) const {
         std::vector<int> result;
         for (int k = 0; k < static_cast<int>(mechanism.constraints.size()); ++k)
-            if (std::none_of(eliminated.begin(), eliminated.end(), [&](const Eliminated& e) { return e.constraint == k; }))
+            if (std::none_of(eliminated.begin(), eliminated.end(),
+                             [&](const Eliminated& e) { return e.constraint == k; }))
                 result.push_back(k);
         return result;
     }

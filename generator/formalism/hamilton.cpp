@@ -18,8 +18,9 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, std::vector<ex> x,
     std::vector<ex> inverse(n);
     for (int k = 0; k < n; ++k) {
         if (is_identically_zero(L(k, k), m))
-            return Obstacle{"the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
-                            "a mass, or use the formalism 'lagrange'"};
+            return Obstacle{
+                "the momenta do not determine the rates: the mass matrix is singular; give every coordinate "
+                "a mass, or use the formalism 'lagrange'"};
         inverse[k] = z.name(1 / L(k, k));
         for (int i = k + 1; i < n; ++i) {
             if (L(i, k).is_zero()) continue;
@@ -40,18 +41,27 @@ Possible<Canonical> canonical(const Mechanism& m) {
     const int n = m.size();
     if (const auto none = no_coordinates(m, "Hamilton's equations")) return Obstacle{*none};
     if (!m.constraints.empty())
-        return Obstacle{"Hamilton's equations need independent coordinates, and the scene has constraints; use the formalism 'routh'"};
+        return Obstacle{
+            "Hamilton's equations need independent coordinates, and the scene has constraints; use the formalism "
+            "'routh'"};
     Intermediates& z = *m.z;
     const ex L = m.lagrangian();
-    Canonical c{.p = {}, .momenta = z.pull_back({{L, 1}}, m.qdot), .M = GiNaC::matrix(n, n), .H = 0, .qdot = {}, .pdot = {}, .force = {}};
+    Canonical c{.p = {},
+                .momenta = z.pull_back({{L, 1}}, m.qdot),
+                .M = GiNaC::matrix(n, n),
+                .H = 0,
+                .qdot = {},
+                .pdot = {},
+                .force = {}};
     for (int j = 0; j < n; ++j) {
         const std::vector<ex> column = z.push_forward(c.momenta, {{m.qdot[j], 1}});
         for (int i = 0; i < n; ++i) {
             c.M(i, j) = short_form(column[i], m);
             for (const ex& third : z.push_forward({column[i]}, {{m.qdot[j], 1}}))
                 if (z.depends(column[i], m.qdot) && !is_identically_zero(third, m))
-                    return Obstacle{"Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
-                                    "is not; use the formalism 'lagrange'"};
+                    return Obstacle{
+                        "Hamilton's equations are made for a Lagrangian of second degree in the rates; this one "
+                        "is not; use the formalism 'lagrange'"};
         }
     }
     GiNaC::exmap still, rates;
@@ -86,7 +96,9 @@ Possible<Canonical> canonical(const Mechanism& m) {
     return c;
 }
 
-std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) { return canonical(m).obstacle(); }
+std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) {
+    return canonical(m).obstacle();
+}
 
 Equations hamilton(const Mechanism& m) {
     const Canonical c = canonical(m).value();
@@ -114,7 +126,8 @@ OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
         const int k = i % m.size();
         const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);
         if (!f) return {};
-        result.equations.push_back({i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), readable(*f), {}});
+        result.equations.push_back(
+            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), readable(*f), {}});
     }
     return result;
 }

@@ -14,12 +14,12 @@
 namespace alembert {
 
 struct Canonical {
-    std::vector<GiNaC::symbol> p;     ///< p_<coordinate>
-    std::vector<GiNaC::ex> momenta;   ///< ∂L/∂q' in q, q', t
-    GiNaC::matrix M;                  ///< ∂p/∂q'
+    std::vector<GiNaC::symbol> p;    ///< p_<coordinate>
+    std::vector<GiNaC::ex> momenta;  ///< ∂L/∂q' in q, q', t
+    GiNaC::matrix M;                 ///< ∂p/∂q'
     GiNaC::ex H;
     std::vector<GiNaC::ex> qdot, pdot;  ///< ∂H/∂p, −∂H/∂q + Q in q, p, t
-    std::vector<GiNaC::ex> force;     ///< −∂H/∂q alone
+    std::vector<GiNaC::ex> force;       ///< −∂H/∂q alone
 };
 
 /// An obstacle are constraints, an L that is not of second degree in the rates, and one whose matrix is singular.
@@ -32,6 +32,7 @@ Equations hamilton(const Mechanism& mechanism);
 OwnSteps steps_of_hamilton(const Mechanism& mechanism, const Equations& equations);
 
 /// X with M X = right, by symbolic elimination on a symmetric M; an obstacle is a pivot that is zero.
-Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, std::vector<GiNaC::ex> right, const Mechanism& mechanism);
+Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, std::vector<GiNaC::ex> right,
+                                             const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -19,7 +19,9 @@ using Rotation3 = Matrix<Named>;
 
 namespace {
 
-Rotation3 unity() { return {NamedVector{1, 0, 0}, NamedVector{0, 1, 0}, NamedVector{0, 0, 1}}; }
+Rotation3 unity() {
+    return {NamedVector{1, 0, 0}, NamedVector{0, 1, 0}, NamedVector{0, 0, 1}};
+}
 
 bool is_unity(const Rotation3& R) {
     for (int i = 0; i < 3; ++i)
@@ -28,7 +30,9 @@ bool is_unity(const Rotation3& R) {
     return true;
 }
 
-bool same_axis(const Vector3& a, const Vector3& b) { return a[0].is_equal(b[0]) && a[1].is_equal(b[1]) && a[2].is_equal(b[2]); }
+bool same_axis(const Vector3& a, const Vector3& b) {
+    return a[0].is_equal(b[0]) && a[1].is_equal(b[1]) && a[2].is_equal(b[2]);
+}
 
 /// Where a point is: in a link's own axes, and those of a frame beside them.
 struct Seat {
@@ -58,7 +62,8 @@ private:
 
     /// The first obstacle is kept; what is made of the body after it is of no consequence, and left as it is.
     void refuse(const std::string& why) {
-        if (!obstacle_) obstacle_ = Obstacle{"the recursive formalism goes from body to body along joints: " + why};
+        if (!obstacle_)
+            obstacle_ = Obstacle{"the recursive formalism goes from body to body along joints: " + why};
     }
 
     std::string shown(const ex& e) const {
@@ -74,7 +79,8 @@ private:
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) {
                 const ex tilde = i == k ? ex(0) : ((k - i + 3) % 3 == 1 ? -a[3 - i - k] : a[3 - i - k]);
-                R[i][k] = named(a[i].is_equal(1) && i == k ? ex(1) : (i == k ? c : ex(0)) + (1 - c) * a[i] * a[k] + s * tilde);
+                R[i][k] = named(
+                    a[i].is_equal(1) && i == k ? ex(1) : (i == k ? c : ex(0)) + (1 - c) * a[i] * a[k] + s * tilde);
             }
         return R;
     }
@@ -90,7 +96,8 @@ private:
         const ParameterValues values(m_);
         int across = 0;  // the letter that the axis is farthest from
         for (int k = 1; k < 3; ++k)
-            if (std::abs(values.number(z_.expand(a[k]))) < std::abs(values.number(z_.expand(a[across])))) across = k;
+            if (std::abs(values.number(z_.expand(a[k]))) < std::abs(values.number(z_.expand(a[across]))))
+                across = k;
         NamedVector z = named(a), x{0, 0, 0};
         x[across] = 1;
         x = x - z[across] * z;
@@ -100,16 +107,17 @@ private:
     }
 
     struct Fixed {
-        int frame;  ///< the moving one that this one is fixed in; 0 for N
+        int frame;    ///< the moving one that this one is fixed in; 0 for N
         Rotation3 R;  ///< components along this one → along that
     };
     const Fixed& fixed(int f) {
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
         const Skeleton::Turn& turn_step = m_.skeleton.frames[f];
         if (turn_step.by_quaternion) {
-            refuse(fmt::format("{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or "
-                               "the formalism 'routh' or 'kane'",
-                               label_));
+            refuse(fmt::format(
+                "{} turns by a quaternion, which is no chain of joints with one rate each; use Euler angles, or "
+                "the formalism 'routh' or 'kane'",
+                label_));
             return fixed_[f] = {0, unity()};
         }
         if (f == 0 || moves(turn_step.angle)) return fixed_[f] = {f, unity()};
@@ -134,9 +142,10 @@ private:
         for (int i = 0; i < m_.size(); ++i) {
             const ex slope = plain.has(m_.q[i]) ? plain.diff(m_.q[i]) : ex(0);
             if (!GiNaC::is_a<GiNaC::numeric>(slope) || !slope.info(GiNaC::info_flags::rational))
-                return refuse(fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
-                                          "formalism 'lagrange' or 'kane'",
-                                          label_, what, shown(position)));
+                return refuse(
+                    fmt::format("{} {} by '{}', which is no sum of coordinates with numbers as factors; use the "
+                                "formalism 'lagrange' or 'kane'",
+                                label_, what, shown(position)));
             joint.row.push_back(GiNaC::ex_to<GiNaC::numeric>(slope));
             rest -= slope * m_.q[i];
             rate.push_back(slope * m_.qdot[i]);
@@ -166,7 +175,8 @@ private:
         return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
     }
 
-    /// The turns that lead from one frame to another that does not come after it: up to the first common frame, then down.
+    /// The turns that lead from one frame to another that does not come after it: up to the first common frame,
+    /// then down.
     Seat turned_across(Seat seat, int from, int to) {
         struct Move {
             Vector3 axis;
@@ -218,7 +228,8 @@ private:
         if (point == 0) return {0, Seat{}};
         const Skeleton::Step& step = m_.skeleton.points[point];
         const Fixed along = fixed(step.frame);
-        if (const auto found = seats_.find({along.frame, point}); found != seats_.end()) return {along.frame, found->second};
+        if (const auto found = seats_.find({along.frame, point}); found != seats_.end())
+            return {along.frame, found->second};
         Seat seat = seat_of(along.frame, step.from);
         NamedVector constant{0, 0, 0};
         std::vector<std::pair<NamedVector, ex>> slides;  // direction along the frame's axes, position
@@ -233,9 +244,10 @@ private:
                 if (!is_moved[k] || !rest[k].has(m_.q[i])) continue;
                 const ex slope = rest[k].diff(m_.q[i]);
                 if (moves(slope)) {
-                    refuse(fmt::format("{} is on a point shifted by '{}', which is not linear in the coordinates; place it by "
-                                       "frames or joints, or use the formalism 'lagrange' or 'kane'",
-                                       label_, shown(step.offset[k])));
+                    refuse(fmt::format(
+                        "{} is on a point shifted by '{}', which is not linear in the coordinates; place it by "
+                        "frames or joints, or use the formalism 'lagrange' or 'kane'",
+                        label_, shown(step.offset[k])));
                     return {along.frame, seat};
                 }
                 direction[k] = named(slope);
@@ -319,7 +331,9 @@ private:
 
 }  // namespace
 
-Possible<JointTree> joint_tree(const Mechanism& m) { return Finder(m).find(); }
+Possible<JointTree> joint_tree(const Mechanism& m) {
+    return Finder(m).find();
+}
 
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
     std::vector<Dress> result(tree.joints.size());
@@ -361,7 +375,9 @@ bool has_parallel_axes(const JointTree& tree) {
 bool is_planar_chain(const JointTree& tree) {
     const std::vector<Dress> how = dress(tree, LinkAxes::still);
     for (std::size_t j = 0; j < how.size(); ++j)
-        if (tree.joints[j].link.parent != static_cast<int>(j) - 1 || !how[j].absolute || (j > 0 && !how[j].continues)) return false;
+        if (tree.joints[j].link.parent != static_cast<int>(j) - 1 || !how[j].absolute ||
+            (j > 0 && !how[j].continues))
+            return false;
     return how.size() > 1;
 }
 
@@ -371,7 +387,8 @@ std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAx
     for (std::size_t j = 0; j < tree.joints.size(); ++j) {
         rows.push_back(tree.joints[j].row);
         if (!how[j].absolute || how[j].base < 0) continue;
-        for (std::size_t i = 0; i < rows[j].size(); ++i) rows[j][i] += rows[static_cast<std::size_t>(how[j].base)][i];
+        for (std::size_t i = 0; i < rows[j].size(); ++i)
+            rows[j][i] += rows[static_cast<std::size_t>(how[j].base)][i];
     }
     return rows;
 }

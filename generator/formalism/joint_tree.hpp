@@ -6,10 +6,10 @@
 ///     const JointTree tree = joint_tree(mechanism);
 ///     const BodyTree<Named> still = dressed<Named>(tree, LinkAxes::still, value);
 ///
-/// A link is whatever keeps its place against a frame that turns or a point that is shifted; each turn whose angle moves and each
-/// coordinate in an offset is a joint. Joints' rates are w = S q' + w₀ with rational S: a frame that is turned against N, on a body that
-/// itself turns, has w = θ₂' − θ₁'. Where axes that stay parallel follow each other from the ground on, the angles and rates from
-/// the ground may be taken instead (`LinkAxes::still`).
+/// A link is whatever keeps its place against a frame that turns or a point that is shifted; each turn whose angle
+/// moves and each coordinate in an offset is a joint. Joints' rates are w = S q' + w₀ with rational S: a frame
+/// that is turned against N, on a body that itself turns, has w = θ₂' − θ₁'. Where axes that stay parallel follow
+/// each other from the ground on, the angles and rates from the ground may be taken instead (`LinkAxes::still`).
 
 #include <functional>
 
@@ -22,17 +22,18 @@
 namespace alembert {
 
 struct TreeJoint {
-    TreeLink<Named> link;                         ///< without what depends on the state
-    GiNaC::ex position, rate, drift;          ///< angle or shift, w, w' at q'' = 0
-    std::vector<GiNaC::numeric> row;          ///< of S
-    bool parallel = false;                    ///< its axes are those of the parent, but for a turn about z
+    TreeLink<Named> link;             ///< without what depends on the state
+    GiNaC::ex position, rate, drift;  ///< angle or shift, w, w' at q'' = 0
+    std::vector<GiNaC::numeric> row;  ///< of S
+    bool parallel = false;            ///< its axes are those of the parent, but for a turn about z
 };
 
 struct JointTree {
     std::vector<TreeJoint> joints;
     Triple<Named> gravity;
     int coordinates = 0;
-    std::vector<GiNaC::ex> forces = {};       ///< generalized forces but for gravity and inertia, where the formalism has set them
+    std::vector<GiNaC::ex> forces =
+        {};  ///< generalized forces but for gravity and inertia, where the formalism has set them
 };
 
 /// The obstacle of a scene that is no such tree: what is missing, and where.
@@ -54,9 +55,12 @@ bool is_planar_chain(const JointTree& tree);
 
 /// Over another scalar: `value` takes an expression there.
 template <typename S>
-BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z, const std::function<S(const GiNaC::ex&)>& value) {
+BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
+                    const std::function<S(const GiNaC::ex&)>& value) {
     const std::vector<Dress> how = dress(joints, axes);
-    const auto vector = [&](const Triple<Named>& v) { return Triple<S>{value(v[0].e), value(v[1].e), value(v[2].e)}; };
+    const auto vector = [&](const Triple<Named>& v) {
+        return Triple<S>{value(v[0].e), value(v[1].e), value(v[2].e)};
+    };
     BodyTree<S> tree{.links = {}, .gravity = vector(joints.gravity)};
     std::vector<GiNaC::ex> angle, rate, drift;
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {

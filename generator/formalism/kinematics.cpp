@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// [W; A] q̇ = (u − w, −b)  (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), A being the constraints that u leaves out.
-// x_c = Σ_r (−1)^(r+c) minor_rc right_r / det  (Cramer's rule).
+// [W; A] q̇ = (u − w, −b)  (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), A being the constraints that u
+// leaves out. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det  (Cramer's rule).
 #include "formalism/kinematics.hpp"
 
 #include <fmt/format.h>
@@ -25,12 +25,20 @@ namespace {
 constexpr const char* dependent_constraints = "the nonholonomic constraints depend on each other";
 constexpr std::size_t largest_block = 10;  // minors of a block of k rows: k 2^k
 
-bool is_number(const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }
+bool is_number(const ex& e) {
+    return GiNaC::is_a<GiNaC::numeric>(e);
+}
 
 class Elimination {
 public:
     Elimination(matrix S, matrix right, const Mechanism& m, std::string message)
-        : m_(m), z_(*m.z), S_(std::move(S)), right_(std::move(right)), message_(std::move(message)), n_(S_.rows()), x_(n_, right_.cols()) {}
+        : m_(m),
+          z_(*m.z),
+          S_(std::move(S)),
+          right_(std::move(right)),
+          message_(std::move(message)),
+          n_(S_.rows()),
+          x_(n_, right_.cols()) {}
 
     Possible<Solution> solve() {
         for (unsigned i = 0; i < n_; ++i) {
@@ -38,7 +46,8 @@ public:
             rows_.push_back(i);
             columns_.push_back(i);
         }
-        while (eliminate_number()) {}
+        while (eliminate_number()) {
+        }
         while (!rows_.empty())
             if (const auto obstacle = solve_block()) return Obstacle{*obstacle};
         for (auto pivot = pivots_.rbegin(); pivot != pivots_.rend(); ++pivot) {
@@ -57,7 +66,8 @@ private:
     ex tidy(const ex& e) const { return short_form(z_.name(e), m_); }
 
     int entries(unsigned row) const {
-        return static_cast<int>(std::count_if(columns_.begin(), columns_.end(), [&](unsigned c) { return !S_(row, c).is_zero(); }));
+        return static_cast<int>(
+            std::count_if(columns_.begin(), columns_.end(), [&](unsigned c) { return !S_(row, c).is_zero(); }));
     }
 
     /// The pivot that is a number in the row with the fewest entries.
@@ -65,7 +75,8 @@ private:
         std::optional<std::pair<unsigned, unsigned>> best;
         for (const unsigned r : rows_)
             for (const unsigned c : columns_)
-                if (is_number(S_(r, c)) && !S_(r, c).is_zero() && (!best || entries(r) < entries(best->first))) best = {r, c};
+                if (is_number(S_(r, c)) && !S_(r, c).is_zero() && (!best || entries(r) < entries(best->first)))
+                    best = {r, c};
         if (!best) return false;
         const auto [p, c] = *best;
         std::erase(rows_, p);
@@ -86,14 +97,17 @@ private:
         std::vector<unsigned> block{rows_.front()}, columns;
         for (std::size_t i = 0; i < block.size(); ++i)
             for (const unsigned c : columns_) {
-                if (S_(block[i], c).is_zero() || std::find(columns.begin(), columns.end(), c) != columns.end()) continue;
+                if (S_(block[i], c).is_zero() || std::find(columns.begin(), columns.end(), c) != columns.end())
+                    continue;
                 columns.push_back(c);
                 for (const unsigned r : rows_)
-                    if (!S_(r, c).is_zero() && std::find(block.begin(), block.end(), r) == block.end()) block.push_back(r);
+                    if (!S_(r, c).is_zero() && std::find(block.begin(), block.end(), r) == block.end())
+                        block.push_back(r);
             }
         std::sort(block.begin(), block.end());
         std::sort(columns.begin(), columns.end());
-        if (block.size() > largest_block) return message_ + ", in symbols: too many of them are tied to each other";
+        if (block.size() > largest_block)
+            return message_ + ", in symbols: too many of them are tied to each other";
         minors_.clear();
         const ex det = block.size() == columns.size() ? minor(block, columns) : ex(0);
         if (det.is_zero() || is_identically_zero(det, m_)) return message_;
@@ -119,8 +133,10 @@ private:
         if (!GiNaC::is_a<GiNaC::mul>(plain) && !GiNaC::is_a<GiNaC::power>(plain)) return det;
         ex result = 1;
         const auto take = [&](const ex& factor) {
-            const bool is_power = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
-            const bool is_pole = GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::negint);  // never zero
+            const bool is_power =
+                GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::posint);
+            const bool is_pole =
+                GiNaC::is_a<GiNaC::power>(factor) && factor.op(1).info(GiNaC::info_flags::negint);  // never zero
             if (!is_pole && z_.depends(factor, m_.moving())) result *= is_power ? factor.op(0) : factor;
         };
         if (GiNaC::is_a<GiNaC::mul>(plain))
@@ -154,7 +170,7 @@ private:
     unsigned n_;
     matrix x_;
     std::vector<ex> poles_;
-    std::vector<unsigned> rows_, columns_;                    // not yet solved for
+    std::vector<unsigned> rows_, columns_;  // not yet solved for
     std::vector<std::pair<unsigned, unsigned>> pivots_;
     std::map<std::pair<std::vector<unsigned>, std::vector<unsigned>>, ex> minors_;
 };
@@ -167,8 +183,8 @@ std::vector<int> nonholonomic(const Mechanism& m) {
 }
 
 /// h for these speeds: [W; A] q' = (u − w, −b), columns of the right side for each u and for 1.
-Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds, const std::vector<int>& eliminated,
-                            const std::string& message) {
+Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds,
+                                      const std::vector<int>& eliminated, const std::string& message) {
     const int n = m.size(), count = static_cast<int>(speeds.size());
     Kinematics k;
     k.eliminated = eliminated;
@@ -205,13 +221,17 @@ Possible<Kinematics> with_given_speeds(const Mechanism& m) {
     if (count != n) eliminated = count + static_cast<int>(all.size()) == n ? all : nonholonomic(m);
     if (count + static_cast<int>(eliminated.size()) != n) {
         std::string numbers;
-        for (const int allowed : allowed_speeds(m)) numbers += (numbers.empty() ? "" : " or ") + std::to_string(allowed);
-        return Obstacle{fmt::format("the scene has {} generalized speed{}; expected {}", count, count == 1 ? "" : "s", numbers)};
+        for (const int allowed : allowed_speeds(m))
+            numbers += (numbers.empty() ? "" : " or ") + std::to_string(allowed);
+        return Obstacle{fmt::format("the scene has {} generalized speed{}; expected {}", count,
+                                    count == 1 ? "" : "s", numbers)};
     }
-    return solved_for_rates(m, m.speeds, eliminated, "the speeds, with the constraints, do not determine the rates of the coordinates");
+    return solved_for_rates(m, m.speeds, eliminated,
+                            "the speeds, with the constraints, do not determine the rates of the coordinates");
 }
 
-/// The rate that each constraint is solved for: rows are reduced in floating point at the start, pivots as the header says.
+/// The rate that each constraint is solved for: rows are reduced in floating point at the start, pivots as the
+/// header says.
 Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector<int>& constraints) {
     const ParameterValues values(m);
     GiNaC::exmap start{{m.t, m.run.start.value_or(0)}};
@@ -246,8 +266,9 @@ Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector
                     std::tie(row, column, best_kind, best) = std::tuple(r, c, kind[r][c], size);
             }
         if (best_kind < 0)
-            return Obstacle{"the nonholonomic constraints do not determine as many rates at the start; "
-                            "give the scene generalized speeds, [speeds]"};
+            return Obstacle{
+                "the nonholonomic constraints do not determine as many rates at the start; "
+                "give the scene generalized speeds, [speeds]"};
         result[row] = static_cast<int>(column);
         for (std::size_t r = 0; r < rows.size(); ++r) {
             if (result[r] >= 0 || rows[r][column] == 0) continue;
@@ -263,7 +284,14 @@ Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector
 }
 
 Mechanism::Speed rate_as_speed(const Mechanism& m, int i) {
-    Mechanism::Speed speed{.u = m.qdot[i], .udot = m.qddot[i], .form = m.qdot[i], .row = {}, .drift = 0, .start = {}, .unit = {}, .place = {}};
+    Mechanism::Speed speed{.u = m.qdot[i],
+                           .udot = m.qddot[i],
+                           .form = m.qdot[i],
+                           .row = {},
+                           .drift = 0,
+                           .start = {},
+                           .unit = {},
+                           .place = {}};
     speed.row.assign(m.q.size(), 0);
     speed.row[i] = 1;
     return speed;
@@ -289,8 +317,8 @@ std::pair<GiNaC::symbol, GiNaC::symbol> fresh_speed(const Mechanism& m, int& num
     }
 }
 
-/// Constraints and coordinates that hang together: k rows in k + 1 rates leave one combination of these, Σ N_j q'_j with N_j the
-/// minors of the rows. It is a speed wherever the rows are independent.
+/// Constraints and coordinates that hang together: k rows in k + 1 rates leave one combination of these, Σ N_j
+/// q'_j with N_j the minors of the rows. It is a speed wherever the rows are independent.
 std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vector<int>& constraints) {
     std::vector<Mechanism::Speed> speeds;
     std::vector<char> done(m.q.size(), 0);
@@ -325,7 +353,8 @@ std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vecto
         for (unsigned j = 0; j <= k; ++j) {
             matrix minor(k, k);
             for (unsigned r = 0; r < k; ++r)
-                for (unsigned c = 0; c < k; ++c) minor(r, c) = m.z->expand(m.constraints[rows[r]].row[columns[c < j ? c : c + 1]]);
+                for (unsigned c = 0; c < k; ++c)
+                    minor(r, c) = m.z->expand(m.constraints[rows[r]].row[columns[c < j ? c : c + 1]]);
             const ex entry = short_form(m.z->name((j % 2 == 0 ? 1 : -1) * minor.determinant()), m);
             if (sign == 0 && !entry.is_zero()) {
                 const auto f = fourier(m.z->expand(entry), *m.symbols, 200);
@@ -348,7 +377,8 @@ Possible<Kinematics> with_remaining_rates(const Mechanism& m, const std::vector<
     const std::vector<int>& dependent = pivots.value();
     std::vector<Mechanism::Speed> speeds;
     for (int i = 0; i < m.size(); ++i)
-        if (std::find(dependent.begin(), dependent.end(), i) == dependent.end()) speeds.push_back(rate_as_speed(m, i));
+        if (std::find(dependent.begin(), dependent.end(), i) == dependent.end())
+            speeds.push_back(rate_as_speed(m, i));
     Possible<Kinematics> rates = solved_for_rates(m, speeds, constraints, dependent_constraints);
     if (!rates.exists() || rates.value().poles.empty()) return rates;
     if (std::optional<Kinematics> free = with_null_vectors(m, constraints)) return *std::move(free);
@@ -367,7 +397,8 @@ std::vector<ex> accelerations(const Mechanism& m, const Equations& e) {
     return result;
 }
 
-Possible<Solution> solve_exactly(const matrix& S, const matrix& right, const Mechanism& m, const std::string& message) {
+Possible<Solution> solve_exactly(const matrix& S, const matrix& right, const Mechanism& m,
+                                 const std::string& message) {
     return Elimination(S, right, m, message).solve();
 }
 
@@ -379,12 +410,14 @@ std::vector<int> allowed_speeds(const Mechanism& m) {
 }
 
 Kinematics rates_as_speeds(const Mechanism& m) {
-    return {.u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
+    return {
+        .u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
 }
 
 Possible<Kinematics> kinematics(const Mechanism& m) {
     if (!m.speeds.empty()) return with_given_speeds(m);
-    if (const std::vector<int> constraints = nonholonomic(m); !constraints.empty()) return with_remaining_rates(m, constraints);
+    if (const std::vector<int> constraints = nonholonomic(m); !constraints.empty())
+        return with_remaining_rates(m, constraints);
     return rates_as_speeds(m);
 }
 

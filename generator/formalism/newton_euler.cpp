@@ -12,7 +12,9 @@ using GiNaC::ex;
 
 namespace {
 
-bool is_zero(const Vector3& v) { return v[0].is_zero() && v[1].is_zero() && v[2].is_zero(); }
+bool is_zero(const Vector3& v) {
+    return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
+}
 
 }  // namespace
 
@@ -39,13 +41,15 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
                 own[r].push_back(dot(right, J[r], z));
             }
         };
-        add_rows(motion.J_T, [&](const Vector3& v) { return scale(body.mass, v, z); },
-                 scale(body.mass, add(m.gravity, scale(-1, motion.a_bar, z), z), z));
+        add_rows(
+            motion.J_T, [&](const Vector3& v) { return scale(body.mass, v, z); },
+            scale(body.mass, add(m.gravity, scale(-1, motion.a_bar, z), z), z));
         if (!body.rotation) continue;
         const std::array<ex, 6> I = central_inertia(body, z);
         const Vector3 gyroscopic = cross(motion.w, inertia_times(I, motion.w, z), z);
-        add_rows(motion.J_R, [&](const Vector3& v) { return inertia_times(I, v, z); },
-                 scale(-1, add(inertia_times(I, motion.alpha_bar, z), gyroscopic, z), z));
+        add_rows(
+            motion.J_R, [&](const Vector3& v) { return inertia_times(I, v, z); },
+            scale(-1, add(inertia_times(I, motion.alpha_bar, z), gyroscopic, z), z));
     }
     Equations equations = equations_without_terms(formalism, m);
     equations.dissipative = work_of_loads(m, true);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Newton's and Euler's equations of all bodies, stacked, and their projection on the coordinates: what multibody formalisms
-/// share once each has its Jacobians and accelerations.
+/// Newton's and Euler's equations of all bodies, stacked, and their projection on the coordinates: what multibody
+/// formalisms share once each has its Jacobians and accelerations.
 ///
-/// For body i with mass m, central inertia I (along the body's axes), velocity and angular velocity linear in the rates,
+/// For body i with mass m, central inertia I (along the body's axes), velocity and angular velocity linear in the
+/// rates,
 ///     v = J_T q' + …,   ω = J_R q' + …,   a = J_T q'' + ā,   α = J_R q'' + ᾱ,
 /// the equations of all bodies with the reactions g are M̄ J̄ q'' + k̄ = q̄ᵉ + Q̄ g, with
 ///     M̄ = diag(m E, I),   J̄ = (J_T, J_R),   k̄ = (m ā, I ᾱ + ω × I ω).
@@ -24,9 +25,10 @@ struct BodyMotion {
     Vector3 w, alpha_bar;      ///< along the body's axes
 };
 
-/// In the order of Mechanism::masses. Gravity acts on the bodies and comes by J_T; other loads by the Jacobians of the points
-/// and expressions that they act on. Constraints enter with their multipliers.
-Equations projected(const std::string& formalism, const Mechanism& mechanism, const std::vector<BodyMotion>& bodies);
+/// In the order of Mechanism::masses. Gravity acts on the bodies and comes by J_T; other loads by the Jacobians of
+/// the points and expressions that they act on. Constraints enter with their multipliers.
+Equations projected(const std::string& formalism, const Mechanism& mechanism,
+                    const std::vector<BodyMotion>& bodies);
 
 /// M̄ of a body's rotation times w: I w.
 Vector3 inertia_times(const std::array<GiNaC::ex, 6>& I, const Vector3& w, Intermediates& z);

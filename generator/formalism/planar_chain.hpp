@@ -3,17 +3,20 @@
 
 /// M w' = f of a chain of links in a plane, from both of its ends at once.
 ///
-///     const std::vector<double> wdot = from_both_ends(tree, f);      // f = Q − n; for trees that are one: is_planar_chain
+///     const std::vector<double> wdot = from_both_ends(tree, f);      // f = Q − n; for trees that are one:
+///     is_planar_chain
 ///
-/// With rates from the ground and regrouped bodies (recursion.hpp), M_ij = r_i · h_j for i < j and M_jj = J_j: r_i leads from
-/// link i's origin to the next one's, h_j is link j's first moment, J_j its polar second moment. Eliminating the last link leaves a
-/// matrix of this kind,
+/// With rates from the ground and regrouped bodies (recursion.hpp), M_ij = r_i · h_j for i < j and M_jj = J_j: r_i
+/// leads from link i's origin to the next one's, h_j is link j's first moment, J_j its polar second moment.
+/// Eliminating the last link leaves a matrix of this kind,
 ///     h_b → c_b = h_b + X r_b,   J_b → D_b = J_b + r_b · X r_b,   X ← X − c_b c_bᵀ / D_b,
-/// which is what articulated bodies do; eliminating the first one does, too, with r and h exchanged. Each half of the chain is
-/// eliminated from its own end; both wait for half as many divisions. In the middle stand two equations with two unknowns,
+/// which is what articulated bodies do; eliminating the first one does, too, with r and h exchanged. Each half of
+/// the chain is eliminated from its own end; both wait for half as many divisions. In the middle stand two
+/// equations with two unknowns,
 ///     p = Σ h_b w'_b over the outer half = p₀ + X r,   r = Σ r_a w'_a over the inner half = r₀ + Y p,
-/// and then each half is solved outwards from there. The number of operations is that of one side. (For tridiagonal matrices this is
-/// the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707, section 2.) J and D are positive, as M is definite.
+/// and then each half is solved outwards from there. The number of operations is that of one side. (For
+/// tridiagonal matrices this is the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707,
+/// section 2.) J and D are positive, as M is definite.
 
 #include "formalism/recursion.hpp"
 
@@ -80,7 +83,8 @@ std::vector<S> from_both_ends(const BodyTree<S>& tree, const std::vector<S>& f) 
     const S a = S(1) - (Xxx * Yxx + Xxy * Yxy), b = -(Xxx * Yxy + Xxy * Yyy);
     const S c = -(Xxy * Yxx + Xyy * Yxy), d = S(1) - (Xxy * Yxy + Xyy * Yyy);
     const S inverse = S(1) / (a * d - b * c);
-    const S left = second.w[0] + (Xxx * first.w[0] + Xxy * first.w[1]), right = second.w[1] + (Xxy * first.w[0] + Xyy * first.w[1]);
+    const S left = second.w[0] + (Xxx * first.w[0] + Xxy * first.w[1]),
+            right = second.w[1] + (Xxy * first.w[0] + Xyy * first.w[1]);
     const std::array<S, 2> p{(d * left - b * right) * inverse, (a * right - c * left) * inverse};
     const std::array<S, 2> r{first.w[0] + (Yxx * p[0] + Yxy * p[1]), first.w[1] + (Yxy * p[0] + Yyy * p[1])};
     std::vector<S> result(static_cast<std::size_t>(n), S(0));

@@ -7,14 +7,15 @@
 ///     const Bias<double> bias(tree);                                    // Newton-Euler, outwards, at w' = 0
 ///     const auto n = joint_loads(tree, bias.wrenches);                  // … and inwards: M w' + n = Q
 ///     const auto M = composite_bodies(tree);                            // rows by joint, lower triangle
-///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);     // M w' = Q − n in a number of operations linear in bodies
+///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);     // M w' = Q − n in a number of operations
+///     linear in bodies
 ///
-/// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 to 7; Walker & Orin 1982; Luh, Walker & Paul 1980.)
-/// A joint has one rate w: turns about the z axis of its link, or shifts along `slide`. Joints with more freedom are several,
-/// with links without mass between them. All vectors are physical ones, accelerations those of points, so that it does not matter
-/// along which axes components are taken: along axes that turn with the link or, for a chain of parallel axes, along axes that
-/// do not (`still`), where a transform is a shift alone and the chain's angles add up.
-/// The gravity field is an acceleration −g of the ground.
+/// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 to 7; Walker & Orin 1982; Luh, Walker & Paul
+/// 1980.) A joint has one rate w: turns about the z axis of its link, or shifts along `slide`. Joints with more
+/// freedom are several, with links without mass between them. All vectors are physical ones, accelerations those
+/// of points, so that it does not matter along which axes components are taken: along axes that turn with the link
+/// or, for a chain of parallel axes, along axes that do not (`still`), where a transform is a shift alone and the
+/// chain's angles add up. The gravity field is an acceleration −g of the ground.
 ///
 /// A body is its mass m, first moment h = m c and second moments P = ∫ r rᵀ dm about the link's origin, so that
 ///     f = m a + Ω h,   n = h × a + vee(Ω P),   Ω = ε̃ + ω̃ ω̃,   vee(X) = (X₃₂ − X₂₃, X₁₃ − X₃₁, X₂₁ − X₁₂),
@@ -37,20 +38,22 @@ struct RigidBody {
 
 template <typename S>
 struct TreeLink {
-    int parent = -1;                       ///< −1: the ground
+    int parent = -1;  ///< −1: the ground
     bool slides = false;
     Matrix<S> R{Triple<S>{S(1), S(0), S(0)}, Triple<S>{S(0), S(1), S(0)}, Triple<S>{S(0), S(0), S(1)}};
-    Triple<S> p = no_vector<S>();          ///< R, p: axes and origin in the parent's own axes where the joint is at 0; constant
-    Triple<S> slide = no_vector<S>();      ///< of a sliding link, in its own axes; constant
-    RigidBody<S> body{};                   ///< along the link's own axes; constant
+    Triple<S> p =
+        no_vector<S>();  ///< R, p: axes and origin in the parent's own axes where the joint is at 0; constant
+    Triple<S> slide = no_vector<S>();  ///< of a sliding link, in its own axes; constant
+    RigidBody<S> body{};               ///< along the link's own axes; constant
 
-    bool about_x = false;                  ///< R is a turn about x
-    S angle = S(0), cosine = S(1), sine = S(0);  ///< of the joint's angle; of the sum of angles where the axes are still
-    S shift = S(0), rate = S(0);           ///< of the joint, in units of `slide`; w
-    S drift = S(0);                        ///< w' at q'' = 0
-    bool still = false;                    ///< components are along axes that do not turn with the link,
-    bool continues = false;                ///< … which are the parent's
-    bool absolute = false;                 ///< w counts from the ground: nothing of a turn about z is passed between neighbours
+    bool about_x = false;  ///< R is a turn about x
+    S angle = S(0), cosine = S(1),
+      sine = S(0);                ///< of the joint's angle; of the sum of angles where the axes are still
+    S shift = S(0), rate = S(0);  ///< of the joint, in units of `slide`; w
+    S drift = S(0);               ///< w' at q'' = 0
+    bool still = false;           ///< components are along axes that do not turn with the link,
+    bool continues = false;       ///< … which are the parent's
+    bool absolute = false;  ///< w counts from the ground: nothing of a turn about z is passed between neighbours
 };
 
 template <typename S>
@@ -60,8 +63,8 @@ struct Wrench {
 
 template <typename S>
 struct BodyTree {
-    std::vector<TreeLink<S>> links;            ///< parents first
-    Triple<S> gravity = no_vector<S>();    ///< in the ground's axes
+    std::vector<TreeLink<S>> links;      ///< parents first
+    Triple<S> gravity = no_vector<S>();  ///< in the ground's axes
 
     int size() const { return static_cast<int>(links.size()); }
     bool parent_is_still(const TreeLink<S>& link) const { return link.parent >= 0 && links[link.parent].still; }
@@ -81,7 +84,9 @@ struct BodyTree {
     static Symmetric<S> turned_by_constant(const TreeLink<S>& link, const Symmetric<S>& A) {
         return link.about_x ? turned_about_x(link.R[1][1], link.R[2][1], A) : congruent(link.R, A);
     }
-    static Matrix<S> turned_by_constant(const TreeLink<S>& link, const Matrix<S>& A) { return congruent(link.R, A); }
+    static Matrix<S> turned_by_constant(const TreeLink<S>& link, const Matrix<S>& A) {
+        return congruent(link.R, A);
+    }
     Triple<S> from_parent(const TreeLink<S>& link, Triple<S> v) const {
         if (!link.continues) {
             if (parent_is_still(link)) v = turned_back(links[link.parent].cosine, links[link.parent].sine, v);
@@ -129,9 +134,10 @@ RigidBody<S> operator+(const RigidBody<S>& a, const RigidBody<S>& b) {
     return {a.mass + b.mass, a.first + b.first, a.second + b.second, a.polar + b.polar};
 }
 
-/// The same motion from fewer numbers: mass on the axis of a turning joint may as well belong to the parent, and of a sliding
-/// body all second moments, since turning (sliding) does not move it against the parent (Gautier & Khalil, IEEE Trans. Robotics and
-/// Automation 6 (1990) 368: base parameters). What is left is xx yy xy yz zx of P, and h across the axis.
+/// The same motion from fewer numbers: mass on the axis of a turning joint may as well belong to the parent, and
+/// of a sliding body all second moments, since turning (sliding) does not move it against the parent (Gautier &
+/// Khalil, IEEE Trans. Robotics and Automation 6 (1990) 368: base parameters). What is left is xx yy xy yz zx of
+/// P, and h across the axis.
 template <typename S>
 BodyTree<S> regrouped(BodyTree<S> tree) {
     for (int j = tree.size() - 1; j >= 0; --j) {
@@ -178,12 +184,14 @@ struct Bias {
                 omega[2] = link.rate;
                 epsilon[2] = link.drift;
             } else {
-                epsilon = {epsilon[0] + omega[1] * link.rate, epsilon[1] - omega[0] * link.rate, epsilon[2] + link.drift};
+                epsilon = {epsilon[0] + omega[1] * link.rate, epsilon[1] - omega[0] * link.rate,
+                           epsilon[2] + link.drift};
                 omega[2] = omega[2] + link.rate;
             }
             const S xx = omega[0] * omega[0], yy = omega[1] * omega[1], zz = omega[2] * omega[2];
             const S xy = omega[0] * omega[1], yz = omega[1] * omega[2], zx = omega[2] * omega[0];
-            turning.push_back({Triple<S>{-(yy + zz), xy - epsilon[2], zx + epsilon[1]}, Triple<S>{xy + epsilon[2], -(zz + xx), yz - epsilon[0]},
+            turning.push_back({Triple<S>{-(yy + zz), xy - epsilon[2], zx + epsilon[1]},
+                               Triple<S>{xy + epsilon[2], -(zz + xx), yz - epsilon[0]},
                                Triple<S>{zx - epsilon[1], yz + epsilon[0], -(xx + yy)}});
             w.push_back(omega);
             e.push_back(epsilon);
@@ -194,7 +202,8 @@ struct Bias {
             Wrench<S> force{.n = cross(b.first, acceleration), .f = b.mass * acceleration + O * b.first};
             for (int i = 0; i < 3; ++i) {  // X_kj − X_jk of X = Ω P, k and j after i
                 const int j = (i + 1) % 3, k = (i + 2) % 3;
-                force.n[i] = force.n[i] + (O[k][j] * P[j] - O[j][k] * P[k] + (O[k][k] - O[j][j]) * P[place(j, k)]) +
+                force.n[i] = force.n[i] +
+                             (O[k][j] * P[j] - O[j][k] * P[k] + (O[k][k] - O[j][j]) * P[place(j, k)]) +
                              (O[k][i] * P[place(i, j)] - O[j][i] * P[place(i, k)]);
             }
             wrenches.push_back(force);
@@ -233,8 +242,8 @@ std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenc
     return loads;
 }
 
-/// Where a chain's columns of M, passed inwards, best meet the rates of its first joints, passed outwards: in its middle, unless
-/// passing costs little since axes stand at right angles. −1: nowhere.
+/// Where a chain's columns of M, passed inwards, best meet the rates of its first joints, passed outwards: in its
+/// middle, unless passing costs little since axes stand at right angles. −1: nowhere.
 template <typename S>
 int middle_of(const BodyTree<S>& tree) {
     int oblique = 0;
@@ -245,7 +254,8 @@ int middle_of(const BodyTree<S>& tree) {
     return tree.size() > 4 && 2 * oblique > tree.size() ? (tree.size() - 1) / 2 : -1;
 }
 
-/// What w_i = 1 gives each link k up to `last`, from link i on: angular velocity and that of the origin, as (n, f) at [k][i].
+/// What w_i = 1 gives each link k up to `last`, from link i on: angular velocity and that of the origin, as (n, f)
+/// at [k][i].
 template <typename S>
 std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last) {
     std::vector<std::vector<Wrench<S>>> twists;
@@ -254,7 +264,8 @@ std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last)
         twists.emplace_back();
         for (int i = 0; i < k; ++i) {
             const Wrench<S>& before = twists[k - 1][i];
-            twists[k].push_back({tree.from_parent(link, before.n), tree.from_parent(link, before.f + cross(before.n, tree.arm(link)))});
+            twists[k].push_back({tree.from_parent(link, before.n),
+                                 tree.from_parent(link, before.f + cross(before.n, tree.arm(link)))});
         }
         if (link.slides)
             twists[k].push_back({no_vector<S>(), tree.direction(link)});
@@ -281,7 +292,8 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
             const Triple<S> s = tree.direction(*link);
             on = {cross(b.first, s), b.mass * s};
         } else {
-            on = {{-b.second[5], -b.second[4], link->still ? b.polar : b.second[0] + b.second[1]}, {-b.first[1], b.first[0], S(0)}};
+            on = {{-b.second[5], -b.second[4], link->still ? b.polar : b.second[0] + b.second[1]},
+                  {-b.first[1], b.first[0], S(0)}};
         }
         M[j][j] = along_joint(tree, *link, on);
         for (int i = j; link->parent >= 0; link = &tree.links[i]) {
@@ -295,7 +307,10 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
         }
         link = &tree.links[j];
         if (link->parent < 0) continue;
-        RigidBody<S> up{.mass = b.mass, .first = tree.outward_to_parent(*link, b.first), .second = tree.outward_to_parent(*link, b.second), .polar = b.polar};
+        RigidBody<S> up{.mass = b.mass,
+                        .first = tree.outward_to_parent(*link, b.first),
+                        .second = tree.outward_to_parent(*link, b.second),
+                        .polar = b.polar};
         if (!link->continues) up.polar = up.second[0] + up.second[1];
         if (link->absolute) up = {.mass = b.mass};  // turning the parent does not turn this
         const Triple<S> r = tree.arm(*link);
@@ -322,11 +337,12 @@ Articulated<S> articulated(const RigidBody<S>& b) {
             .B = {Triple<S>{S(0), -h[2], h[1]}, Triple<S>{h[2], S(0), -h[0]}, Triple<S>{-h[1], h[0], S(0)}}};
 }
 
-/// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U, I − U Uᵀ/D and the wrench with U (Q − s·wrench)/D pass to the
-/// parent; outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes Q and no inertia about its axis: these are
-/// set, not computed.
+/// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U, I − U Uᵀ/D and the wrench with U (Q −
+/// s·wrench)/D pass to the parent; outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes Q and
+/// no inertia about its axis: these are set, not computed.
 template <typename S>
-std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches, const std::vector<S>& Q) {
+std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches,
+                                  const std::vector<S>& Q) {
     const int n = tree.size();
     std::vector<Articulated<S>> I;
     for (const TreeLink<S>& link : tree.links) I.push_back(articulated(tree.body(link)));
@@ -349,8 +365,11 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         free[j] = u * inverse;
         U[j] = {inverse * column.n, inverse * column.f};
         if (link.parent < 0) continue;
-        // x y/D: in a chain of parallel axes the product does not wait for the division; elsewhere there are too many.
-        const auto over = [&](const S& x, const S& x_D, const S& y) { return link.still ? (x * y) * inverse : x_D * y; };
+        // x y/D: in a chain of parallel axes the product does not wait for the division; elsewhere there are too
+        // many.
+        const auto over = [&](const S& x, const S& x_D, const S& y) {
+            return link.still ? (x * y) * inverse : x_D * y;
+        };
         for (int i = 0; i < 3; ++i) {
             for (int k = i; k < 3; ++k) {
                 S& a = own.A[place(i, k)];
@@ -382,8 +401,9 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
                 S& a = parent.A[place(i, k)];
                 // About the axis by itself, without waiting for B: first[2][2] is 0.
                 const bool direct = link.absolute && i == 2;
-                const S shift = direct ? (r[0] * r[0]) * C[1] + (r[1] * r[1]) * C[0] - (r[0] * r[1]) * (C[3] + C[3])
-                                       : first[i][k] + second[k][i];
+                const S shift = direct
+                                    ? (r[0] * r[0]) * C[1] + (r[1] * r[1]) * C[0] - (r[0] * r[1]) * (C[3] + C[3])
+                                    : first[i][k] + second[k][i];
                 a = a + A[place(i, k)] + shift;
             }
         parent.C = parent.C + C;
@@ -403,7 +423,8 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
             acceleration = acceleration + rate * tree.direction(link);
             result.push_back(rate);
         } else {  // U_z/D = 1: what comes out is the whole of ε_z
-            const S whole = free[j] - (U[j].n[0] * epsilon[0] + U[j].n[1] * epsilon[1] + dot(U[j].f, acceleration));
+            const S whole =
+                free[j] - (U[j].n[0] * epsilon[0] + U[j].n[1] * epsilon[1] + dot(U[j].f, acceleration));
             result.push_back(link.absolute ? whole : whole - epsilon[2]);
             epsilon[2] = whole;
         }

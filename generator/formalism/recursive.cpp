@@ -26,13 +26,16 @@ Possible<JointTree> tree_with_masses(const Mechanism& m) {
 
 }  // namespace
 
-std::optional<std::string> obstacle_to_recursive(const Mechanism& m) { return tree_with_masses(m).obstacle(); }
+std::optional<std::string> obstacle_to_recursive(const Mechanism& m) {
+    return tree_with_masses(m).obstacle();
+}
 
 Possible<JointTree> loaded_tree(const Mechanism& m) {
     Possible<JointTree> found = tree_with_masses(m);
     if (!found.exists()) return found;
     JointTree joints = std::move(found).value();
-    const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true), others = m.generalized_forces(false);
+    const std::vector<ex> springs = potential_forces(m), dampers = m.generalized_forces(true),
+                          others = m.generalized_forces(false);
     for (int a = 0; a < m.size(); ++a) joints.forces.push_back(m.z->name(springs[a] + dampers[a] + others[a]));
     return joints;
 }
@@ -47,7 +50,8 @@ Equations recursive_without_matrix(const Mechanism& m) {
 Equations recursive(const Mechanism& m) {
     JointTree joints = tree_with_masses(m).value();
     Intermediates& z = *m.z;
-    const BodyTree<Named> tree = dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
+    const BodyTree<Named> tree =
+        dressed<Named>(joints, LinkAxes::own, z, [&](const ex& e) { return Named(e, z); });
     const std::vector<std::vector<Named>> M = composite_bodies(tree);
     const std::vector<Named> loads = joint_loads(tree, Bias<Named>(tree).wrenches);
 
@@ -79,7 +83,8 @@ Equations recursive(const Mechanism& m) {
         equations.own.push_back(z.name(GiNaC::add(std::move(own[a]))));
         for (int b = 0; b < n; ++b) equations.M(a, b) = z.name(GiNaC::add(std::move(mass[a * n + b])));
     }
-    for (int a = 0; a < n; ++a) joints.forces[a] = z.name(joints.forces[a] + equations.dissipative[a] + equations.applied[a]);
+    for (int a = 0; a < n; ++a)
+        joints.forces[a] = z.name(joints.forces[a] + equations.dissipative[a] + equations.applied[a]);
     equations.tree = std::make_shared<const JointTree>(std::move(joints));
     attach_constraints(m, equations);
     return equations;

@@ -13,8 +13,8 @@
 
 namespace alembert {
 
-/// An expression as a product, its sines and cosines counting as variables. Numbers and parameters that stand alone are left
-/// out: they never vanish.
+/// An expression as a product, its sines and cosines counting as variables. Numbers and parameters that stand
+/// alone are left out: they never vanish.
 struct TrigonometricProduct {
     std::vector<GiNaC::ex> bases;  ///< in letters
     GiNaC::exmap functions;        ///< letter → sine, cosine …

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Arc a turns its outer body against its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it with σ_a = Σ k_aj q'_j.
-// The outer bodies of a are those i with T_ai ≠ 0, so that
+// Arc a turns its outer body against its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it with
+// σ_a = Σ k_aj q'_j. The outer bodies of a are those i with T_ai ≠ 0, so that
 //   ω_i = Σ_a |T_ai| Ω_a,   J_R,ij = Σ_a |T_ai| p_aj,   J_T,ij = Σ_a |T_ai| (p_aj × (r_i − P_a) + k_aj)
-// (Wittenburg, Dynamics of Multibody Systems (2008), chapter 5: ω = −(p T)ᵀ q', signs by the arcs' sense). Accelerations at
-// q'' = 0 go outwards along the paths: with (·)° the derivative in the body where an arc's axes are fixed, and ρ = r_o − P,
-//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,   a_o = a_P + α_o × ρ + ω_o × ρ'
-// where the arc points outwards; where it points to the ground, −σ is fixed in the outer body and beyond the pivot.
+// (Wittenburg, Dynamics of Multibody Systems (2008), chapter 5: ω = −(p T)ᵀ q', signs by the arcs' sense).
+// Accelerations at q'' = 0 go outwards along the paths: with (·)° the derivative in the body where an arc's axes
+// are fixed, and ρ = r_o − P,
+//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,   a_o = a_P + α_o ×
+//   ρ + ω_o × ρ'
+// where the arc points outwards; where it points to the ground, −σ is fixed in the outer body and beyond the
+// pivot.
 #include "formalism/roberson_wittenburg.hpp"
 
 #include <fmt/format.h>
@@ -39,8 +42,12 @@ struct State {
 class Paths {
 public:
     Paths(const Mechanism& m, const SystemGraph& graph)
-        : m_(m), z_(*m.z), states_(m.masses.size()), modes_(graph.arcs.size()),
-          arms_(m.masses.size()), paths_(m.masses.size()) {
+        : m_(m),
+          z_(*m.z),
+          states_(m.masses.size()),
+          modes_(graph.arcs.size()),
+          arms_(m.masses.size()),
+          paths_(m.masses.size()) {
         for (std::size_t a = 0; a < graph.arcs.size(); ++a) {
             const SystemGraph::Arc& arc = graph.arcs[a];
             if (arc.joint < 0)
@@ -57,7 +64,11 @@ public:
             const std::optional<MassElement::Rotation>& rotation = m_.masses[i].rotation;
             const State& state = states_[i];
             const Vector3 zero{0, 0, 0};
-            BodyMotion motion{.J_T = {m_.q.size(), zero}, .J_R = {m_.q.size(), zero}, .a_bar = state.a, .w = zero, .alpha_bar = zero};
+            BodyMotion motion{.J_T = {m_.q.size(), zero},
+                              .J_R = {m_.q.size(), zero},
+                              .a_bar = state.a,
+                              .w = zero,
+                              .alpha_bar = zero};
             if (rotation) {
                 motion.w = along(rotation->axes, state.w);
                 motion.alpha_bar = along(rotation->axes, state.alpha);
@@ -126,15 +137,19 @@ private:
         const bool forwards = joint.role == JointArc::Role::places_child;
         const Vector3 turning = to_N(joint.axes, joint.turning);
         outer.w = plus(inner.w, turning);
-        outer.alpha = plus(inner.alpha, plus(to_N(joint.axes, derivative(joint.turning)), cross(inner.w, turning, z_)));
+        outer.alpha =
+            plus(inner.alpha, plus(to_N(joint.axes, derivative(joint.turning)), cross(inner.w, turning, z_)));
 
-        // The child's point slides along axes that are fixed in the parent: in the inner body, or backwards in the outer one.
+        // The child's point slides along axes that are fixed in the parent: in the inner body, or backwards in the
+        // outer one.
         const Vector3 slide = scale(forwards ? 1 : -1, to_N(joint.slide_axes, joint.sliding), z_),
-                      slide_rate = plus(scale(forwards ? 1 : -1, to_N(joint.slide_axes, derivative(joint.sliding)), z_),
-                                        cross(forwards ? inner.w : outer.w, slide, z_));
+                      slide_rate =
+                          plus(scale(forwards ? 1 : -1, to_N(joint.slide_axes, derivative(joint.sliding)), z_),
+                               cross(forwards ? inner.w : outer.w, slide, z_));
         Vector3 v = plus(inner.v, cross(inner.w, joint.to_pivot, z_));
         if (forwards) v = plus(v, slide);
-        const Vector3 a_pivot = plus(inner.a, plus(cross(inner.alpha, joint.to_pivot, z_), cross(inner.w, minus(v, inner.v), z_)));
+        const Vector3 a_pivot =
+            plus(inner.a, plus(cross(inner.alpha, joint.to_pivot, z_), cross(inner.w, minus(v, inner.v), z_)));
         outer.v = plus(v, cross(outer.w, joint.from_pivot, z_));
         if (!forwards) outer.v = plus(outer.v, slide);
         outer.a = plus(plus(a_pivot, slide_rate),
@@ -156,10 +171,11 @@ private:
 
     const Mechanism& m_;
     Intermediates& z_;
-    std::vector<State> states_;              // by body
-    std::vector<std::vector<Mode>> modes_;   // by arc
-    std::vector<std::vector<Vector3>> arms_;  // by body, along its path from the ground: from each arc's pivot to the mass centre
-    std::vector<std::vector<int>> paths_;     // by body: the arcs
+    std::vector<State> states_;             // by body
+    std::vector<std::vector<Mode>> modes_;  // by arc
+    std::vector<std::vector<Vector3>>
+        arms_;  // by body, along its path from the ground: from each arc's pivot to the mass centre
+    std::vector<std::vector<int>> paths_;  // by body: the arcs
 };
 
 }  // namespace
@@ -173,7 +189,8 @@ SystemGraph system_graph(const Mechanism& m) {
         if (joint.role != JointArc::Role::closes_loop)
             placing[joint.outer()] = static_cast<int>(j);
         else
-            graph.chords.push_back(fmt::format("{}: {} -> {}", joint.name, name_of(m, joint.parent), name_of(m, joint.child)));
+            graph.chords.push_back(
+                fmt::format("{}: {} -> {}", joint.name, name_of(m, joint.parent), name_of(m, joint.child)));
     }
     std::vector<int> arc_of(count, -1);
     const auto place = [&](auto&& self, int body) -> void {
@@ -182,7 +199,8 @@ SystemGraph system_graph(const Mechanism& m) {
         if (placing[body] >= 0) {
             const JointArc& joint = m.joints[placing[body]];
             if (joint.inner() >= 0) self(self, joint.inner());
-            arc = {joint.name, joint.parent, joint.child, joint.role == JointArc::Role::places_child, placing[body]};
+            arc = {joint.name, joint.parent, joint.child, joint.role == JointArc::Role::places_child,
+                   placing[body]};
         }
         arc_of[body] = static_cast<int>(graph.arcs.size());
         graph.arcs.push_back(std::move(arc));
@@ -228,21 +246,25 @@ std::vector<Section> outline_of_roberson_wittenburg(const Mechanism& m) {
         arcs += fmt::format("{}{}: {} -> {}", arcs.empty() ? "" : ", ", arc.name, name(arc.from), name(arc.to));
     }
     for (const std::string& body : g.bodies) bodies += (bodies.empty() ? "" : ", ") + body;
-    for (const std::string& chord : g.chords) chords += (chords.empty() ? " Chords, which close loops: " : ", ") + chord;
+    for (const std::string& chord : g.chords)
+        chords += (chords.empty() ? " Chords, which close loops: " : ", ") + chord;
     if (!chords.empty()) chords += ".";
     const auto row = [](const std::string& letter, const std::string& of, const std::vector<int>& entries) {
         std::vector<Phrase> phrases;
         for (const int entry : entries) phrases.push_back(phrases::number(entry));
         return Statement{Statement::Kind::energy, letter, of, {}, phrases::tuple(std::move(phrases))};
     };
-    Section S{.words = fmt::format("The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each "
-                                   "body, a column for each arc (1 where it begins, -1 where it ends):",
-                                   arcs, chords)};
+    Section S{.words = fmt::format(
+                  "The system graph, each arc from parent to child: {}.{} Incidence matrix S, a row for each "
+                  "body, a column for each arc (1 where it begins, -1 where it ends):",
+                  arcs, chords)};
     S.statements.push_back(row("S", "N", g.S_0));
     for (std::size_t i = 0; i < g.bodies.size(); ++i) S.statements.push_back(row("S", g.bodies[i], g.S[i]));
-    Section T{.words = fmt::format("Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's "
-                                   "path and points to the ground, -1 where it points away):",
-                                   bodies)};
+    Section T{
+        .words = fmt::format(
+            "Path matrix T, a row for each arc, a column for each body: {} (1 where the arc is on the body's "
+            "path and points to the ground, -1 where it points away):",
+            bodies)};
     for (std::size_t a = 0; a < g.arcs.size(); ++a) T.statements.push_back(row("T", g.arcs[a].name, g.T[a]));
     return {std::move(S), std::move(T)};
 }

@@ -7,25 +7,25 @@
 ///     graph.S[i][a], graph.T[a][i];
 ///     const Equations equations = roberson_wittenburg(mechanism);
 ///
-/// Vertices are the bodies, arcs the joints, each from its parent to its child. Joints that close loops are chords and enter by
-/// their constraints. A body that no joint places hangs on the ground by an arc of its own, moved as its position and frame
-/// say; particles too. The equations are in the rates.
+/// Vertices are the bodies, arcs the joints, each from its parent to its child. Joints that close loops are chords
+/// and enter by their constraints. A body that no joint places hangs on the ground by an arc of its own, moved as
+/// its position and frame say; particles too. The equations are in the rates.
 
 #include "formalism/newton_euler.hpp"
 #include "formalism/steps.hpp"
 
 namespace alembert {
 
-/// S is the incidence matrix: S_ia = 1 where arc a begins at body i, −1 where it ends there; S_0 the row of the ground.
-/// T is the path matrix: T_ai = 1 where arc a lies on the path from body i to the ground and points to the ground, −1 where it
-/// points away. T S = E, S_0 T = (−1 … −1). (Wittenburg, Dynamics of Multibody Systems
-/// (2008), chapter 5.)
+/// S is the incidence matrix: S_ia = 1 where arc a begins at body i, −1 where it ends there; S_0 the row of the
+/// ground. T is the path matrix: T_ai = 1 where arc a lies on the path from body i to the ground and points to the
+/// ground, −1 where it points away. T S = E, S_0 T = (−1 … −1). (Wittenburg, Dynamics of Multibody Systems (2008),
+/// chapter 5.)
 struct SystemGraph {
     struct Arc {
         std::string name;
-        int from, to;     ///< bodies as in Mechanism::masses, −1 the ground
-        bool outwards;    ///< `to` is the farther one from the ground
-        int joint = -1;   ///< position in Mechanism::joints; −1 for a body that no joint places
+        int from, to;    ///< bodies as in Mechanism::masses, −1 the ground
+        bool outwards;   ///< `to` is the farther one from the ground
+        int joint = -1;  ///< position in Mechanism::joints; −1 for a body that no joint places
     };
     std::vector<std::string> bodies;
     std::vector<Arc> arcs;            ///< as many as bodies, each after the arcs of its path

@@ -17,24 +17,35 @@ std::vector<int> cyclic_coordinates(const Mechanism& m) {
     const std::vector<ex> damping = m.generalized_forces(true), applied = m.generalized_forces(false);
     std::vector<int> cyclic;
     for (int i = 0; i < m.size(); ++i)
-        if (is_identically_zero(slope[i], m) && is_identically_zero(damping[i], m) && is_identically_zero(applied[i], m))
+        if (is_identically_zero(slope[i], m) && is_identically_zero(damping[i], m) &&
+            is_identically_zero(applied[i], m))
             cyclic.push_back(i);
     return cyclic;
 }
 
 Possible<Reduction> reduction(const Mechanism& m) {
     Intermediates& z = *m.z;
-    Reduction r{.cyclic = cyclic_coordinates(m), .remaining = {}, .p = {}, .momenta = {}, .rates = {}, .R = 0, .M = {}, .own = {}};
+    Reduction r{.cyclic = cyclic_coordinates(m),
+                .remaining = {},
+                .p = {},
+                .momenta = {},
+                .rates = {},
+                .R = 0,
+                .M = {},
+                .own = {}};
     if (r.cyclic.empty())
-        return Obstacle{"Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
-                        "a force acts on it"};
+        return Obstacle{
+            "Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
+            "a force acts on it"};
     const Possible<Canonical> possible = canonical(m);  // its obstacles, p and M
     if (const auto obstacle = possible.obstacle()) return Obstacle{*obstacle};
     const Canonical& all = possible.value();
     const int c = static_cast<int>(r.cyclic.size()), e = m.size() - c;
     for (int i = 0, k = 0; i < m.size(); ++i)
-        if (k < c && r.cyclic[k] == i) ++k;
-        else r.remaining.push_back(i);
+        if (k < c && r.cyclic[k] == i)
+            ++k;
+        else
+            r.remaining.push_back(i);
     GiNaC::exmap still;
     GiNaC::matrix Mcc(c, c);
     for (int i = 0; i < c; ++i) {
@@ -69,7 +80,9 @@ Possible<Reduction> reduction(const Mechanism& m) {
     return r;
 }
 
-std::optional<std::string> obstacle_to_routhian(const Mechanism& m) { return reduction(m).obstacle(); }
+std::optional<std::string> obstacle_to_routhian(const Mechanism& m) {
+    return reduction(m).obstacle();
+}
 
 Equations routhian(const Mechanism& m) {
     const Reduction r = reduction(m).value();
@@ -113,16 +126,21 @@ OwnSteps steps_of_routhian(const Mechanism& m, const Equations& equations) {
     const Reduction r = reduction(m).value();
     std::string names;
     for (const int i : r.cyclic) names += (names.empty() ? "" : ", ") + m.q[i].get_name();
-    Section section{.words = "Cyclic coordinates: " + names + ". Their momenta are constants; the Routhian R = L - sum of p q':"};
-    for (std::size_t k = 0; k < r.cyclic.size(); ++k) write.equality(section, write.symbol_of(r.p[k]), r.momenta[k]);
-    for (std::size_t k = 0; k < r.cyclic.size(); ++k) write.equality(section, write.symbol_of(m.qdot[r.cyclic[k]]), r.rates[k]);
+    Section section{.words = "Cyclic coordinates: " + names +
+                             ". Their momenta are constants; the Routhian R = L - sum of p q':"};
+    for (std::size_t k = 0; k < r.cyclic.size(); ++k)
+        write.equality(section, write.symbol_of(r.p[k]), r.momenta[k]);
+    for (std::size_t k = 0; k < r.cyclic.size(); ++k)
+        write.equality(section, write.symbol_of(m.qdot[r.cyclic[k]]), r.rates[k]);
     write.equality(section, StepWriter::letter("R"), r.R);
-    OwnSteps result{.sections = {std::move(section)}, .title = "Routh's equations of the coordinates that are not cyclic"};
+    OwnSteps result{.sections = {std::move(section)},
+                    .title = "Routh's equations of the coordinates that are not cyclic"};
     const int e = static_cast<int>(r.remaining.size());
     for (int i = 0; i < e; ++i) {
         GiNaC::exvector left{-r.own[i], -equations.dissipative[r.remaining[i]]};
         for (int j = 0; j < e; ++j) left.push_back(r.M(i, j) * m.qddot[r.remaining[j]]);
-        const auto f = write.normal(GiNaC::add(std::move(left))), right = write.normal(equations.applied[r.remaining[i]]);
+        const auto f = write.normal(GiNaC::add(std::move(left))),
+                   right = write.normal(equations.applied[r.remaining[i]]);
         if (!f || !right) return {};
         result.equations.push_back(readable_equation(*f, *right));
         result.equations.back().divided_by.reset();

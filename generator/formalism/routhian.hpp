@@ -16,12 +16,12 @@ std::vector<int> cyclic_coordinates(const Mechanism& mechanism);
 
 struct Reduction {
     std::vector<int> cyclic, remaining;
-    std::vector<GiNaC::symbol> p;       ///< of the cyclic coordinates, constants
-    std::vector<GiNaC::ex> momenta;     ///< what they are in q, q'
-    std::vector<GiNaC::ex> rates;       ///< of the cyclic coordinates, in p and the others
+    std::vector<GiNaC::symbol> p;    ///< of the cyclic coordinates, constants
+    std::vector<GiNaC::ex> momenta;  ///< what they are in q, q'
+    std::vector<GiNaC::ex> rates;    ///< of the cyclic coordinates, in p and the others
     GiNaC::ex R;
-    GiNaC::matrix M;                    ///< ∂²R/∂q'², of the remaining
-    std::vector<GiNaC::ex> own;         ///< the rest of d/dt ∂R/∂q' − ∂R/∂q, to the right; with p
+    GiNaC::matrix M;             ///< ∂²R/∂q'², of the remaining
+    std::vector<GiNaC::ex> own;  ///< the rest of d/dt ∂R/∂q' − ∂R/∂q, to the right; with p
 };
 
 /// An obstacle is a scene in which no coordinate is cyclic, and those of `canonical`.

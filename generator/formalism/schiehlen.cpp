@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // With S = (e₁ e₂ e₃) the body's axes along N, the columns of J_R and the rest of ω come from S alone:
 //   (Sᵀ ∂S/∂q_j)  =  ũ_j,   u_j = (e₃·∂e₂/∂q_j,  e₁·∂e₃/∂q_j,  e₂·∂e₁/∂q_j),
-// and likewise with ∂/∂t; then ω = Σ u_j q'_j + u_t, ᾱ = dω/dt at q'' = 0 (along the body's axes, where ω × ω = 0), and
+// and likewise with ∂/∂t; then ω = Σ u_j q'_j + u_t, ᾱ = dω/dt at q'' = 0 (along the body's axes, where ω × ω =
+// 0), and
 //   J_T = ∂r/∂q,   v = J_T q' + ∂r/∂t,   ā = dv/dt at q'' = 0
 // (Schiehlen, Technische Dynamik (1986), §2.3 and §4.1).
 #include "formalism/schiehlen.hpp"
@@ -33,7 +34,9 @@ Vector3 next(std::vector<ex>::const_iterator& at) {
 }
 
 /// cos² + sin² is 1; beyond this size looking for it costs more than it wins.
-ex tidy(const ex& e, const Mechanism& m) { return m.z->tree_size(e) > 400 ? e : short_form(e, m); }
+ex tidy(const ex& e, const Mechanism& m) {
+    return m.z->tree_size(e) > 400 ? e : short_form(e, m);
+}
 
 /// J_T and J_R, or v and ω, from the derivatives of all places by one variable.
 struct Moved {
@@ -48,7 +51,8 @@ std::vector<Moved> moved(const Mechanism& m, const std::vector<ex>& derivatives)
         if (!body.rotation) continue;
         const std::array<Vector3, 3>& e = body.rotation->axes;
         const Vector3 first = next(at), second = next(at), third = next(at);
-        result.back().turn = {tidy(dot(e[2], second, z), m), tidy(dot(e[0], third, z), m), tidy(dot(e[1], first, z), m)};
+        result.back().turn = {tidy(dot(e[2], second, z), m), tidy(dot(e[0], third, z), m),
+                              tidy(dot(e[1], first, z), m)};
     }
     return result;
 }
@@ -93,7 +97,9 @@ std::vector<BodyMotion> global_motions(const Mechanism& m) {
     return result;
 }
 
-std::optional<std::string> obstacle_to_schiehlen(const Mechanism& m) { return masses_unknown(m, "Schiehlen's equations"); }
+std::optional<std::string> obstacle_to_schiehlen(const Mechanism& m) {
+    return masses_unknown(m, "Schiehlen's equations");
+}
 
 Equations schiehlen(const Mechanism& m) {
     need_none(obstacle_to_schiehlen(m));
@@ -105,8 +111,9 @@ OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
     const std::vector<BodyMotion> motions = global_motions(m);
     OwnSteps result;
     for (std::size_t b = 0; b < motions.size(); ++b) {
-        Section section{.words = "Global Jacobians of " + label(m.masses[b].origin) +
-                                 ", J_T = dr/dq along N and J_R = dw/dq' along its axes, and the accelerations at q'' = 0:"};
+        Section section{
+            .words = "Global Jacobians of " + label(m.masses[b].origin) +
+                     ", J_T = dr/dq along N and J_R = dw/dq' along its axes, and the accelerations at q'' = 0:"};
         const auto add_rows = [&](const std::string& letter, const std::vector<Vector3>& J) {
             for (int j = 0; j < m.size(); ++j)
                 for (int k = 0; k < 3; ++k) write.partial(section, letter + "_" + "xyz"[k], m.q[j], J[j][k]);
@@ -115,7 +122,8 @@ OwnSteps steps_of_schiehlen(const Mechanism& m, const Equations&) {
         if (m.masses[b].rotation) add_rows("s", motions[b].J_R);
         for (int k = 0; k < 3; ++k)
             if (const auto f = write.normal(motions[b].a_bar[k]); f && f->size() > 0)
-                section.statements.push_back({Statement::Kind::energy, std::string("a_") + "xyz"[k], "", {}, readable(*f)});
+                section.statements.push_back(
+                    {Statement::Kind::energy, std::string("a_") + "xyz"[k], "", {}, readable(*f)});
         result.sections.push_back(std::move(section));
     }
     return result;

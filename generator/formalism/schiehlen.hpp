@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Schiehlen's Newton-Euler formalism: the equations of all bodies with global Jacobians, projected on the coordinates.
+/// Schiehlen's Newton-Euler formalism: the equations of all bodies with global Jacobians, projected on the
+/// coordinates.
 ///
 ///     const Equations equations = schiehlen(build(scene));
 ///
-/// A route of its own: the Jacobians come from positions r(q,t) and rotation matrices S(q,t) alone, J_T = ∂r/∂q and J_R from
-/// the skew matrix Sᵀ ∂S/∂q; neither T nor the angular velocities of the kinematics are used. It is in the rates, whatever
-/// [speeds] the scene has. Reactions of joints: reactions.hpp.
+/// A route of its own: the Jacobians come from positions r(q,t) and rotation matrices S(q,t) alone, J_T = ∂r/∂q
+/// and J_R from the skew matrix Sᵀ ∂S/∂q; neither T nor the angular velocities of the kinematics are used. It is
+/// in the rates, whatever [speeds] the scene has. Reactions of joints: reactions.hpp.
 
 #include "formalism/newton_euler.hpp"
 #include "formalism/steps.hpp"

@@ -5,8 +5,9 @@
 ///
 ///     const Triple<double> v = turned_about_z(c, s, Triple<double>{1, 0, 0});     // (c, s, 0)
 ///
-/// A scalar has + − · / and unary −, is made from small numbers, and, where it is symbolic, drops zeros by itself. That is how planar
-/// motion, axes along one letter and rotations by right angles come out short without being looked for.
+/// A scalar has + − · / and unary −, is made from small numbers, and, where it is symbolic, drops zeros by itself.
+/// That is how planar motion, axes along one letter and rotations by right angles come out short without being
+/// looked for.
 
 #include <array>
 
@@ -22,7 +23,9 @@ template <typename S>
 using Symmetric = std::array<S, 6>;
 
 /// Where element (i, j) of a symmetric matrix stands.
-constexpr int place(int i, int j) { return i == j ? i : i + j == 1 ? 3 : i + j == 3 ? 4 : 5; }
+constexpr int place(int i, int j) {
+    return i == j ? i : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
+}
 
 template <typename S>
 Triple<S> no_vector() {
@@ -79,7 +82,8 @@ Symmetric<S> operator+(const Symmetric<S>& a, const Symmetric<S>& b) {
 }
 template <typename S>
 Triple<S> operator*(const Symmetric<S>& A, const Triple<S>& v) {
-    return {A[0] * v[0] + A[3] * v[1] + A[5] * v[2], A[3] * v[0] + A[1] * v[1] + A[4] * v[2], A[5] * v[0] + A[4] * v[1] + A[2] * v[2]};
+    return {A[0] * v[0] + A[3] * v[1] + A[5] * v[2], A[3] * v[0] + A[1] * v[1] + A[4] * v[2],
+            A[5] * v[0] + A[4] * v[1] + A[2] * v[2]};
 }
 
 /// R A Rᵀ
@@ -119,7 +123,8 @@ Matrix<S> turned_about_z(const S& c, const S& s, const Matrix<S>& A) {
     Matrix<S> T = A;  // A Rᵀ
     for (Triple<S>& row : T) row = turned_about_z(c, s, row);
     const Matrix<S> columns = transposed(T);
-    return transposed(Matrix<S>{turned_about_z(c, s, columns[0]), turned_about_z(c, s, columns[1]), turned_about_z(c, s, columns[2])});
+    return transposed(Matrix<S>{turned_about_z(c, s, columns[0]), turned_about_z(c, s, columns[1]),
+                                turned_about_z(c, s, columns[2])});
 }
 
 /// r × (each column of A), and (each row of A) × … : r̃ A.

@@ -23,7 +23,6 @@ constexpr std::size_t widest = 60;   // letters of an element in symbols
 
 using SymbolRows = decltype(LinearizedScene::symbols);
 
-
 /// Initial values as the scene has them, or exactly as they were asked for.
 std::vector<GiNaC::ex> starts(const Mechanism& m, const LinearizeOptions& options, const std::string& prime) {
     std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
@@ -44,7 +43,9 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
             if (m.q[i].get_name() + "'" == speed) order.push_back(i);
     if (static_cast<int>(order.size()) != m.size()) return {};
     SymbolRows result;
-    for (const auto& [name, matrix] : {std::pair("M", &found->M), std::pair("C", &found->C), std::pair("G", &found->G), std::pair("K", &found->K), std::pair("N", &found->N)}) {
+    for (const auto& [name, matrix] :
+         {std::pair("M", &found->M), std::pair("C", &found->C), std::pair("G", &found->G),
+          std::pair("K", &found->K), std::pair("N", &found->N)}) {
         result.push_back({name, {}});
         for (const int i : order) {
             result.back().second.emplace_back();
@@ -59,15 +60,16 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
     return result;
 }
 
-/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates are not steady,
-/// Kane's speeds may be.
+/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates
+/// are not steady, Kane's speeds may be.
 Linearization linearized(Derived& d, const LinearizeOptions& options, const Start& start) {
     try {
         return linearize(d.mechanism, d.equations, start);
     } catch (const ModelError&) {
         const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
         const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
-        if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || !masses_are_known(d.mechanism)) throw;
+        if (!nonholonomic || !options.by.empty() || !d.mechanism.speeds.empty() || !masses_are_known(d.mechanism))
+            throw;
         std::optional<Linearization> found;
         try {
             Derived other = derived_again(d, d.mechanism, "kane");
@@ -89,10 +91,11 @@ void close_contacts(Derived& d, const Start& start) {
     const Lasting lasting = contacts_at_rest(view, state, closed_gap);
     const std::vector<std::string> idle = touching_without_force(view, state, lasting);
     if (!idle.empty())
-        throw ModelError(fmt::format("contact {} touches at this state without a force: it presses on one side of the state and opens on "
-                                     "the other, so the equations of motion have no first derivative there. Give a state in "
-                                     "which the contact presses or is open, or leave the contact out",
-                                     fmt::join(idle, ", ")));
+        throw ModelError(fmt::format(
+            "contact {} touches at this state without a force: it presses on one side of the state and opens on "
+            "the other, so the equations of motion have no first derivative there. Give a state in "
+            "which the contact presses or is open, or leave the contact out",
+            fmt::join(idle, ", ")));
     if (!lasting.closed.empty()) d = derived_again(d, with_closed(d.mechanism, lasting.closed), "routh");
 }
 

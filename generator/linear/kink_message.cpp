@@ -67,7 +67,8 @@ private:
         if (m_.given_lagrangian) parts.emplace_back("the Lagrangian", *m_.given_lagrangian);
         for (const Load& load : m_.loads)
             for (const Load::Pair& pair : load.pairs)
-                for (const GiNaC::ex& value : {pair.force, pair.velocity}) parts.emplace_back(label(load.origin), value);
+                for (const GiNaC::ex& value : {pair.force, pair.velocity})
+                    parts.emplace_back(label(load.origin), value);
         std::vector<GiNaC::ex> values;
         for (const auto& part : parts) values.push_back(part.second);
         Program program = begun(m_);

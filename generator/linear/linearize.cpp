@@ -40,7 +40,8 @@ Instant<Real> instant_of(const Residuals& residuals, const State<double>& state)
 /// Which element of (w', r') depends on which of (r, w, t): not zero at one of a few states near the given one.
 Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> dependences(const Residuals& residuals, const Split& split,
                                                                 const Instant<long double>& at) {
-    const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size()), columns = nr + p + 1;
+    const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size()),
+                columns = nr + p + 1;
     Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> result(p + nr, columns);
     result.setConstant(false);
     const auto note = [&](const Tangent<long double>& here) {
@@ -76,7 +77,8 @@ Matrix clean(const MatrixOf<long double>& exact, const Matrix& rough) {
     for (Index i = 0; i < result.rows(); ++i)
         for (Index j = 0; j < result.cols(); ++j) {
             const long double value = exact(i, j);
-            if (std::abs(value) < 1e-9L * largest && std::abs(value - rough(i, j)) > 1e-4L * std::abs(value)) result(i, j) = 0;
+            if (std::abs(value) < 1e-9L * largest && std::abs(value - rough(i, j)) > 1e-4L * std::abs(value))
+                result(i, j) = 0;
             if (std::abs(value) < 1e-16L * largest) result(i, j) = 0;
         }
     return result;
@@ -100,7 +102,8 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
         again = false;
         for (std::size_t k = 0; k < left.size() && !again; ++k) {
             const auto zero = [&](bool row) {
-                return std::all_of(left.begin(), left.end(), [&](Index i) { return (row ? A(left[k], i) : A(i, left[k])) == 0; });
+                return std::all_of(left.begin(), left.end(),
+                                   [&](Index i) { return (row ? A(left[k], i) : A(i, left[k])) == 0; });
             };
             if (!zero(true) && !zero(false)) continue;
             left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
@@ -111,12 +114,15 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
     if (!left.empty()) {
         MatrixOf<long double> rest(left.size(), left.size());
         for (std::size_t i = 0; i < left.size(); ++i)
-            for (std::size_t j = 0; j < left.size(); ++j) rest(static_cast<Index>(i), static_cast<Index>(j)) = A(left[i], left[j]);
+            for (std::size_t j = 0; j < left.size(); ++j)
+                rest(static_cast<Index>(i), static_cast<Index>(j)) = A(left[i], left[j]);
         const Eigen::RealSchur<MatrixOf<long double>> schur(rest, false);
         if (schur.info() != Eigen::Success) throw IntegrationError("the eigenvalues do not converge", 0, {});
         const long double size = rest.cwiseAbs().maxCoeff();
         const auto keep = [&](long double real, long double imaginary) {
-            const auto rounded = [&](long double x) { return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x); };
+            const auto rounded = [&](long double x) {
+                return std::abs(x) < 1e-17L * size ? 0.0 : static_cast<double>(x);
+            };
             result.emplace_back(rounded(real), rounded(imaginary));
         };
         const MatrixOf<long double>& T = schur.matrixT();
@@ -125,7 +131,8 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
                 keep(T(i, i), 0);
                 continue;
             }
-            const long double half = (T(i, i) - T(i + 1, i + 1)) / 2, middle = T(i + 1, i + 1) + half;  // a pair that is not real
+            const long double half = (T(i, i) - T(i + 1, i + 1)) / 2,
+                              middle = T(i + 1, i + 1) + half;  // a pair that is not real
             const long double turn = std::sqrt(std::abs(half * half + T(i + 1, i) * T(i, i + 1)));
             keep(middle, turn);
             keep(middle, -turn);
@@ -141,21 +148,28 @@ std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A)
 class Linearizing {
 public:
     Linearizing(const Mechanism& m, const Equations& e, const Start& start)
-        : m_(m), e_(e), residuals_(m, e), state_(state_of(start, m, e)), at_(instant_of<long double>(residuals_, state_)) {}
+        : m_(m),
+          e_(e),
+          residuals_(m, e),
+          state_(state_of(start, m, e)),
+          at_(instant_of<long double>(residuals_, state_)) {}
 
     Linearization go() {
         std::vector<bool> guessed(residuals_.s, false);
         if (residuals_.rates_are_speeds) guessed = m_.qdot_is_guess;
         split_ = split_of(residuals_, at_, m_.q_is_guess, guessed);
         if (!settle(residuals_, split_, at_))
-            throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state", state_.t, state_.q);
+            throw IntegrationError("the constraints cannot be solved for the dependent coordinates at this state",
+                                   state_.t, state_.q);
         at_kink_ = is_at_kink(residuals_, at_);
         here_ = tangent(residuals_, split_, at_, at_kink_);
         if (at_kink_) check_differentiable(residuals_, split_, at_, here_, m_, e_);
         p_ = static_cast<Index>(split_.u.size());
         nr_ = static_cast<Index>(split_.q.size());
         if (!here_.speed_rates.allFinite() || !here_.speed_rates_by.allFinite())
-            throw IntegrationError("the mass matrix, constraints eliminated, is singular or not finite at this state", state_.t, state_.q);
+            throw IntegrationError(
+                "the mass matrix, constraints eliminated, is singular or not finite at this state", state_.t,
+                state_.q);
         depends_ = dependences(residuals_, split_, at_);
         const std::vector<bool> essential = held();
         check_time(essential);
@@ -171,9 +185,10 @@ private:
     void check_time(const std::vector<bool>& essential) const {
         for (Index i = 0; i < p_ + nr_; ++i)
             if (depends_(i, nr_ + p_) && (i < p_ || essential[i - p_]))
-                throw ModelError(fmt::format("the equations change with time ({}' holds t, and not through inputs); there is no "
-                                             "equilibrium or steady motion to linearize about",
-                                             i < p_ ? speed(i) : coordinate(i - p_)));
+                throw ModelError(fmt::format(
+                    "the equations change with time ({}' holds t, and not through inputs); there is no "
+                    "equilibrium or steady motion to linearize about",
+                    i < p_ ? speed(i) : coordinate(i - p_)));
     }
 
     /// Coordinates that the speeds' rates hold, and those that the rates of these hold, and so on.
@@ -184,7 +199,8 @@ private:
             for (Index j = 0; j < nr_; ++j) {
                 if (result[j]) continue;
                 bool is_held = false;
-                for (Index i = 0; i < p_ + nr_; ++i) is_held = is_held || ((i < p_ || result[i - p_]) && depends_(i, j));
+                for (Index i = 0; i < p_ + nr_; ++i)
+                    is_held = is_held || ((i < p_ || result[i - p_]) && depends_(i, j));
                 if (is_held) result[j] = again = true;
             }
         }
@@ -194,27 +210,33 @@ private:
     void find_motion(const std::vector<bool>& essential) {
         const auto tolerance = [&](const auto& row) {  // what an error of 1e-9 of the state may do
             long double sum = 1e-12L;
-            for (Index j = 0; j < nr_; ++j) sum += 1e-9L * std::abs(row[j]) * std::max(1.0L, std::abs(at_.q[split_.q[j]]));
-            for (Index j = 0; j < p_; ++j) sum += 1e-9L * std::abs(row[nr_ + j]) * std::max(1.0L, std::abs(at_.u[split_.u[j]]));
+            for (Index j = 0; j < nr_; ++j)
+                sum += 1e-9L * std::abs(row[j]) * std::max(1.0L, std::abs(at_.q[split_.q[j]]));
+            for (Index j = 0; j < p_; ++j)
+                sum += 1e-9L * std::abs(row[nr_ + j]) * std::max(1.0L, std::abs(at_.u[split_.u[j]]));
             return sum;
         };
         std::vector<std::string> residual;
         for (Index i = 0; i < p_; ++i)
             if (std::abs(here_.speed_rates[i]) > tolerance(here_.speed_rates_by.row(i)))
-                residual.push_back(fmt::format("{}' = {:.6g}", speed(i), static_cast<double>(here_.speed_rates[i])));
+                residual.push_back(
+                    fmt::format("{}' = {:.6g}", speed(i), static_cast<double>(here_.speed_rates[i])));
         std::vector<bool> moves(nr_);
         for (Index j = 0; j < nr_; ++j) {
             moves[j] = std::abs(here_.rates[j]) > tolerance(here_.rates_by.row(j));
             if (moves[j] && essential[j])
-                residual.push_back(fmt::format("{}' = {:.6g}, and {} is not cyclic", coordinate(j), static_cast<double>(here_.rates[j]), coordinate(j)));
+                residual.push_back(fmt::format("{}' = {:.6g}, and {} is not cyclic", coordinate(j),
+                                               static_cast<double>(here_.rates[j]), coordinate(j)));
             else if (moves[j])
                 result_.moving.push_back(coordinate(j));
         }
         if (!residual.empty())
-            throw ModelError(fmt::format("this state is no equilibrium and no steady motion: {}; expected zeros. Ask at a state where "
-                                         "they are, or give it as initial values",
-                                         fmt::join(residual, "; ")));
-        // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then only what is held is a state.
+            throw ModelError(fmt::format(
+                "this state is no equilibrium and no steady motion: {}; expected zeros. Ask at a state where "
+                "they are, or give it as initial values",
+                fmt::join(residual, "; ")));
+        // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
+        // only what is held is a state.
         bool constant = true;
         for (Index j = 0; j < nr_; ++j)
             for (Index i = 0; i < p_ + nr_; ++i) constant = constant && !(moves[j] && depends_(i, j));
@@ -233,7 +255,8 @@ private:
         for (const int i : split_.q_dependent) r.dependent.push_back(m_.q[i].get_name());
         for (const int i : split_.u_dependent) r.dependent.push_back(e_.u[i].get_name());
         for (const int k : residuals_.inputs)
-            r.inputs.push_back(m_.inputs[k / 3].derivative[0].get_name() + std::string(static_cast<std::size_t>(k % 3), '\''));
+            r.inputs.push_back(m_.inputs[k / 3].derivative[0].get_name() +
+                               std::string(static_cast<std::size_t>(k % 3), '\''));
 
         const Instant<double> near{.parameters = {at_.parameters.begin(), at_.parameters.end()},
                                    .q = {at_.q.begin(), at_.q.end()},
@@ -253,7 +276,8 @@ private:
         std::vector<Index> of_speed(p_, -1);
         std::vector<bool> belongs(nr_, false);
         for (Index i = 0; i < p_ && residuals_.rates_are_speeds; ++i)
-            if (const auto found = std::find(split_.q.begin(), split_.q.end(), split_.u[i]); found != split_.q.end()) {
+            if (const auto found = std::find(split_.q.begin(), split_.q.end(), split_.u[i]);
+                found != split_.q.end()) {
                 of_speed[i] = found - split_.q.begin();
                 belongs[of_speed[i]] = true;
             }
@@ -277,7 +301,8 @@ private:
         const auto rows = [&](const auto& t) {
             auto result = t.rates_by;
             result.resize(size, t.rates_by.cols());
-            for (std::size_t i = 0; i < kept_.size(); ++i) result.row(static_cast<Index>(i)) = t.rates_by.row(kept_[i]);
+            for (std::size_t i = 0; i < kept_.size(); ++i)
+                result.row(static_cast<Index>(i)) = t.rates_by.row(kept_[i]);
             result.bottomRows(p_) = t.speed_rates_by;
             return result;
         };

@@ -22,7 +22,8 @@ bool has_unknown_derivative(const ex& e) {
     return false;
 }
 
-std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
+std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0,
+                                         const std::vector<ex>& u0) {
     const int n = m.size();
     if (!m.constraints.empty() || !e.speeds_are_rates() || n > most_coordinates) return {};
     GiNaC::exmap there;
@@ -38,7 +39,8 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
         return expression(readable(*f));
     };
     const unsigned size = static_cast<unsigned>(n);
-    SymbolicMatrices result{.M = {size, size}, .C = {size, size}, .G = {size, size}, .K = {size, size}, .N = {size, size}};
+    SymbolicMatrices result{
+        .M = {size, size}, .C = {size, size}, .G = {size, size}, .K = {size, size}, .N = {size, size}};
     std::vector<ex> f;
     for (int i = 0; i < n; ++i) {
         if (m.z->tree_size(e.forcing(i)) > largest_tree) return {};
@@ -48,9 +50,13 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             if (m.z->tree_size(e.M(i, j)) > largest_tree) return {};
-            const auto part = [&](const std::vector<GiNaC::symbol>& by, int sign) { return half * (-f[i].diff(by[j]) - sign * f[j].diff(by[i])); };
-            for (const auto& [matrix, value] : {std::pair(&result.M, m.z->expand(e.M(i, j))), std::pair(&result.C, ex(part(m.qdot, 1))), std::pair(&result.G, ex(part(m.qdot, -1))),
-                                                std::pair(&result.K, ex(part(m.q, 1))), std::pair(&result.N, ex(part(m.q, -1)))}) {
+            const auto part = [&](const std::vector<GiNaC::symbol>& by, int sign) {
+                return half * (-f[i].diff(by[j]) - sign * f[j].diff(by[i]));
+            };
+            for (const auto& [matrix, value] :
+                 {std::pair(&result.M, m.z->expand(e.M(i, j))), std::pair(&result.C, ex(part(m.qdot, 1))),
+                  std::pair(&result.G, ex(part(m.qdot, -1))), std::pair(&result.K, ex(part(m.q, 1))),
+                  std::pair(&result.N, ex(part(m.q, -1)))}) {
                 const std::optional<ex> element = readable_there(value);
                 if (!element) return {};
                 (*matrix)(i, j) = *element;
@@ -61,7 +67,8 @@ std::optional<SymbolicMatrices> matrices(const Mechanism& m, const Equations& e,
 
 }  // namespace
 
-std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e, const std::vector<ex>& q0, const std::vector<ex>& u0) {
+std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& m, const Equations& e,
+                                                  const std::vector<ex>& q0, const std::vector<ex>& u0) {
     try {
         return matrices(m, e, q0, u0);
     } catch (const GiNaC::pole_error&) {  // 0·∞, as of sqrt(x^2)^3 at 0

@@ -20,9 +20,11 @@ struct SymbolicMatrices {
     GiNaC::matrix M, C, G, K, N;
 };
 
-/// Nothing where there are constraints or other speeds, more than four coordinates, or an element of more than twelve terms, nor where a
-/// function such as abs or sqrt is at 0, of which GiNaC has no derivative there (the numbers of linearize.hpp may exist).
-std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& mechanism, const Equations& equations, const std::vector<GiNaC::ex>& q0,
+/// Nothing where there are constraints or other speeds, more than four coordinates, or an element of more than
+/// twelve terms, nor where a function such as abs or sqrt is at 0, of which GiNaC has no derivative there (the
+/// numbers of linearize.hpp may exist).
+std::optional<SymbolicMatrices> symbolic_matrices(const Mechanism& mechanism, const Equations& equations,
+                                                  const std::vector<GiNaC::ex>& q0,
                                                   const std::vector<GiNaC::ex>& u0);
 
 }  // namespace alembert

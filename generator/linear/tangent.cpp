@@ -20,7 +20,11 @@ using GiNaC::ex;
 using Index = Eigen::Index;
 
 Residuals::Residuals(const Mechanism& m, const Equations& e)
-    : n(m.size()), s(e.size()), holonomic(0), kept(static_cast<int>(e.A.size())), rates_are_speeds(e.speeds_are_rates()) {
+    : n(m.size()),
+      s(e.size()),
+      holonomic(0),
+      kept(static_cast<int>(e.A.size())),
+      rates_are_speeds(e.speeds_are_rates()) {
     Program all;
     all.source_labels = m.z->source_labels();
     std::vector<std::pair<GiNaC::symbol, int>> given;
@@ -60,8 +64,14 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
         input_symbols.insert(input_symbols.end(), input.derivative.begin(), input.derivative.end());
     for (const int id : lower_expressions(all, m, input_symbols)) all.roots.push_back({Group::input, "", id});
     program = all.canonical();
-    for (const auto& [group, list] : {std::pair{Group::mass, &mass}, {Group::forcing, &forcing}, {Group::row, &row}, {Group::gamma, &gamma}, {Group::rate, &rate},
-                                      {Group::position, &position}, {Group::velocity, &velocity}, {Group::input, &input_values}})
+    for (const auto& [group, list] : {std::pair{Group::mass, &mass},
+                                      {Group::forcing, &forcing},
+                                      {Group::row, &row},
+                                      {Group::gamma, &gamma},
+                                      {Group::rate, &rate},
+                                      {Group::position, &position},
+                                      {Group::velocity, &velocity},
+                                      {Group::input, &input_values}})
         *list = program.nodes_of(group);
     for (int id = 0; id < program.size(); ++id)
         if (program[id].op == Op::variable && program[id].variable.kind == Variable::Kind::unknown)
@@ -109,8 +119,9 @@ struct Values {
     Index columns = 0;
 
 private:
-    /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of sides: then the
-    /// derivatives are those of the root itself, in each direction in which both of its sides agree.
+    /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of
+    /// sides: then the derivatives are those of the root itself, in each direction in which both of its sides
+    /// agree.
     void repair(const Instant<Real>& at) {
         const Instant<long double> point{.parameters = {at.parameters.begin(), at.parameters.end()},
                                          .q = {at.q.begin(), at.q.end()},
@@ -120,7 +131,9 @@ private:
         const std::vector<Germ> here = on_path(r_, point, VectorOf<long double>::Zero(columns));
         std::vector<int> broken;
         for (const Root& root : r_.program.roots)
-            if (root.group != Group::input && !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty()) broken.push_back(root.node);
+            if (root.group != Group::input &&
+                !critical_nodes(r_.program, std::vector<int>{root.node}, here).empty())
+                broken.push_back(root.node);
         for (Index k = 0; k < columns; ++k) {
             const VectorOf<long double> d = VectorOf<long double>::Unit(columns, k);
             const std::vector<Germ> there = on_path(r_, point, d), back = on_path(r_, point, -d);
@@ -136,12 +149,14 @@ private:
     std::vector<Jet<Real>> value_;
 };
 
-/// The columns of pivots of an elimination of `rows`, from the first class that has one that will do; fewer than rows where none is left.
+/// The columns of pivots of an elimination of `rows`, from the first class that has one that will do; fewer than
+/// rows where none is left.
 std::vector<int> pivots(MatrixOf<long double> rows, const std::vector<int>& order_class) {
     constexpr long double good = 1e-6L, some = 1e-12L;  // of the row at the start
     std::vector<int> result;
     std::vector<long double> size;
-    for (Index r = 0; r < rows.rows(); ++r) size.push_back(rows.row(r).size() > 0 ? rows.row(r).cwiseAbs().maxCoeff() : 0);
+    for (Index r = 0; r < rows.rows(); ++r)
+        size.push_back(rows.row(r).size() > 0 ? rows.row(r).cwiseAbs().maxCoeff() : 0);
     std::vector<bool> done(rows.rows(), false);
     const int classes = order_class.empty() ? 0 : *std::max_element(order_class.begin(), order_class.end()) + 1;
     for (Index step = 0; step < rows.rows(); ++step) {
@@ -201,19 +216,22 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
                const std::vector<bool>& preferred_u) {
     const Values<long double> value(r, at);
     const auto refuse = [&](const char* which, std::size_t rank, int rows) {
-        throw IntegrationError(std::string("the ") + which + " constraints depend on each other at this state: rank " + std::to_string(rank) +
-                                   " of " + std::to_string(rows) + "; choose a state off the singular pose",
-                               static_cast<double>(at.t), {at.q.begin(), at.q.end()});
+        throw IntegrationError(
+            std::string("the ") + which + " constraints depend on each other at this state: rank " +
+                std::to_string(rank) + " of " + std::to_string(rows) + "; choose a state off the singular pose",
+            static_cast<double>(at.t), {at.q.begin(), at.q.end()});
     };
     Split split;
     std::vector<int> order;
     for (int i = 0; i < r.n; ++i) order.push_back(preferred_q[i] ? 0 : 1);
     split.q_dependent = pivots(value.jacobian(r.position).leftCols(r.n), order);
-    if (static_cast<int>(split.q_dependent.size()) < r.holonomic) refuse("holonomic", split.q_dependent.size(), r.holonomic);
+    if (static_cast<int>(split.q_dependent.size()) < r.holonomic)
+        refuse("holonomic", split.q_dependent.size(), r.holonomic);
     split.q = others(split.q_dependent, r.n);
     order.clear();
     for (int i = 0; i < r.s; ++i) {
-        const bool follows = r.rates_are_speeds && std::binary_search(split.q_dependent.begin(), split.q_dependent.end(), i);
+        const bool follows =
+            r.rates_are_speeds && std::binary_search(split.q_dependent.begin(), split.q_dependent.end(), i);
         order.push_back(follows ? 0 : preferred_u[i] ? 1 : 2);
     }
     split.u_dependent = pivots(value.jacobian(r.velocity).middleCols(r.n, r.s), order);
@@ -317,8 +335,10 @@ bool settle(const Residuals& r, const Split& split, Instant<Real>& at) {
         const Tangent<Real> here = tangent(r, split, at);
         const Real move_q = size(here.to_position), move_u = size(here.to_velocity);
         if (!std::isfinite(move_q) || !std::isfinite(move_u)) return false;
-        for (std::size_t k = 0; k < split.q_dependent.size(); ++k) at.q[split.q_dependent[k]] += here.to_position[static_cast<Index>(k)];
-        for (std::size_t k = 0; k < split.u_dependent.size(); ++k) at.u[split.u_dependent[k]] += here.to_velocity[static_cast<Index>(k)];
+        for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
+            at.q[split.q_dependent[k]] += here.to_position[static_cast<Index>(k)];
+        for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
+            at.u[split.u_dependent[k]] += here.to_velocity[static_cast<Index>(k)];
         if (move_q < Real(1e-14) && move_u < Real(1e-14)) return true;
     }
     return split.q_dependent.empty() && split.u_dependent.empty();

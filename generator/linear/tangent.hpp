@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The equations of motion and their first derivatives at one state, in independent coordinates and speeds: the algebra of
-/// linear/linearize.hpp, for any state and any floating-point type.
+/// The equations of motion and their first derivatives at one state, in independent coordinates and speeds: the
+/// algebra of linear/linearize.hpp, for any state and any floating-point type.
 ///
 ///     const Residuals residuals(mechanism, equations);           // one Program for all of them
 ///     const Split split = split_of(residuals, instant, …); // which coordinates and speeds are independent
@@ -23,10 +23,10 @@ struct Residuals {
     Residuals(const Mechanism& mechanism, const Equations& equations);
 
     Program program;
-    int n, s, holonomic, kept;        ///< coordinates, speeds, rows of φ, rows of A
+    int n, s, holonomic, kept;  ///< coordinates, speeds, rows of φ, rows of A
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
-    std::vector<int> inputs;          ///< 3·index + order, of those that occur
-    std::vector<int> input_values;    ///< nodes, in parameters and t
+    std::vector<int> inputs;        ///< 3·index + order, of those that occur
+    std::vector<int> input_values;  ///< nodes, in parameters and t
     bool rates_are_speeds;
 };
 
@@ -49,26 +49,28 @@ using VectorOf = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 /// Columns: independent coordinates r, independent speeds w, then t and the inputs, which `tangent` calls x.
 template <typename Real>
 struct Tangent {
-    VectorOf<Real> position, velocity;   ///< φ, ν: what is to be zero
-    VectorOf<Real> speed_rates;          ///< w'
-    VectorOf<Real> rates;                ///< r'
-    MatrixOf<Real> mass, force;          ///< mass δw' + force δ = 0
-    MatrixOf<Real> speed_rates_by;       ///< δw' = −mass⁻¹ force δ
-    MatrixOf<Real> rates_by;             ///< δr'
+    VectorOf<Real> position, velocity;        ///< φ, ν: what is to be zero
+    VectorOf<Real> speed_rates;               ///< w'
+    VectorOf<Real> rates;                     ///< r'
+    MatrixOf<Real> mass, force;               ///< mass δw' + force δ = 0
+    MatrixOf<Real> speed_rates_by;            ///< δw' = −mass⁻¹ force δ
+    MatrixOf<Real> rates_by;                  ///< δr'
     VectorOf<Real> to_position, to_velocity;  ///< Newton's step of the dependent coordinates, then speeds
-    MatrixOf<Real> along;                ///< rows q, u, t, inputs: what a change of each column moves
-    VectorOf<Real> udot, lambda;         ///< u' and multipliers of the undisturbed motion
+    MatrixOf<Real> along;                     ///< rows q, u, t, inputs: what a change of each column moves
+    VectorOf<Real> udot, lambda;              ///< u' and multipliers of the undisturbed motion
 };
 
-/// Dependent: by the largest pivot of φ_q among `preferred_q`, of all where none of these will do; of ν_u likewise, the rates of
-/// dependent coordinates before anything else. Throws IntegrationError where the rows depend on each other at this state.
+/// Dependent: by the largest pivot of φ_q among `preferred_q`, of all where none of these will do; of ν_u
+/// likewise, the rates of dependent coordinates before anything else. Throws IntegrationError where the rows
+/// depend on each other at this state.
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 
-/// `at_kink`: a function is at a critical point (is_at_kink of paths.hpp). Then derivatives that the chain rule does not give node by
-/// node, as of sqrt(x^2)^3 at 0, are those of one-sided series.
+/// `at_kink`: a function is at a critical point (is_at_kink of paths.hpp). Then derivatives that the chain rule
+/// does not give node by node, as of sqrt(x^2)^3 at 0, are those of one-sided series.
 template <typename Real>
-Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at, bool at_kink = false);
+Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at,
+                      bool at_kink = false);
 
 /// Moves dependent coordinates and speeds until the constraints hold to rounding; false if they do not.
 template <typename Real>

@@ -12,7 +12,8 @@ namespace {
 /// From joints' rates to the coordinates': the absolute ones by differences, the relative ones by S.
 class Change {
 public:
-    Change(Program& program, const JointTree& tree, LinkAxes axes) : p_(program), how_(dress(tree, axes)), n_(tree.coordinates) {
+    Change(Program& program, const JointTree& tree, LinkAxes axes)
+        : p_(program), how_(dress(tree, axes)), n_(tree.coordinates) {
         // S is a permutation, with signs: coordinate and sign of each joint.
         std::vector<char> taken(static_cast<std::size_t>(n_), 0);
         is_direct_ = static_cast<int>(tree.joints.size()) == n_;
@@ -20,7 +21,8 @@ public:
             int count = 0, only = -1;
             rows_.emplace_back();
             for (int a = 0; a < n_; ++a)
-                if (!joint.row[a].is_zero()) ++count, only = a, rows_.back().emplace_back(a, cln::the<cln::cl_RA>(joint.row[a].to_cl_N()));
+                if (!joint.row[a].is_zero())
+                    ++count, only = a, rows_.back().emplace_back(a, cln::the<cln::cl_RA>(joint.row[a].to_cl_N()));
             const bool plain = count == 1 && GiNaC::abs(joint.row[only]).is_equal(1) && taken[only]++ == 0;
             is_direct_ = is_direct_ && plain;
             of_.emplace_back(only, plain ? joint.row[only].to_int() : 0);
@@ -110,13 +112,17 @@ private:
 }  // namespace
 
 std::string RecursionForm::text() const {
-    const std::string name = solve == Solve::matrix ? "composite bodies" : solve == Solve::articulated ? "articulated bodies" : "chain from both ends";
+    const std::string name = solve == Solve::matrix        ? "composite bodies"
+                             : solve == Solve::articulated ? "articulated bodies"
+                                                           : "chain from both ends";
     return name + (axes == LinkAxes::still ? ", parallel axes" : "");
 }
 
-RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form, bool with_matrix,
-                         const std::function<int(const GiNaC::ex&)>& lowering) {
-    const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
+RecursionNodes recursion(Program& program, const JointTree& joints, Intermediates& z, const RecursionForm& form,
+                         bool with_matrix, const std::function<int(const GiNaC::ex&)>& lowering) {
+    const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) {
+        return Symbolic(program, lowering(e));
+    };
     const BodyTree<Symbolic> tree = regrouped(reframed(program, dressed<Symbolic>(joints, form.axes, z, value)));
     const Change change(program, joints, form.axes);
     const auto nodes = [&](const std::vector<Symbolic>& list) {
@@ -141,7 +147,8 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
         for (std::size_t j = 0; j < M.size(); ++j)
             for (std::size_t i = 0; i <= j; ++i) lower.push_back(full[j][i] = full[i][j] = M[j][i].node(program));
         result = {.mass = change.mass(full), .forcing = change.forces(n)};
-        for (std::size_t a = 0; a < Q.size(); ++a) result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
+        for (std::size_t a = 0; a < Q.size(); ++a)
+            result.forcing[a] = program.sum(0, {{1, Q[a]}, {-1, result.forcing[a]}});
     }
     if (!change.determines()) return result;
     const std::vector<int> loads = change.loads(Q);
@@ -152,14 +159,18 @@ RecursionNodes recursion(Program& program, const JointTree& joints, Intermediate
         for (std::size_t j = 0; j < n.size(); ++j) f.push_back(program.sum(0, {{1, loads[j]}, {-1, n[j]}}));
         if (form.solve == RecursionForm::Solve::both_ends)
             result.acceleration = change.accelerations(nodes(from_both_ends(tree, symbols(f))));
-        else if (const auto rates = solve_symmetric(program, lower, f)) result.acceleration = change.accelerations(*rates);
+        else if (const auto rates = solve_symmetric(program, lower, f))
+            result.acceleration = change.accelerations(*rates);
     }
     return result;
 }
 
-std::vector<int> inverse_recursion(Program& program, const JointTree& joints, Intermediates& z, const std::vector<GiNaC::symbol>& qddot,
+std::vector<int> inverse_recursion(Program& program, const JointTree& joints, Intermediates& z,
+                                   const std::vector<GiNaC::symbol>& qddot,
                                    const std::function<int(const GiNaC::ex&)>& lowering) {
-    const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) { return Symbolic(program, lowering(e)); };
+    const std::function<Symbolic(const GiNaC::ex&)> value = [&](const GiNaC::ex& e) {
+        return Symbolic(program, lowering(e));
+    };
     BodyTree<Symbolic> tree = regrouped(dressed<Symbolic>(joints, LinkAxes::own, z, value));
     for (std::size_t j = 0; j < joints.joints.size(); ++j) {
         GiNaC::ex w = joints.joints[j].drift;
@@ -169,7 +180,8 @@ std::vector<int> inverse_recursion(Program& program, const JointTree& joints, In
     std::vector<int> loads;
     for (const Symbolic& s : joint_loads(tree, Bias<Symbolic>(tree).wrenches)) loads.push_back(s.node(program));
     loads = Change(program, joints, LinkAxes::own).forces(loads);
-    for (std::size_t a = 0; a < loads.size(); ++a) loads[a] = program.sum(0, {{1, loads[a]}, {-1, lowering(joints.forces[a])}});
+    for (std::size_t a = 0; a < loads.size(); ++a)
+        loads[a] = program.sum(0, {{1, loads[a]}, {-1, lowering(joints.forces[a])}});
     return loads;
 }
 

@@ -3,7 +3,8 @@
 
 /// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
 ///
-///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still, RecursionForm::Solve::articulated}, lowering);
+///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still,
+///     RecursionForm::Solve::articulated}, lowering);
 
 #include <functional>
 #include <optional>
@@ -15,19 +16,21 @@
 namespace alembert {
 
 struct RecursionNodes {
-    std::vector<int> mass, forcing;                       ///< in coordinates; mass: lower triangle by rows; both empty if not wanted
-    std::optional<std::vector<int>> acceleration = {};    ///< q''; nothing where the joints' rates do not
-                                                          ///< determine the coordinates', or the form is not one of this tree
+    std::vector<int> mass, forcing;  ///< in coordinates; mass: lower triangle by rows; both empty if not wanted
+    std::optional<std::vector<int>> acceleration =
+        {};  ///< q''; nothing where the joints' rates do not
+             ///< determine the coordinates', or the form is not one of this tree
 };
 
 /// `lowering` gives the node of an expression. Sources of nodes are left as they are.
 /// Without `with_matrix` the form is one that needs none.
-RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form, bool with_matrix,
-                         const std::function<int(const GiNaC::ex&)>& lowering);
+RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form,
+                         bool with_matrix, const std::function<int(const GiNaC::ex&)>& lowering);
 
-/// The loads along the coordinates that accelerations q'' need beside those of the tree: Newton-Euler outwards at these
-/// accelerations, and inwards; M is never made. `qddot`: the symbols of q''.
-std::vector<int> inverse_recursion(Program& program, const JointTree& tree, Intermediates& z, const std::vector<GiNaC::symbol>& qddot,
+/// The loads along the coordinates that accelerations q'' need beside those of the tree: Newton-Euler outwards at
+/// these accelerations, and inwards; M is never made. `qddot`: the symbols of q''.
+std::vector<int> inverse_recursion(Program& program, const JointTree& tree, Intermediates& z,
+                                   const std::vector<GiNaC::symbol>& qddot,
                                    const std::function<int(const GiNaC::ex&)>& lowering);
 
 }  // namespace alembert

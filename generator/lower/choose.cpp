@@ -7,10 +7,10 @@
 #include <stdexcept>
 
 #include "formalism/joint_tree.hpp"
+#include "notation/readable.hpp"
 #include "program/constants.hpp"
 #include "program/flatten.hpp"
 #include "program/share.hpp"
-#include "notation/readable.hpp"
 
 namespace alembert {
 
@@ -19,10 +19,10 @@ using GiNaC::ex;
 namespace {
 
 constexpr std::size_t most_composite = 20;  // joints; beyond, the matrix costs more to lower than it can win
-constexpr double readability = 1.1;  // what another form must win against the textbook's
-constexpr double least_after = 0.85;  // of a form's time, after rewriting; measured over all scenes: 0.89
-constexpr std::size_t many_joints = 6;  // beyond, axes that turn never win where parallel ones exist
-constexpr double largest_tree = 50000;  // nodes; beyond, expanding costs more than it can win
+constexpr double readability = 1.1;         // what another form must win against the textbook's
+constexpr double least_after = 0.85;        // of a form's time, after rewriting; measured over all scenes: 0.89
+constexpr std::size_t many_joints = 6;      // beyond, axes that turn never win where parallel ones exist
+constexpr double largest_tree = 50000;      // nodes; beyond, expanding costs more than it can win
 
 /// All of `values` in readable form, or none.
 bool make_readable(std::vector<ex*> values, const Mechanism& m) {
@@ -64,7 +64,8 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
-        equations.row_sources.push_back(equations.speeds_are_rates() ? sources_of_row(m, i) : m.z->source_labels());
+        equations.row_sources.push_back(equations.speeds_are_rates() ? sources_of_row(m, i)
+                                                                     : m.z->source_labels());
     }
     for (ex& rate : equations.h)
         if (!make_readable({&rate}, m)) return std::nullopt;
@@ -105,7 +106,8 @@ struct Candidate {
 };
 
 /// The forms that these equations can take, each lowered.
-void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equations& equations,
+               const Energy& energy, const LowerOptions& options) {
     const std::size_t before = programs.size();
     if (!equations.tree || !m.constraints.empty()) {
         Equations intermediate = equations;
@@ -127,9 +129,12 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
             if (axes == LinkAxes::still && !parallel) continue;
             if (axes == LinkAxes::own && parallel && equations.tree->joints.size() > many_joints) continue;
             if (solve == Solve::matrix && !has_matrix) continue;
-            if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree))) continue;
+            if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree)))
+                continue;
             // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
-            if (solve != Solve::matrix ? !m.constraints.empty() : equations.tree->joints.size() > most_composite && m.constraints.empty()) continue;
+            if (solve != Solve::matrix ? !m.constraints.empty()
+                                       : equations.tree->joints.size() > most_composite && m.constraints.empty())
+                continue;
             Equations recursive = equations;
             recursive.formalism += ", " + form.text();
             LowerOptions by = options;
@@ -137,11 +142,13 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equat
             try {
                 programs.push_back({lower(m, recursive, energy, by), true});
             } catch (const std::domain_error&) {
-                // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates these are.
+                // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates
+                // these are.
             }
         }
     if (programs.size() == before && !has_matrix)
-        throw ModelError("no inertia resists some motion of the joints; give every body a mass and moments of inertia");
+        throw ModelError(
+            "no inertia resists some motion of the joints; give every body a mass and moments of inertia");
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
 }
 
@@ -161,7 +168,8 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
         Candidate& c = candidates[k];
         const double least = times[k] * least_after / (c.program.is_textbook ? readability : 1);
         if (c.program.singular || least <= best || times[k] <= second)
-            programs.push_back(with_simple_constants(shared(c.is_recursion ? flattened(c.program) : std::move(c.program))));
+            programs.push_back(
+                with_simple_constants(shared(c.is_recursion ? flattened(c.program) : std::move(c.program))));
     }
     return programs;
 }

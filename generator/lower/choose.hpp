@@ -5,11 +5,12 @@
 ///
 ///     const Choice choice = choose(mechanism, {lagrange(mechanism), recursive(mechanism)});
 ///
-/// The textbook's form (Fourier normal form, grouped and factored) is short for a few bodies and has 2^k terms for k angles; the one
-/// with intermediate symbols grows like a polynomial; recursive equations have composite bodies and articulated bodies, each along
-/// axes that turn with the links or along parallel ones. All that exist are lowered (turning axes of a longer chain excepted, which
-/// never win where there are parallel ones), those that may still win are rewritten; operations and the longest chain of them decide.
-/// Another form must win a tenth against the textbook's, which can be read.
+/// The textbook's form (Fourier normal form, grouped and factored) is short for a few bodies and has 2^k terms for
+/// k angles; the one with intermediate symbols grows like a polynomial; recursive equations have composite bodies
+/// and articulated bodies, each along axes that turn with the links or along parallel ones. All that exist are
+/// lowered (turning axes of a longer chain excepted, which never win where there are parallel ones), those that
+/// may still win are rewritten; operations and the longest chain of them decide. Another form must win a tenth
+/// against the textbook's, which can be read.
 
 #include <optional>
 #include <string>
@@ -26,12 +27,13 @@ struct RunnerUp {
 };
 
 struct Choice {
-    Program program;                    ///< `formulation` says which form it is
+    Program program;  ///< `formulation` says which form it is
     Cost cost = {};
     std::optional<RunnerUp> runner_up;  ///< the second best
 };
 
-Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations, const LowerOptions& options = {});
+Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations,
+              const LowerOptions& options = {});
 Choice choose(const Mechanism& mechanism, const Equations& equations, const LowerOptions& options = {});
 
 /// `e` in readable form, without intermediate symbols; nothing where that would be larger than `budget` terms.

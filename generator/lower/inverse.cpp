@@ -7,16 +7,18 @@
 #include "formalism/lagrange.hpp"
 #include "formalism/recursive.hpp"
 #include "formalism/routh.hpp"
-#include "lower/lower.hpp"
 #include "lower/articulated_bodies.hpp"
+#include "lower/lower.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
 
-std::vector<int> inverse_loads(Program& program, const Mechanism& m, const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+std::vector<int> inverse_loads(Program& program, const Mechanism& m,
+                               const std::vector<std::pair<GiNaC::symbol, int>>& given) {
     std::vector<std::pair<GiNaC::symbol, int>> known = given;
-    for (const Mechanism::Unilateral& contact : m.unilateral) known.emplace_back(contact.gap.multiplier, program.number(0));
+    for (const Mechanism::Unilateral& contact : m.unilateral)
+        known.emplace_back(contact.gap.multiplier, program.number(0));
     if (const Possible<JointTree> tree = loaded_tree(m); tree.exists()) {
         const auto lowering = lowering_into(program, m, known);
         return inverse_recursion(program, tree.value(), *m.z, m.qddot, lowering);
@@ -26,7 +28,8 @@ std::vector<int> inverse_loads(Program& program, const Mechanism& m, const std::
     std::vector<int> loads;
     for (int i = 0; i < m.size(); ++i) {
         std::vector<Program::Term> terms{{-1, lowering(e.forcing(i))}};
-        for (int j = 0; j < m.size(); ++j) terms.emplace_back(1, program.product(1, {{lowering(e.M(i, j)), 1}, {lowering(m.qddot[j]), 1}}));
+        for (int j = 0; j < m.size(); ++j)
+            terms.emplace_back(1, program.product(1, {{lowering(e.M(i, j)), 1}, {lowering(m.qddot[j]), 1}}));
         loads.push_back(program.sum(0, terms));
     }
     return loads;
@@ -38,7 +41,8 @@ Program lower_inverse(const Mechanism& m) {
     for (int i = 0; i < m.size(); ++i) program.roots.push_back({Group::load, m.q[i].get_name(), loads[i]});
     const auto lowering = lowering_into(program, m);
     for (const Mechanism::Constraint& c : m.constraints) {
-        for (int i = 0; i < m.size(); ++i) program.roots.push_back({Group::row, fmt::format("{}_{}", c.name, i), lowering(c.row[i])});
+        for (int i = 0; i < m.size(); ++i)
+            program.roots.push_back({Group::row, fmt::format("{}_{}", c.name, i), lowering(c.row[i])});
         program.roots.push_back({Group::gamma, c.name, lowering(c.acceleration)});
     }
     return program.canonical();

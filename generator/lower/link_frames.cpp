@@ -11,14 +11,16 @@ namespace alembert {
 
 namespace {
 
-constexpr double smallest_sine = 0.02;  // of the angle between axes that are not parallel: what is divided by it loses digits
+constexpr double smallest_sine =
+    0.02;  // of the angle between axes that are not parallel: what is divided by it loses digits
 constexpr std::size_t most_places = 6;  // of a link's origin that are compared
 
 using Vector = Triple<Symbolic>;
 
 class Frames {
 public:
-    Frames(Program& program, BodyTree<Symbolic> tree) : p_(program), tree_(std::move(tree)), children_(tree_.links.size()), weight_(tree_.links.size(), 1) {
+    Frames(Program& program, BodyTree<Symbolic> tree)
+        : p_(program), tree_(std::move(tree)), children_(tree_.links.size()), weight_(tree_.links.size(), 1) {
         for (int j = tree_.size() - 1; j >= 0; --j)
             if (const int parent = link(j).parent; parent >= 0) {
                 children_[parent].insert(children_[parent].begin(), j);
@@ -54,14 +56,20 @@ private:
         const Node& node = p_[id];
         const auto arg = [&](std::size_t k) { return value(node.args[k]); };
         switch (node.op) {
-            case Op::number: return real_of<double>(node.number);
-            case Op::pi: return M_PI;
-            case Op::sin: return std::sin(arg(0));
-            case Op::cos: return std::cos(arg(0));
-            case Op::sqrt: return std::sqrt(arg(0));
+            case Op::number:
+                return real_of<double>(node.number);
+            case Op::pi:
+                return M_PI;
+            case Op::sin:
+                return std::sin(arg(0));
+            case Op::cos:
+                return std::cos(arg(0));
+            case Op::sqrt:
+                return std::sqrt(arg(0));
             case Op::sum: {
                 double sum = real_of<double>(node.number);
-                for (std::size_t k = 0; k < node.args.size(); ++k) sum += real_of<double>(node.coefficients[k]) * arg(k);
+                for (std::size_t k = 0; k < node.args.size(); ++k)
+                    sum += real_of<double>(node.coefficients[k]) * arg(k);
                 return sum;
             }
             case Op::product: {
@@ -69,7 +77,8 @@ private:
                 for (std::size_t k = 0; k < node.args.size(); ++k) product *= std::pow(arg(k), node.exponents[k]);
                 return product;
             }
-            default: return std::numeric_limits<double>::quiet_NaN();
+            default:
+                return std::numeric_limits<double>::quiet_NaN();
         }
     }
 
@@ -98,7 +107,8 @@ private:
             const Vector first{a.cosine, a.sine, 0}, second = cross(columns[2], first);
             offset = {dot(first, columns[0]), dot(second, columns[0])};
             own.R = transposed(Matrix<Symbolic>{first, second, columns[2]});
-            if (first[0].number() && cln::equal(*first[0].number(), 1)) own.about_x = !own.R[1][1].is_zero() && !own.R[2][1].is_zero();
+            if (first[0].number() && cln::equal(*first[0].number(), 1))
+                own.about_x = !own.R[1][1].is_zero() && !own.R[2][1].is_zero();
         }
         int main = -1;
         for (const int k : children_[static_cast<std::size_t>(j)])
@@ -114,14 +124,16 @@ private:
                 link(k).p = turned_back(a.cosine, a.sine, link(k).p);
                 if (k == main) link(k).R[0][2] = Symbolic(0);
             }
-            offset = {offset.cosine * a.cosine - offset.sine * a.sine, offset.sine * a.cosine + offset.cosine * a.sine};
+            offset = {offset.cosine * a.cosine - offset.sine * a.sine,
+                      offset.sine * a.cosine + offset.cosine * a.sine};
         }
         if (offset.cosine.number() && offset.sine.number()) {  // quarter turns, as good as always
             const Symbolic c = own.cosine, s = own.sine;
             own.cosine = offset.cosine * c - offset.sine * s;
             own.sine = offset.sine * c + offset.cosine * s;
         } else {
-            const Symbolic angle = own.angle + Symbolic(p_, p_.call(Op::atan2, {offset.sine.node(p_), offset.cosine.node(p_)}));
+            const Symbolic angle =
+                own.angle + Symbolic(p_, p_.call(Op::atan2, {offset.sine.node(p_), offset.cosine.node(p_)}));
             own.cosine = {p_, p_.call(Op::cos, {angle.node(p_)})};
             own.sine = {p_, p_.call(Op::sin, {angle.node(p_)})};
         }
@@ -142,11 +154,16 @@ private:
         p[2] = p[2] - parent;
         return p;
     }
-    static double entries(const Vector& p) { return static_cast<double>(std::count_if(p.begin(), p.end(), [](const Symbolic& x) { return !x.is_zero(); })); }
+    static double entries(const Vector& p) {
+        return static_cast<double>(
+            std::count_if(p.begin(), p.end(), [](const Symbolic& x) { return !x.is_zero(); }));
+    }
 
     const Place& best(int k, const Symbolic& parent) {
         const std::vector<Place>& list = places_[static_cast<std::size_t>(k)];
-        return *std::min_element(list.begin(), list.end(), [&](const Place& a, const Place& b) { return entries(arm(k, a, parent)) + a.cost < entries(arm(k, b, parent)) + b.cost; });
+        return *std::min_element(list.begin(), list.end(), [&](const Place& a, const Place& b) {
+            return entries(arm(k, a, parent)) + a.cost < entries(arm(k, b, parent)) + b.cost;
+        });
     }
 
     /// Where each origin may stand, from the tips inwards, then the best of these outwards.
@@ -159,10 +176,12 @@ private:
             if (turns(l)) {
                 if (is_hinge(j))
                     for (int i = 0; i < 2; ++i)
-                        if (!l.p[i].is_zero() && std::abs(value(l.R[i][2])) > smallest_sine) list.push_back({-l.p[i] / l.R[i][2], i});
+                        if (!l.p[i].is_zero() && std::abs(value(l.R[i][2])) > smallest_sine)
+                            list.push_back({-l.p[i] / l.R[i][2], i});
                 for (const int k : children_[static_cast<std::size_t>(j)])
                     for (const Place& child : places_[static_cast<std::size_t>(k)])
-                        if (const Symbolic d = arm(k, child, 0)[2]; list.size() < most_places && !d.is_zero()) list.push_back({d});
+                        if (const Symbolic d = arm(k, child, 0)[2]; list.size() < most_places && !d.is_zero())
+                            list.push_back({d});
             }
             for (Place& place : list)
                 for (const int k : children_[static_cast<std::size_t>(j)]) {
@@ -190,6 +209,8 @@ private:
 
 }  // namespace
 
-BodyTree<Symbolic> reframed(Program& program, BodyTree<Symbolic> tree) { return Frames(program, std::move(tree)).made(); }
+BodyTree<Symbolic> reframed(Program& program, BodyTree<Symbolic> tree) {
+    return Frames(program, std::move(tree)).made();
+}
 
 }  // namespace alembert

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "formalism/kinematics.hpp"
+#include "lower/articulated_bodies.hpp"
 #include "lower/energy_roots.hpp"
 #include "lower/lowering.hpp"
 #include "lower/project.hpp"
-#include "lower/articulated_bodies.hpp"
 #include "program/solve.hpp"
 
 namespace alembert {
@@ -23,7 +23,8 @@ using GiNaC::is_a;
 namespace {
 
 /// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
-void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e, const std::vector<int>& udot) {
+void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e,
+                  const std::vector<int>& udot) {
     if (e.speeds_are_rates()) return;
     for (int k = 0; k < e.size(); ++k) {
         lowering.define(e.u[k], program.variable({Variable::Kind::rate, k}));
@@ -57,8 +58,8 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
         program.roots.push_back({Group::speed_rate, m.speeds[k].u.get_name(), lowering(rates[k])});
 }
 
-/// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B = A_all A_keptᵀ
-/// they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
+/// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B =
+/// A_all A_keptᵀ they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
 void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power) {
     lowering.lower_definitions({power});
     lowering(power);  // constraints that move do their work through the multipliers of those that are kept
@@ -71,7 +72,8 @@ void share_out(Lowering& lowering, Program& program, const Mechanism& m, const e
     lowering.lower_definitions(wanted);
     const auto dot = [&](const std::vector<int>& a, const std::vector<int>& b) {
         std::vector<Program::Term> terms;
-        for (std::size_t i = 0; i < a.size(); ++i) terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
+        for (std::size_t i = 0; i < a.size(); ++i)
+            terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
         return program.sum(0, terms);
     };
     std::vector<std::vector<int>> rows, B(kept);  // B by columns
@@ -90,7 +92,8 @@ void share_out(Lowering& lowering, Program& program, const Mechanism& m, const e
     const auto w = solve_symmetric(program, square, right, static_cast<int>(kept));
     for (std::size_t c = 0; c < all.size(); ++c) {
         std::vector<Program::Term> terms;
-        for (std::size_t k = 0; k < kept && w; ++k) terms.emplace_back(1, program.product(1, {{B[k][c], 1}, {(*w)[k], 1}}));
+        for (std::size_t k = 0; k < kept && w; ++k)
+            terms.emplace_back(1, program.product(1, {{B[k][c], 1}, {(*w)[k], 1}}));
         if (w || c >= kept) lowering.define(all[c]->multiplier, program.sum(0, terms));
     }
 }
@@ -102,7 +105,8 @@ Program begun(const Mechanism& m, bool fold) {
     program.source_labels = m.z->source_labels();
     for (const Mechanism::Parameter& p : m.parameters)
         if (p.independent && !fold)
-            program.parameters.push_back({p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
+            program.parameters.push_back(
+                {p.symbol.get_name(), p.unit, ex_to<GiNaC::numeric>(p.value).to_double()});
     for (int i = 0; i < m.size(); ++i) program.coordinates.push_back({m.q[i].get_name(), m.units[i]});
     program.name = m.name;
     return program;
@@ -143,8 +147,9 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         if (constraint.position) wanted.push_back(*constraint.position);
         wanted.push_back(constraint.drift);
     }
-    // e·e = 1 of a quaternion: no inertia resists the rate along e, and c Aᵀ(A u' − γ), which is 0, makes the matrix regular.
-    // c is a fourth of the mean diagonal element, so that the new eigenvalue is of the others' size.
+    // e·e = 1 of a quaternion: no inertia resists the rate along e, and c Aᵀ(A u' − γ), which is 0, makes the
+    // matrix regular. c is a fourth of the mean diagonal element, so that the new eigenvalue is of the others'
+    // size.
     std::vector<std::tuple<ex, const std::vector<ex>*, ex>> norms;
     for (std::size_t k = 0; k < kept.size(); ++k) {
         if (!m.constraints[kept[k]].norm) continue;
@@ -152,12 +157,14 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         for (int i = 0; i < n; ++i)
             if (!equations.A[k][i].is_zero()) diagonal.push_back(equations.M(i, i));
         const int count = std::max<int>(1, static_cast<int>(diagonal.size()));
-        norms.emplace_back(m.z->name(GiNaC::add(std::move(diagonal)) / (4 * count)), &equations.A[k], equations.gamma[k]);
+        norms.emplace_back(m.z->name(GiNaC::add(std::move(diagonal)) / (4 * count)), &equations.A[k],
+                           equations.gamma[k]);
         wanted.push_back(std::get<0>(norms.back()));
     }
     lowering.lower_definitions(wanted);
     // Open contacts do not push; those that the equations hold closed get their multipliers below.
-    for (const Mechanism::Unilateral& contact : m.unilateral) lowering.define(contact.gap.multiplier, program.number(0));
+    for (const Mechanism::Unilateral& contact : m.unilateral)
+        lowering.define(contact.gap.multiplier, program.number(0));
 
     const auto blame_row = [&](int i) {
         if (equations.row_sources.empty()) return;
@@ -171,13 +178,17 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     };
     std::vector<int> mass, forcing;
     RecursionNodes by_tree;
-    if (recursive) by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, has_matrix, [&](const ex& e) { return lowering(e); });
+    if (recursive)
+        by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, has_matrix,
+                            [&](const ex& e) { return lowering(e); });
     for (int i = 0; i < n && has_matrix; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
-            std::vector<Program::Term> terms{{1, recursive ? by_tree.mass[i * (i + 1) / 2 + j] : lowering(equations.M(i, j))}};
+            std::vector<Program::Term> terms{
+                {1, recursive ? by_tree.mass[i * (i + 1) / 2 + j] : lowering(equations.M(i, j))}};
             for (const auto& [c, row, gamma] : norms)
-                terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
+                terms.emplace_back(
+                    1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering((*row)[j]), 1}}));
             mass.push_back(program.sum(0, terms));
             program.roots.push_back({Group::mass, fmt::format("M{}{}{}", i, n > 10 ? "_" : "", j), mass.back()});
         }
@@ -185,7 +196,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         blame_row(i);
         std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : lowering(equations.forcing(i))}};
         for (const auto& [c, row, gamma] : norms)
-            terms.emplace_back(1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
+            terms.emplace_back(
+                1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
         forcing.push_back(program.sum(0, terms));
         program.roots.push_back({Group::forcing, fmt::format("f{}", i), forcing.back()});
     }
@@ -205,18 +217,24 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
             for (int i = 0; i < n; ++i) mass.push_back(lowering(equations.A[k][i]));
             for (int j = 0; j <= k; ++j) mass.push_back(program.number(0));
             forcing.push_back(lowering(equations.gamma[k]));
-            program.roots.push_back({Group::gamma, fmt::format("gamma{}", c), forcing.back(), static_cast<int>(c)});
+            program.roots.push_back(
+                {Group::gamma, fmt::format("gamma{}", c), forcing.back(), static_cast<int>(c)});
         }
         for (int i = 0; i < n && has_speeds; ++i)
             program.roots.push_back({Group::speed_row, fmt::format("B{}_{}", c, i),
                                      row_of[c] < 0 ? program.number(0) : lowering(equations.A[row_of[c]][i])});
-        program.roots.push_back({Group::position, constraint.name, constraint.position ? lowering(*constraint.position) : program.number(0)});
+        program.roots.push_back({Group::position, constraint.name,
+                                 constraint.position ? lowering(*constraint.position) : program.number(0)});
         program.roots.push_back({Group::velocity, constraint.name, program.sum(0, velocity)});
     }
     if (!has_matrix && !by_tree.acceleration)
-        throw ModelError("the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'");
-    if (const auto solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration : solve_symmetric(program, mass, forcing, n)) {
-        for (int i = 0; i < n; ++i) program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
+        throw ModelError(
+            "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'");
+    if (const auto solution = by_tree.acceleration && m.constraints.empty()
+                                  ? by_tree.acceleration
+                                  : solve_symmetric(program, mass, forcing, n)) {
+        for (int i = 0; i < n; ++i)
+            program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
         if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
@@ -233,12 +251,14 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         if (!m.redundant.empty()) share_out(lowering, program, m, energy.power);
         for (const auto* list : {&m.constraints, &m.redundant})
             for (const Mechanism::Constraint& constraint : *list)
-                program.roots.push_back({Group::multiplier, constraint.multiplier.get_name(), lowering(constraint.multiplier)});
+                program.roots.push_back(
+                    {Group::multiplier, constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
         // The power and outputs may name multipliers; their values are never read, as there is no motion.
         for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
-        for (const Mechanism::Constraint& constraint : m.redundant) lowering.define(constraint.multiplier, program.number(0));
+        for (const Mechanism::Constraint& constraint : m.redundant)
+            lowering.define(constraint.multiplier, program.number(0));
     }
     for (int i = 0; i < m.size() && has_speeds; ++i) {
         program.roots.push_back({Group::rate, m.q[i].get_name(), lowering(m.qdot[i])});
@@ -249,9 +269,12 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
     lowering.lower_definitions(wanted);
-    add_energy_roots(lowering, program, m, equations, energy, norms.empty() && has_matrix ? mass : std::vector<int>());
-    for (const Mechanism::Definition& part : m.outputs) program.roots.push_back({Group::output, part.name, lowering(part.value)});
-    for (const Mechanism::Definition& part : m.events) program.roots.push_back({Group::event, part.name, lowering(part.value)});
+    add_energy_roots(lowering, program, m, equations, energy,
+                     norms.empty() && has_matrix ? mass : std::vector<int>());
+    for (const Mechanism::Definition& part : m.outputs)
+        program.roots.push_back({Group::output, part.name, lowering(part.value)});
+    for (const Mechanism::Definition& part : m.events)
+        program.roots.push_back({Group::event, part.name, lowering(part.value)});
     return program.canonical();
 }
 
@@ -298,8 +321,8 @@ std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism,
     return nodes;
 }
 
-std::function<int(const ex&)> lowering_into(Program& program, const Mechanism& mechanism, const std::vector<std::pair<GiNaC::symbol, int>>& given,
-                                            bool fold) {
+std::function<int(const ex&)> lowering_into(Program& program, const Mechanism& mechanism,
+                                            const std::vector<std::pair<GiNaC::symbol, int>>& given, bool fold) {
     const auto lowering = std::make_shared<Lowering>(program, mechanism, fold);
     for (const auto& [symbol, node] : given) lowering->define(symbol, node);
     return [lowering](const ex& e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //   K (δπ, ·) = (0, f),   δq = S δπ,   K (δu, ·) = (0, A_q h + b at q − δq),   A = A_q S
-// (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); where all constraints are eliminated, A_q Aₑᵀ ν = f, δq = Aₑᵀ ν.
+// (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); where all constraints are eliminated, A_q Aₑᵀ ν = f, δq
+// = Aₑᵀ ν.
 #include "lower/project.hpp"
 
 #include "lower/lower.hpp"
@@ -20,11 +21,13 @@ int dot(Program& program, const std::vector<int>& a, const std::vector<int>& b, 
 }
 
 /// Σ columns_k x_k
-std::vector<int> combined(Program& program, const std::vector<std::vector<int>>& columns, const std::vector<int>& x) {
+std::vector<int> combined(Program& program, const std::vector<std::vector<int>>& columns,
+                          const std::vector<int>& x) {
     std::vector<int> result;
     for (std::size_t i = 0; i < columns.front().size(); ++i) {
         std::vector<Program::Term> terms;
-        for (std::size_t k = 0; k < columns.size(); ++k) terms.emplace_back(1, program.product(1, {{columns[k][i], 1}, {x[k], 1}}));
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            terms.emplace_back(1, program.product(1, {{columns[k][i], 1}, {x[k], 1}}));
         result.push_back(program.sum(0, terms));
     }
     return result;
@@ -38,7 +41,8 @@ std::vector<int> lowered(const std::function<int(const ex&)>& lowering, const st
 
 }  // namespace
 
-void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K, bool fold) {
+void add_projection(Program& program, const Mechanism& m, const Equations& equations, const std::vector<int>& K,
+                    bool fold) {
     const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
@@ -64,23 +68,28 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         std::vector<int> square;
         for (const int c : across) {
             rows.push_back(lowered(here, m.constraints[c].row));
-            for (const std::vector<int>& row : rows) square.push_back(dot(program, rows.back(), row, program.number(0)));
+            for (const std::vector<int>& row : rows)
+                square.push_back(dot(program, rows.back(), row, program.number(0)));
             misfit.push_back(position[c]);
         }
         const auto nu = solve_symmetric(program, square, misfit);
         if (!nu) return;
         off = combined(program, rows, *nu);
         const std::vector<int> divided = later_pivots(program, square, static_cast<int>(across.size()), 0);
-        for (std::size_t k = 0; k < divided.size(); ++k) pivots[across[k]] = program.sum(0, {{-1, divided[k]}});  // their sign was changed
+        for (std::size_t k = 0; k < divided.size(); ++k)
+            pivots[across[k]] = program.sum(0, {{-1, divided[k]}});  // their sign was changed
     } else {
         for (const int c : kept) misfit.push_back(position[c]);
         off = solve(misfit);
         off.resize(s);
         std::vector<std::vector<int>> columns;
-        for (std::size_t k = 0; k < s && own_speeds; ++k) columns.push_back(lowered(here, m.z->push_forward(equations.h, {{equations.u[k], 1}})));
+        for (std::size_t k = 0; k < s && own_speeds; ++k)
+            columns.push_back(lowered(here, m.z->push_forward(equations.h, {{equations.u[k], 1}})));
         if (own_speeds) off = combined(program, columns, off);
-        const std::vector<int> divided = later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s));
-        for (std::size_t k = 0; k < kept.size(); ++k) pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
+        const std::vector<int> divided =
+            later_pivots(program, K, static_cast<int>(s + kept.size()), static_cast<int>(s));
+        for (std::size_t k = 0; k < kept.size(); ++k)
+            pivots[kept[k]] = divided.empty() ? program.number(1) : divided[k];
     }
 
     for (std::size_t i = 0; i < n; ++i) {

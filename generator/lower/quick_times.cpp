@@ -17,11 +17,11 @@ namespace {
 constexpr int first_pieces = 2039;  // a prime, so that no period of an input is likely to be a multiple of a piece
 constexpr double misfit = 0.02;     // of a value's range
 constexpr double pieces_a_step = 2;
-constexpr double sudden = 3;        // times shorter than the piece before
-constexpr double shortest = 1e-11;  // of the run
+constexpr double sudden = 3;                // times shorter than the piece before
+constexpr double shortest = 1e-11;          // of the run
 constexpr long most_evaluations = 300'000;  // some 20 ms
-constexpr std::size_t most_marks = 4096;  // zeros and turning points
-constexpr int halvings = 44;              // from one of the first pieces to the last digit of t
+constexpr std::size_t most_marks = 4096;    // zeros and turning points
+constexpr int halvings = 44;                // from one of the first pieces to the last digit of t
 
 constexpr unsigned bit(Variable::Kind kind) {
     return 1U << static_cast<unsigned>(kind);
@@ -201,15 +201,16 @@ private:
         divide((from + to) / 2, to);
     }
 
-    /// Halves leave pieces that are shorter than they need be, most of all beside a switch. Two of one length are left alone:
-    /// little would be won.
+    /// Halves leave pieces that are shorter than they need be, most of all beside a switch. Two of one length are
+    /// left alone: little would be won.
     void join() {
         std::vector<Piece> joined;
         for (const Piece& piece : pieces_) {
             Piece* const last = joined.empty() ? nullptr : &joined.back();
             const bool is_uneven = last && std::abs((last->to - last->from) / (piece.to - piece.from) - 1) > 0.1;
-            const bool is_one = last && (piece.is_switch ? last->is_switch
-                                                         : !last->is_switch && is_uneven && is_cubic(last->from, piece.to));
+            const bool is_one =
+                last && (piece.is_switch ? last->is_switch
+                                         : !last->is_switch && is_uneven && is_cubic(last->from, piece.to));
             if (is_one)
                 last->to = piece.to;
             else

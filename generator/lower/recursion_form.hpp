@@ -11,8 +11,9 @@ namespace alembert {
 struct RecursionForm {
     LinkAxes axes = LinkAxes::own;
     enum class Solve { matrix, articulated, both_ends };
-    Solve solve = Solve::matrix;  ///< composite bodies and LDLᵀ; articulated bodies; a planar chain from both of its ends
-    std::string text() const;     ///< "articulated bodies, parallel axes"
+    Solve solve =
+        Solve::matrix;  ///< composite bodies and LDLᵀ; articulated bodies; a planar chain from both of its ends
+    std::string text() const;  ///< "articulated bodies, parallel axes"
 };
 
 }  // namespace alembert

@@ -22,7 +22,8 @@ Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names
     for (int i = 0; i < m_.size(); ++i) want(m_.q_start[i]);
     for (int i = 0; i < m_.size(); ++i) want(m_.qdot_start[i]);
     for (std::size_t k = 0; k < plain_.speeds.size(); ++k) want(*m_.speeds[k].start);
-    for (const auto* e : {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.max_step, &m_.run.sample})
+    for (const auto* e :
+         {&m_.run.start, &m_.run.duration, &m_.run.tolerance, &m_.run.step, &m_.run.max_step, &m_.run.sample})
         if (*e) want(**e);
 }
 
@@ -33,7 +34,8 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
     for (const Mechanism::Parameter& p : m_.parameters) {
         if (p.symbol.get_name() == name) {
             if (p.independent) return {name, Part::parameter, position};
-            throw ModelError(fmt::format("{} {}=…: '{}' is defined by other parameters; set those", option_, name, name));
+            throw ModelError(
+                fmt::format("{} {}=…: '{}' is defined by other parameters; set those", option_, name, name));
         }
         position += p.independent ? 1 : 0;
         known.push_back(p.symbol.get_name());
@@ -42,7 +44,8 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         if (m_.q[i].get_name() == name) return {name, Part::q, i};
         if (m_.q[i].get_name() + "'" == name) {
             if (plain_.speeds.empty()) return {name, Part::qdot, i};
-            throw ModelError(fmt::format("{} {}=…: the rates follow from the speeds here; set '{}'", option_, name, m_.speeds[0].u.get_name()));
+            throw ModelError(fmt::format("{} {}=…: the rates follow from the speeds here; set '{}'", option_, name,
+                                         m_.speeds[0].u.get_name()));
         }
         known.push_back(m_.q[i].get_name());
         known.push_back(m_.q[i].get_name() + "'");
@@ -51,20 +54,26 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         known.push_back(m_.speeds[k].u.get_name());
         if (known.back() != name) continue;
         if (!plain_.speeds.empty()) return {name, Part::speed, k};
-        throw ModelError(fmt::format("{} {}=…: the scene gives rates, and '{}' follows from them; set those", option_, name, name));
+        throw ModelError(fmt::format("{} {}=…: the scene gives rates, and '{}' follows from them; set those",
+                                     option_, name, name));
     }
     const std::string meant = nearest(name, known);
-    throw ModelError(fmt::format("{} {}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", option_, name, name,
-                                 meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+    throw ModelError(fmt::format("{} {}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", option_,
+                                 name, name, meant.empty() ? "" : "; did you mean '" + meant + "'?"));
 }
 
 double& Starts::place(const Spot& spot, Start& start) {
     switch (spot.part) {
-        case Part::parameter: return start.parameters[spot.index];
-        case Part::q: return start.q[spot.index];
-        case Part::qdot: return start.qdot[spot.index];
-        case Part::speed: return start.speeds[spot.index];
-        default: return start.t;
+        case Part::parameter:
+            return start.parameters[spot.index];
+        case Part::q:
+            return start.q[spot.index];
+        case Part::qdot:
+            return start.qdot[spot.index];
+        case Part::speed:
+            return start.speeds[spot.index];
+        default:
+            return start.t;
     }
 }
 
@@ -73,12 +82,14 @@ Start Starts::at(const std::vector<double>& values) const {
     const auto replace = [&](bool parameters) {
         for (std::size_t k = 0; k < spots_.size(); ++k) {
             if (!std::isfinite(values[k]))
-                throw ModelError(fmt::format("{} {}={}: expected a finite number", option_, spots_[k].name, values[k]));
+                throw ModelError(
+                    fmt::format("{} {}={}: expected a finite number", option_, spots_[k].name, values[k]));
             if ((spots_[k].part == Part::parameter) == parameters) place(spots_[k], start) = values[k];
         }
     };
     replace(true);
-    const std::vector<double> value = interpret<double>(program_, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
+    const std::vector<double> value =
+        interpret<double>(program_, {.parameters = start.parameters, .q = {}, .qdot = {}, .qddot = {}});
     std::size_t next = 0;
     for (std::vector<double>* part : {&start.q, &start.qdot, &start.speeds})
         for (double& x : *part) x = value[nodes_[next++]];
@@ -91,10 +102,12 @@ Start Starts::at(const std::vector<double>& values) const {
     replace(false);
     for (int i = 0; i < m_.size(); ++i)
         if (!std::isfinite(start.q[i]) || !std::isfinite(start.qdot[i]))
-            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name()));
+            throw ModelError(
+                fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name()));
     for (std::size_t k = 0; k < start.speeds.size(); ++k)
         if (!std::isfinite(start.speeds[k]))
-            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters", m_.speeds[k].u.get_name()));
+            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters",
+                                         m_.speeds[k].u.get_name()));
     return start;
 }
 

@@ -21,10 +21,10 @@ struct Start {
     std::vector<double> parameters;  ///< the independent ones, as Program counts them
     double t = 0;
     std::vector<double> q, qdot;
-    std::vector<double> speeds;      ///< of the scene, where the rates follow from them; else empty
-    double duration = 10;            ///< s; 10 where the scene is silent
+    std::vector<double> speeds;  ///< of the scene, where the rates follow from them; else empty
+    double duration = 10;        ///< s; 10 where the scene is silent
     double tolerance = 1e-9, step = 0, sample = 0;
-    double max_step = 0;             ///< s; 0: no bound
+    double max_step = 0;  ///< s; 0: no bound
 
     State<double> state() const { return {.parameters = parameters, .t = t, .q = q, .qdot = qdot, .qddot = {}}; }
 };
@@ -55,15 +55,15 @@ private:
 
     const Mechanism& m_;
     std::string option_;
-    Start plain_;                 ///< the scene's own parameters, and room for the rest
+    Start plain_;  ///< the scene's own parameters, and room for the rest
     std::vector<Spot> spots_;
     Program program_;
-    std::vector<int> nodes_;      ///< q, q', speeds, then what the scene says of the run
+    std::vector<int> nodes_;  ///< q, q', speeds, then what the scene says of the run
 };
 
 /// Initial values that depend on parameters follow the replaced ones. A name is a parameter's, a coordinate's, a
-/// rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the nearest known name, for a parameter that
-/// is defined by others, and for a value that is not finite.
+/// rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the nearest known name,
+/// for a parameter that is defined by others, and for a value that is not finite.
 Start start_of(const Mechanism& mechanism, const Overrides& overrides = {});
 
 }  // namespace alembert

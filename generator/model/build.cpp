@@ -44,7 +44,8 @@ void add_outputs(Building& here) {
             if (!e.impulses.empty()) occasion.impulse.assign(here.m.q.size(), 0);
             for (const GeneralizedForce& f : e.impulses)
                 for (int i = 0; i < here.m.size(); ++i)
-                    if (here.m.q[i].get_name() == f.coordinate.text) occasion.impulse[i] = here.m.z->name(here.translator.scalar(f.value));
+                    if (here.m.q[i].get_name() == f.coordinate.text)
+                        occasion.impulse[i] = here.m.z->name(here.translator.scalar(f.value));
             here.m.occasions.push_back(std::move(occasion));
         });
 }

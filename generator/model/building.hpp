@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A mechanism while it is built from its scene, table by table; mistakes are gathered and reported together. Of build.cpp alone.
+/// A mechanism while it is built from its scene, table by table; mistakes are gathered and reported together. Of
+/// build.cpp alone.
 
 #include <optional>
 #include <vector>
@@ -38,9 +39,11 @@ struct Building {
     std::vector<Diagnostic> mistakes;
 };
 
-/// Parameters, inputs, coordinates, speeds' names, definitions; their values are finite numbers. Throws InputError where not.
+/// Parameters, inputs, coordinates, speeds' names, definitions; their values are finite numbers. Throws InputError
+/// where not.
 void declare(Building& here);
-/// Masses, the system graph of joints, springs, dampers, forces, torques, impulses, given energies: T, V and the loads.
+/// Masses, the system graph of joints, springs, dampers, forces, torques, impulses, given energies: T, V and the
+/// loads.
 void add_loads(Building& here);
 /// [[constraint]], quaternions' norms, [[rolling]], joints that close loops, [[unilateral]].
 void add_conditions(Building& here);

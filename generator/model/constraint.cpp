@@ -23,12 +23,15 @@ bool is_nonlinear(const ex& coefficient, const Mechanism& m) {
 
 }  // namespace
 
-std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place at, const Mechanism& m) {
+std::pair<std::vector<ex>, ex> linear_form(const ex& value, const std::string& what, Place at,
+                                           const Mechanism& m) {
     const std::vector<ex> row = m.z->pull_back({{value, 1}}, m.qdot);
     GiNaC::exvector rest{value};
     for (int i = 0; i < m.size(); ++i) {
         if (m.z->depends(row[i], m.qdot) && is_nonlinear(row[i], m))
-            throw SceneMistake{{at, fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates", what)}};
+            throw SceneMistake{
+                {at,
+                 fmt::format("{} is not linear in the rates; expected a sum of coefficients times rates", what)}};
         rest.push_back(-row[i] * m.qdot[i]);
     }
     const ex drift = m.z->name(GiNaC::add(std::move(rest)));

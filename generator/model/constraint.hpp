@@ -15,8 +15,8 @@ struct Rule {
     bool holonomic = true;
     GiNaC::ex value;
     GiNaC::symbol multiplier;
-    Place place;     ///< of the name
-    Place at;        ///< of the expression, for messages
+    Place place;         ///< of the name
+    Place at;            ///< of the expression, for messages
     bool drifts = true;  ///< false: a nonholonomic value is known to vanish with the rates
 };
 
@@ -24,8 +24,8 @@ struct Rule {
 /// (nonholonomic) is left.
 Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& mechanism);
 
-/// Coefficients of the rates, and what stands beside them: value = row·q' + drift. Throws SceneMistake, beginning with
-/// `what` ("speed 'v'"), where it is not linear.
+/// Coefficients of the rates, and what stands beside them: value = row·q' + drift. Throws SceneMistake, beginning
+/// with `what` ("speed 'v'"), where it is not linear.
 std::pair<std::vector<GiNaC::ex>, GiNaC::ex> linear_form(const GiNaC::ex& value, const std::string& what, Place at,
                                                          const Mechanism& mechanism);
 

@@ -34,7 +34,9 @@ std::optional<bool> vanishes(const ex& e, const Mechanism& mechanism) {
     return is_zero(*normal);
 }
 
-bool is_identically_zero(const ex& e, const Mechanism& mechanism) { return vanishes(e, mechanism).value_or(false); }
+bool is_identically_zero(const ex& e, const Mechanism& mechanism) {
+    return vanishes(e, mechanism).value_or(false);
+}
 
 Energy energy_of(const Mechanism& m) {
     Intermediates& z = *m.z;

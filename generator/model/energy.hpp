@@ -7,9 +7,9 @@
 /// h = q'·∂L/∂q' − L = T₂ − T₀ + V, T₂ and T₀ being the parts of T of second and no degree in the rates.
 /// Along every motion
 ///     dh/dt = Q·q' − ∂L/∂t,      dE/dt = dh/dt + d(T₁ + 2T₀)/dt
-/// and − λ·b beside each for constraints A q' + b = 0 that move (from Lagrange's equations; Zhang & Qin, §1.5). The right-hand side of the second is `power`: what loads
-/// outside V and prescribed motions do. It is integrated beside the motion, so that E − E₀ − ∫power dt measures
-/// the run.
+/// and − λ·b beside each for constraints A q' + b = 0 that move (from Lagrange's equations; Zhang & Qin, §1.5).
+/// The right-hand side of the second is `power`: what loads outside V and prescribed motions do. It is integrated
+/// beside the motion, so that E − E₀ − ∫power dt measures the run.
 
 #include "model/mechanism.hpp"
 
@@ -26,8 +26,8 @@ struct Energy {
 /// t occur at all, are there loads at all) beyond.
 Energy energy_of(const Mechanism& mechanism);
 
-/// Is `e` zero for all values of its symbols? No where one state shows it; else decided by the Fourier normal form up to a size;
-/// nothing beyond that.
+/// Is `e` zero for all values of its symbols? No where one state shows it; else decided by the Fourier normal form
+/// up to a size; nothing beyond that.
 std::optional<bool> vanishes(const GiNaC::ex& e, const Mechanism& mechanism);
 
 /// The same, where "not seen to be" counts as no.

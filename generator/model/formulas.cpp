@@ -6,7 +6,9 @@ namespace alembert {
 Formulas::Formulas(const Scene& scene, const Mechanism& m)
     : translator_(m, {.position = [this](const std::string& p) { return places_.position(p); },
                       .velocity = [this](const std::string& p) { return places_.velocity(p); },
-                      .orientation = [this](const std::string& f) -> const Orientation& { return places_.orientation(f); }}),
+                      .orientation = [this](const std::string& f) -> const Orientation& {
+                          return places_.orientation(f);
+                      }}),
       places_(scene, m, translator_) {
     know("t", m.t);
     for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);

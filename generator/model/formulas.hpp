@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Expressions of the scene language as values in a mechanism that has been built: what claims and the like are read with.
+/// Expressions of the scene language as values in a mechanism that has been built: what claims and the like are
+/// read with.
 ///
 ///     Formulas formulas(scene, mechanism);
 ///     const ex residual = formulas.value(claim.lhs) - formulas.value(claim.rhs);
 ///
-/// Known are the names of the scene, multipliers, the momenta p_<coordinate> (∂L/∂q', Zhang & Qin §1.7) and what `know` adds.
-/// Throws SceneMistake for a name that is none of these.
+/// Known are the names of the scene, multipliers, the momenta p_<coordinate> (∂L/∂q', Zhang & Qin §1.7) and what
+/// `know` adds. Throws SceneMistake for a name that is none of these.
 
 #include "model/places.hpp"
 

@@ -3,8 +3,8 @@
 // composition R_NC = R_NB R_BC, addition of angular velocities ω_NC = R_BCᵀ ω_NB + φ' a
 // (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2). By a quaternion e = (e₀, ε):
 //   R = ((e₀² − ε·ε) E + 2 ε εᵀ + 2 e₀ ε̃)/(e·e),   ω = 2 (e₀ ε' − e₀' ε − ε × ε')/(e·e) along the new axes
-// (Goldstein, Classical Mechanics (1980), §4-5; vec(e* e') doubled). Divided by e·e they hold for every e, so that T and V do
-// not change along e and all formalisms give the same multiplier of e·e = 1, which is 0.
+// (Goldstein, Classical Mechanics (1980), §4-5; vec(e* e') doubled). Divided by e·e they hold for every e, so that
+// T and V do not change along e and all formalisms give the same multiplier of e·e = 1, which is 0.
 #include "model/geometry.hpp"
 
 namespace alembert {
@@ -24,10 +24,13 @@ ex dot(const Vector3& a, const Vector3& b, Intermediates& z) {
 }
 
 Vector3 cross(const Vector3& a, const Vector3& b, Intermediates& z) {
-    return {z.name(a[1] * b[2] - a[2] * b[1]), z.name(a[2] * b[0] - a[0] * b[2]), z.name(a[0] * b[1] - a[1] * b[0])};
+    return {z.name(a[1] * b[2] - a[2] * b[1]), z.name(a[2] * b[0] - a[0] * b[2]),
+            z.name(a[0] * b[1] - a[1] * b[0])};
 }
 
-ex norm(const Vector3& a, Intermediates& z) { return z.name(sqrt(dot(a, a, z))); }
+ex norm(const Vector3& a, Intermediates& z) {
+    return z.name(sqrt(dot(a, a, z)));
+}
 
 Orientation::Orientation()
     : steps_{Step{{0, 0, 0}, 0, 0, {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}, {0, 0, 0}}} {}
@@ -69,7 +72,8 @@ Orientation Orientation::turned(const Vector3& axis, const ex& angle, const ex& 
     return result;
 }
 
-Orientation Orientation::turned(const std::array<ex, 4>& e, const std::array<ex, 4>& rate, Intermediates& z) const {
+Orientation Orientation::turned(const std::array<ex, 4>& e, const std::array<ex, 4>& rate,
+                                Intermediates& z) const {
     const auto sq = [&](int k) { return e[k] * e[k]; };
     const ex inverse = z.name(1 / z.name(sq(0) + sq(1) + sq(2) + sq(3)));
     std::array<Vector3, 3> R;

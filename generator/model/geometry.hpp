@@ -28,9 +28,11 @@ public:
     /// frame, which are those in the new one too); `rate` is the angle's time derivative.
     Orientation turned(const Vector3& axis, const GiNaC::ex& angle, const GiNaC::ex& rate, Intermediates& z) const;
 
-    /// The frame reached from this one by the turn of a quaternion, scalar first: components of `rate` are its derivative's.
-    /// Both are those of e/|e|, whatever e's length: the turn is one, and the angular velocity its own, beside e·e = 1 too.
-    Orientation turned(const std::array<GiNaC::ex, 4>& e, const std::array<GiNaC::ex, 4>& rate, Intermediates& z) const;
+    /// The frame reached from this one by the turn of a quaternion, scalar first: components of `rate` are its
+    /// derivative's. Both are those of e/|e|, whatever e's length: the turn is one, and the angular velocity its
+    /// own, beside e·e = 1 too.
+    Orientation turned(const std::array<GiNaC::ex, 4>& e, const std::array<GiNaC::ex, 4>& rate,
+                       Intermediates& z) const;
 
     /// R_NB · v_B
     Vector3 to_inertial(const Vector3& v_B, Intermediates& z) const;

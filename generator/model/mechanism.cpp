@@ -41,13 +41,18 @@ std::vector<const Mechanism::Constraint*> Mechanism::undetermined() const {
 std::vector<GiNaC::symbol> Mechanism::moving() const {
     std::vector<GiNaC::symbol> symbols = q;
     symbols.push_back(t);
-    for (const Input& input : inputs) symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
+    for (const Input& input : inputs)
+        symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
     return symbols;
 }
 
-ex Mechanism::kinetic_energy() const { return total(kinetic, *z); }
+ex Mechanism::kinetic_energy() const {
+    return total(kinetic, *z);
+}
 
-ex Mechanism::potential_energy() const { return total(potential, *z); }
+ex Mechanism::potential_energy() const {
+    return total(potential, *z);
+}
 
 ex Mechanism::lagrangian() const {
     return given_lagrangian ? *given_lagrangian : z->name(kinetic_energy() - potential_energy());

@@ -6,8 +6,8 @@
 ///     const Mechanism mechanism = build(read_scene("pendulum.toml"));
 ///     const ex T = mechanism.kinetic_energy();
 ///
-/// All expressions are in the symbols of `symbols`; whatever is more than an atom is an intermediate symbol of `z`.
-/// Vectors have three components along the axes of the inertial frame N.
+/// All expressions are in the symbols of `symbols`; whatever is more than an atom is an intermediate symbol of
+/// `z`. Vectors have three components along the axes of the inertial frame N.
 
 #include <array>
 #include <memory>
@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
 #include "model/origin.hpp"
 #include "model/skeleton.hpp"
+#include "scene/scene.hpp"
 
 namespace alembert {
 
@@ -45,25 +45,28 @@ struct MassElement {
     GiNaC::ex mass;
     Vector3 position, velocity;  ///< of the mass centre
     struct Rotation {
-        std::array<Vector3, 3> axes;         ///< the body's unit axes, along N
-        Vector3 w_NB_B;                      ///< angular velocity along the body's axes
-        std::array<GiNaC::ex, 6> inertia;    ///< xx yy zz xy yz zx along the body's axes, about the mass centre
-        std::optional<Vector3> about = {};   ///< mass centre minus the point of the body that `inertia` is about, along N
+        std::array<Vector3, 3> axes;       ///< the body's unit axes, along N
+        Vector3 w_NB_B;                    ///< angular velocity along the body's axes
+        std::array<GiNaC::ex, 6> inertia;  ///< xx yy zz xy yz zx along the body's axes, about the mass centre
+        std::optional<Vector3> about =
+            {};  ///< mass centre minus the point of the body that `inertia` is about, along N
     };
     std::optional<Rotation> rotation = {};
-    int frame = 0, point = 0, about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
+    int frame = 0, point = 0,
+        about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
 };
 
-/// A joint of the system graph. Where it places a body (an arc of the tree) it says how the outer of its two bodies moves
-/// against the inner one, which is nearer to the ground; one that closes a loop (a chord) says whom it joins.
+/// A joint of the system graph. Where it places a body (an arc of the tree) it says how the outer of its two
+/// bodies moves against the inner one, which is nearer to the ground; one that closes a loop (a chord) says whom
+/// it joins.
 struct JointArc {
     std::string name, type;
-    int parent = -1, child = -1;             ///< positions in Mechanism::masses; −1 is the ground
+    int parent = -1, child = -1;  ///< positions in Mechanism::masses; −1 is the ground
     enum class Role { places_child, places_parent, closes_loop } role;
-    std::array<Vector3, 3> axes = {};        ///< the joint's axes in the inner body, along N
-    Vector3 turning = {};                    ///< ω of the outer body against the inner one, along `axes`
-    Vector3 to_pivot = {};                   ///< from the inner mass centre (from O) to the joint's point of the child, along N
-    Vector3 from_pivot = {};                 ///< on to the outer mass centre (to O)
+    std::array<Vector3, 3> axes = {};  ///< the joint's axes in the inner body, along N
+    Vector3 turning = {};              ///< ω of the outer body against the inner one, along `axes`
+    Vector3 to_pivot = {};    ///< from the inner mass centre (from O) to the joint's point of the child, along N
+    Vector3 from_pivot = {};  ///< on to the outer mass centre (to O)
     std::array<Vector3, 3> slide_axes = {};  ///< the joint's axes in the parent, along N
     Vector3 shift = {};                      ///< of the child's point against the parent's, along `slide_axes`
     Vector3 sliding = {};                    ///< its rate
@@ -100,10 +103,10 @@ struct Mechanism {
     /// A generalized speed of the scene, u = row·q' + drift.
     struct Speed {
         GiNaC::symbol u, udot;
-        GiNaC::ex form;                       ///< in q, q', t
-        std::vector<GiNaC::ex> row;           ///< ∂form/∂q'
+        GiNaC::ex form;              ///< in q, q', t
+        std::vector<GiNaC::ex> row;  ///< ∂form/∂q'
         GiNaC::ex drift;
-        std::optional<GiNaC::ex> start;       ///< in parameters; nothing where the scene gives rates
+        std::optional<GiNaC::ex> start;  ///< in parameters; nothing where the scene gives rates
         std::string unit;
         Place place;
     };
@@ -111,15 +114,15 @@ struct Mechanism {
     /// A constraint as a row: row·q' + drift = 0, and once more differentiated row·q'' = acceleration.
     struct Constraint {
         std::string name;
-        bool holonomic = true;                ///< as the scene declares it
-        std::optional<GiNaC::ex> position;    ///< f(q,t), holonomic ones
-        std::vector<GiNaC::ex> row;           ///< ∂f/∂q, or the coefficients of q'
-        GiNaC::ex drift;                      ///< ∂f/∂t, or what stands beside the rates
-        GiNaC::ex acceleration;               ///< −(row)'·q' − (drift)'
-        GiNaC::symbol multiplier;             ///< λ: M q'' = F + Σ row λ
+        bool holonomic = true;              ///< as the scene declares it
+        std::optional<GiNaC::ex> position;  ///< f(q,t), holonomic ones
+        std::vector<GiNaC::ex> row;         ///< ∂f/∂q, or the coefficients of q'
+        GiNaC::ex drift;                    ///< ∂f/∂t, or what stands beside the rates
+        GiNaC::ex acceleration;             ///< −(row)'·q' − (drift)'
+        GiNaC::symbol multiplier;           ///< λ: M q'' = F + Σ row λ
         Place place;
-        std::optional<int> joint = {};        ///< position in `joints` of the one whose loop the row closes
-        bool norm = false;                    ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
+        std::optional<int> joint = {};  ///< position in `joints` of the one whose loop the row closes
+        bool norm = false;              ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
@@ -128,7 +131,7 @@ struct Mechanism {
         GiNaC::ex restitution;  ///< relative speed after an impact over the one before, 0 to 1; in parameters
     };
 
-    std::string name;   ///< of the scene's file, without folder and ending
+    std::string name;  ///< of the scene's file, without folder and ending
     std::string title;
     std::shared_ptr<Symbols> symbols;
     std::shared_ptr<Intermediates> z;
@@ -137,18 +140,18 @@ struct Mechanism {
     std::vector<Input> inputs;
     std::vector<Definition> definitions;
     std::vector<GiNaC::symbol> q, qdot, qddot;
-    std::vector<std::string> units;            ///< of the coordinates
-    std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
+    std::vector<std::string> units;               ///< of the coordinates
+    std::vector<GiNaC::ex> q_start, qdot_start;   ///< in parameters
     std::vector<bool> q_is_guess, qdot_is_guess;  ///< may move so that the constraints hold at the start
-    std::vector<Speed> speeds;                   ///< empty: the rates
+    std::vector<Speed> speeds;                    ///< empty: the rates
     std::vector<Part> kinetic, potential;
-    std::optional<GiNaC::ex> given_lagrangian;   ///< then `kinetic` and `potential` are empty
+    std::optional<GiNaC::ex> given_lagrangian;  ///< then `kinetic` and `potential` are empty
     std::vector<Load> loads;
-    std::vector<Load> impulses;           ///< ∫load dt of what acts at the start in no time; not among `loads`
-    std::vector<MassElement> masses;      ///< what the parts of `kinetic` are, but for [energy]
+    std::vector<Load> impulses;       ///< ∫load dt of what acts at the start in no time; not among `loads`
+    std::vector<MassElement> masses;  ///< what the parts of `kinetic` are, but for [energy]
     std::vector<SpringElement> springs;
-    std::vector<JointArc> joints;         ///< in the order of the scene
-    Skeleton skeleton;                    ///< how frames and points hang together
+    std::vector<JointArc> joints;  ///< in the order of the scene
+    Skeleton skeleton;             ///< how frames and points hang together
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
@@ -177,7 +180,8 @@ struct Mechanism {
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
 
-    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from others.
+    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from
+    /// others.
     std::vector<const Constraint*> undetermined() const;
 
     /// What changes with time, but for the rates: coordinates, t, inputs.

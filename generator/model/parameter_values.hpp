@@ -25,12 +25,15 @@ public:
     /// NaN for what is not a real number or depends on more than parameters.
     double number(const GiNaC::ex& e) const {
         const GiNaC::ex value = in_numbers(e);
-        if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real()) return std::nan("");
+        if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real())
+            return std::nan("");
         return GiNaC::ex_to<GiNaC::numeric>(value).to_double();
     }
 
 private:
-    GiNaC::ex in_numbers(const GiNaC::ex& e) const { return e.subs(known_, GiNaC::subs_options::no_pattern).evalf(); }
+    GiNaC::ex in_numbers(const GiNaC::ex& e) const {
+        return e.subs(known_, GiNaC::subs_options::no_pattern).evalf();
+    }
 
     GiNaC::exmap known_;
 };

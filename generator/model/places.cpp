@@ -69,7 +69,9 @@ ex Places::value(const Name& name) {
     return value(Expression{name.text, {name.place}, std::make_shared<Tree>(self)});
 }
 
-double Places::number(const ex& e) const { return ParameterValues(m_).number(m_.z->expand(e)); }
+double Places::number(const ex& e) const {
+    return ParameterValues(m_).number(m_.z->expand(e));
+}
 
 const Joint* Places::joint_of(const std::string& name) const {
     for (const Body& body : scene_.bodies)

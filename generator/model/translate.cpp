@@ -43,8 +43,9 @@ ex Translator::scalar(const Expression& expression) {
 ex Translator::scalar_of(const Tree& tree) {
     const Value value = evaluate(tree);
     if (const ex* scalar = std::get_if<ex>(&value)) return *scalar;
-    throw SceneMistake{{current_->place(tree.offset), "a vector stands where a number is expected; take a component "
-                                                      "with dot(…, ex(N)) or its length with norm(…)"}};
+    throw SceneMistake{{current_->place(tree.offset),
+                        "a vector stands where a number is expected; take a component "
+                        "with dot(…, ex(N)) or its length with norm(…)"}};
 }
 
 Vector3 Translator::vector_of(const Tree& tree) {
@@ -56,8 +57,9 @@ Vector3 Translator::vector_of(const Tree& tree) {
 ex Translator::differentiated(ex value, int times, const Tree& tree) {
     for (int i = 0; i < times; ++i) {
         if (mechanism_.z->depends(value, without_derivative_))
-            throw SceneMistake{{current_->place(tree.offset), "the derivative of an acceleration, a multiplier or an unknown function: "
-                                                              "mechanics gives none; differentiate what has rates only"}};
+            throw SceneMistake{{current_->place(tree.offset),
+                                "the derivative of an acceleration, a multiplier or an unknown function: "
+                                "mechanics gives none; differentiate what has rates only"}};
         value = mechanism_.time_derivative({value})[0];
     }
     return value;
@@ -69,7 +71,9 @@ ex Translator::named(const Tree& tree) {
     for (std::size_t i = 0; i < mechanism_.q.size(); ++i)
         if (mechanism_.q[i].get_name() == tree.text) {
             if (tree.primes > 2) break;
-            return tree.primes == 0 ? mechanism_.q[i] : tree.primes == 1 ? mechanism_.qdot[i] : mechanism_.qddot[i];
+            return tree.primes == 0   ? mechanism_.q[i]
+                   : tree.primes == 1 ? mechanism_.qdot[i]
+                                      : mechanism_.qddot[i];
         }
     if (auto found = later_.find(tree.text); found != later_.end()) {
         const auto make = std::move(found->second);
@@ -93,7 +97,8 @@ std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
     const std::string axes[] = {"ex", "ey", "ez"};
     const auto axis = std::find(std::begin(axes), std::end(axes), v.text);
     if (u.text != "omega" || axis == std::end(axes)) return std::nullopt;
-    const Orientation &turning = queries_.orientation(u.args.at(0)->text), &frame = queries_.orientation(v.args.at(0)->text);
+    const Orientation &turning = queries_.orientation(u.args.at(0)->text),
+                      &frame = queries_.orientation(v.args.at(0)->text);
     if (&turning != &frame) return std::nullopt;
     return frame.angular_velocity()[axis - std::begin(axes)];
 }
@@ -133,12 +138,18 @@ Value Translator::evaluate(const Tree& tree) {
     Intermediates& z = *mechanism_.z;
     try {
         switch (tree.kind) {
-            case Tree::Kind::number: return ex(exact_number(tree.text));
-            case Tree::Kind::name: return named(tree);
-            case Tree::Kind::call: return call(tree);
-            case Tree::Kind::derivative: return differentiated(scalar_of(*tree.args[0]), tree.primes, tree);
-            case Tree::Kind::power: return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
-            case Tree::Kind::reciprocal: return ex(1 / scalar_of(*tree.args[0]));
+            case Tree::Kind::number:
+                return ex(exact_number(tree.text));
+            case Tree::Kind::name:
+                return named(tree);
+            case Tree::Kind::call:
+                return call(tree);
+            case Tree::Kind::derivative:
+                return differentiated(scalar_of(*tree.args[0]), tree.primes, tree);
+            case Tree::Kind::power:
+                return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
+            case Tree::Kind::reciprocal:
+                return ex(1 / scalar_of(*tree.args[0]));
             case Tree::Kind::negate: {
                 const Value value = evaluate(*tree.args[0]);
                 if (const Vector3* v = std::get_if<Vector3>(&value)) return scale(-1, *v, z);
@@ -178,7 +189,8 @@ Value Translator::evaluate(const Tree& tree) {
     } catch (const std::overflow_error&) {
         throw SceneMistake{{current_->place(tree.offset), "this divides by zero"}};
     } catch (const std::domain_error&) {
-        throw SceneMistake{{current_->place(tree.offset), "this is 0^0, which has no value; expected another base or exponent"}};
+        throw SceneMistake{
+            {current_->place(tree.offset), "this is 0^0, which has no value; expected another base or exponent"}};
     }
     return ex(0);
 }

@@ -17,7 +17,7 @@ using Value = std::variant<GiNaC::ex, Vector3>;
 
 /// What the geometry answers; each may throw std::out_of_range for a name that it does not know.
 struct GeometryQueries {
-    std::function<Vector3(const std::string& point)> position, velocity;
+    std::function<Vector3(const std::string&point)> position, velocity;
     std::function<const Orientation&(const std::string& frame)> orientation;
 };
 
@@ -31,7 +31,8 @@ public:
     /// A name whose value is made when first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<GiNaC::ex()> value) { later_[name] = std::move(value); }
 
-    /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a mistake.
+    /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a
+    /// mistake.
     void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
 
     /// Throws SceneMistake for what the reader could not see.

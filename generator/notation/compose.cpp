@@ -65,7 +65,8 @@ Piece symbol_piece(const Factor& factor) {
     return piece;
 }
 
-/// Shorter forms are searched for until so many polynomials have been composed. A free rigid body takes nearly 2000.
+/// Shorter forms are searched for until so many polynomials have been composed. A free rigid body takes nearly
+/// 2000.
 constexpr std::size_t most_composed = 3000;
 
 /// Steady terms first, then by degree, then in canonical order.
@@ -138,13 +139,17 @@ int Composer::cost(const Polynomial& polynomial) {
     return entry(polynomial).cost;
 }
 
-bool Composer::is_exhausted() const { return memo_.size() > most_composed; }
+bool Composer::is_exhausted() const {
+    return memo_.size() > most_composed;
+}
 
 const Polynomial& Composer::unfolded(const Polynomial& normal_form) {
     const auto found = unfolded_.find(normal_form);
     if (found != unfolded_.end()) return found->second;
     if (is_exhausted()) return normal_form;
-    return unfolded_.emplace(normal_form, unfold(normal_form, [this](const Polynomial& form) { return cost(form); })).first->second;
+    return unfolded_
+        .emplace(normal_form, unfold(normal_form, [this](const Polynomial& form) { return cost(form); }))
+        .first->second;
 }
 
 Phrase Composer::formula(const Polynomial& normal_form) {

@@ -13,12 +13,13 @@ namespace alembert {
 
 namespace {
 
-/// Bounds of what goes to GiNaC, where time grows without one: terms times variables times the sum of the variables' degrees, which is
-/// 36 for (a+b·sin θ)². The tops and four-bars of the scenes need up to 2000; a call takes milliseconds there, and seconds far beyond.
-/// Degrees count in the smallest power that occurs: a^3.1416 beside a is of degree 3927 in a^(1/1250), and would never end.
+/// Bounds of what goes to GiNaC, where time grows without one: terms times variables times the sum of the
+/// variables' degrees, which is 36 for (a+b·sin θ)². The tops and four-bars of the scenes need up to 2000; a call
+/// takes milliseconds there, and seconds far beyond. Degrees count in the smallest power that occurs: a^3.1416
+/// beside a is of degree 3927 in a^(1/1250), and would never end.
 constexpr int most_for_ginac = 2000;
 constexpr int highest_degree = 12;
-constexpr int most_searches = 400;  // of one Factorizer, a millisecond each
+constexpr int most_searches = 400;      // of one Factorizer, a millisecond each
 constexpr int longest_quotient = 1000;  // terms; (x^1000.1 − 1)/(x^0.1 − 1) has 10001
 
 struct AtomLess {
@@ -213,7 +214,8 @@ void Factorizer::split_linear(const Polynomial& polynomial, const AtomNode& line
         for (const auto& [sum, exponent] : (*this)(Polynomial::collect(std::move(with))).sums) {
             int times = 0;
             while (times < exponent) {
-                const std::optional<Polynomial> quotient = exact_quotient(left, sum), remaining = exact_quotient(rest, sum);
+                const std::optional<Polynomial> quotient = exact_quotient(left, sum),
+                                                remaining = exact_quotient(rest, sum);
                 if (!quotient || !remaining) break;
                 left = *quotient;
                 rest = *remaining;

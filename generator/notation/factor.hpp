@@ -25,15 +25,15 @@ struct Factorization {
 /// Remembers what it has factored.
 class Factorizer {
 public:
-    /// `polynomial` is not zero. Beyond 60 terms only number and monomial are taken out. Sums that are linear in nothing stay whole where
-    /// their degree is high, or when very many have been searched for factors before.
+    /// `polynomial` is not zero. Beyond 60 terms only number and monomial are taken out. Sums that are linear in
+    /// nothing stay whole where their degree is high, or when very many have been searched for factors before.
     Factorization operator()(const Polynomial& polynomial);
 
 private:
     Factorization irreducible_factors(const Polynomial& primitive);
     void split_linear(const Polynomial& primitive, const AtomNode& linear, Factorization& result);
 
-    int searches_ = 0;  ///< that went to GiNaC
+    int searches_ = 0;                                          ///< that went to GiNaC
     std::map<Polynomial, Factorization, PolynomialLess> memo_;  // of primitive polynomials without monomial factor
 };
 

@@ -81,7 +81,9 @@ Phrase power(Phrase base, Phrase exponent) {
     return node(Kind::power, {std::move(base), std::move(exponent)});
 }
 
-Phrase tuple(std::vector<Phrase> elements) { return node(Kind::call, std::move(elements)); }
+Phrase tuple(std::vector<Phrase> elements) {
+    return node(Kind::call, std::move(elements));
+}
 
 Phrase call(std::string name, std::vector<Phrase> args) {
     Phrase result = node(Kind::call, std::move(args));

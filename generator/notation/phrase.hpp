@@ -54,7 +54,7 @@ Phrase power(Phrase base, const Rational& exponent);
 Phrase power(Phrase base, Phrase exponent);
 Phrase call(std::string name, std::vector<Phrase> args);
 Phrase tuple(std::vector<Phrase> elements);  ///< (1, 0, -1): a call without a name
-Phrase negative(Phrase arg);  ///< drops a double negation
+Phrase negative(Phrase arg);                 ///< drops a double negation
 
 }  // namespace phrases
 

@@ -20,7 +20,8 @@ using Symbol = SymbolInfo::Kind;
 
 bool is_rate(const AtomNode& atom) {
     if (atom.kind != Kind::symbol) return false;
-    return atom.info.order == 1 ? atom.info.kind == Symbol::coordinate : atom.info.order == 0 && atom.info.kind == Symbol::speed;
+    return atom.info.order == 1 ? atom.info.kind == Symbol::coordinate
+                                : atom.info.order == 0 && atom.info.kind == Symbol::speed;
 }
 
 bool is_acceleration(const AtomNode& atom) {
@@ -132,7 +133,8 @@ private:
         for (const Polynomial& group : partition(terms, is_key)) {
             const Monomial key = part(group.terms()[0].monomial, is_key);
             const auto measure = [&](const Polynomial& form) { return cost(split(times(key, form))); };
-            const Polynomial plain = divide(group, key), best = compose_.is_exhausted() ? plain : unfold(plain, measure);
+            const Polynomial plain = divide(group, key),
+                             best = compose_.is_exhausted() ? plain : unfold(plain, measure);
             for (Polynomial& line : split(times(key, best))) lines.push_back(std::move(line));
         }
     }

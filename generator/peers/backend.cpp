@@ -74,7 +74,7 @@ struct Workspace {
 /// One integrator at work: a step, and states in it.
 struct Stepping {
     std::string name;
-    std::function<int(double& t)> step;           ///< negative: SUNDIALS' error flag
+    std::function<int(double& t)> step;  ///< negative: SUNDIALS' error flag
     std::function<const double*()> state;
     std::function<void(double t, double* state)> at;
     std::function<long()> steps, rejected;
@@ -83,7 +83,8 @@ struct Stepping {
 
 class Collected {
 public:
-    Collected(System& system, const std::vector<double>& initial, const Stepping& by) : system_(system), by_(by), row_(initial) {
+    Collected(System& system, const std::vector<double>& initial, const Stepping& by)
+        : system_(system), by_(by), row_(initial) {
         motion_.dimension = system.rhs.dimension;
         motion_.names = system.rhs.names;
         add(system.options.start, initial.data());
@@ -113,7 +114,11 @@ public:
             if (t >= end) add(end, row_.data());
             tell(t, row_.data());
         }
-        motion_.statistics = {.steps = by_.steps(), .rejected = by_.rejected(), .evaluations = system_.evaluations, .seconds = 0, .method = by_.name};
+        motion_.statistics = {.steps = by_.steps(),
+                              .rejected = by_.rejected(),
+                              .evaluations = system_.evaluations,
+                              .seconds = 0,
+                              .method = by_.name};
         return std::move(motion_);
     }
 
@@ -137,9 +142,13 @@ private:
         const bool budget = system_.is_over_budget();
         motion_.failure = Failure{
             .kind = budget ? FailureKind::budget_used_up : FailureKind::step_underflow,
-            .message = budget ? fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; raise the budget (--budget), "
-                                            "loosen the tolerance or shorten the duration", system_.options.budget, t)
-                              : fmt::format("{} gave up at t = {:.17g} with {}; loosen the tolerance, or take radau", by_.name, t, by_.meaning(flag)),
+            .message = budget
+                           ? fmt::format("{} right-hand sides were not enough to come further than t = {:.17g}; "
+                                         "raise the budget (--budget), "
+                                         "loosen the tolerance or shorten the duration",
+                                         system_.options.budget, t)
+                           : fmt::format("{} gave up at t = {:.17g} with {}; loosen the tolerance, or take radau",
+                                         by_.name, t, by_.meaning(flag)),
             .time = t,
             .state = row_};
     }
@@ -153,7 +162,9 @@ private:
 /// 1 / (tolerance · max(1, |y|)); quadratures are not controlled.
 void weigh(const System& system, const double* y, double* weights) {
     for (int i = 0; i < system.rhs.dimension; ++i)
-        weights[i] = i < system.rhs.dimension - system.rhs.extra ? 1 / (system.options.tolerance * std::max(1.0, std::abs(y[i]))) : 1e-30;
+        weights[i] = i < system.rhs.dimension - system.rhs.extra
+                         ? 1 / (system.options.tolerance * std::max(1.0, std::abs(y[i])))
+                         : 1e-30;
 }
 
 std::string flag_name(char* text) {
@@ -167,8 +178,12 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
     Workspace w(initial.size());
     std::copy(initial.begin(), initial.end(), N_VGetArrayPointer(w.y));
     void* memory = CVodeCreate(CV_BDF, w.context);
-    CVodeInit(memory, [](realtype t, N_Vector y, N_Vector out, void* s) { return static_cast<System*>(s)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(out)); },
-              options.start, w.y);
+    CVodeInit(
+        memory,
+        [](realtype t, N_Vector y, N_Vector out, void* s) {
+            return static_cast<System*>(s)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(out));
+        },
+        options.start, w.y);
     CVodeSetErrHandlerFn(memory, quiet, nullptr);
     CVodeSetUserData(memory, &system);
     CVodeWFtolerances(memory, [](N_Vector y, N_Vector weights, void* s) {
@@ -177,12 +192,13 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
     });
     CVodeSetLinearSolver(memory, w.solver, w.matrix);
     if (rhs.jacobian != nullptr)
-        CVodeSetJacFn(memory, [](realtype t, N_Vector y, N_Vector, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
-            auto& own = *static_cast<System*>(s);
-            own.rhs.jacobian(own.rhs.context.get(), t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
-            ++own.evaluations;
-            return is_finite(SUNDenseMatrix_Data(J), own.size() * own.size()) ? 0 : recoverable;
-        });
+        CVodeSetJacFn(
+            memory, [](realtype t, N_Vector y, N_Vector, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
+                auto& own = *static_cast<System*>(s);
+                own.rhs.jacobian(own.rhs.context.get(), t, N_VGetArrayPointer(y), SUNDenseMatrix_Data(J));
+                ++own.evaluations;
+                return is_finite(SUNDenseMatrix_Data(J), own.size() * own.size()) ? 0 : recoverable;
+            });
     if (options.project) {
         CVodeSetProjFn(memory, [](realtype t, N_Vector y, N_Vector change, realtype, N_Vector, void* s) {
             auto& own = *static_cast<System*>(s);
@@ -203,17 +219,18 @@ Trajectory by_cvode(const Rhs& rhs, const std::vector<double>& initial, const Op
             return number;
         };
     };
-    const Stepping by{.name = "cvode",
-                      .step = [&](double& t) { return CVode(memory, options.start + options.duration, w.y, &t, CV_ONE_STEP); },
-                      .state = [&] { return N_VGetArrayPointer(w.y); },
-                      .at =
-                          [&](double t, double* state) {
-                              CVodeGetDky(memory, t, 0, w.between);
-                              std::copy_n(N_VGetArrayPointer(w.between), system.size(), state);
-                          },
-                      .steps = count(CVodeGetNumSteps),
-                      .rejected = count(CVodeGetNumErrTestFails),
-                      .meaning = [](int flag) { return flag_name(CVodeGetReturnFlagName(flag)); }};
+    const Stepping by{
+        .name = "cvode",
+        .step = [&](double& t) { return CVode(memory, options.start + options.duration, w.y, &t, CV_ONE_STEP); },
+        .state = [&] { return N_VGetArrayPointer(w.y); },
+        .at =
+            [&](double t, double* state) {
+                CVodeGetDky(memory, t, 0, w.between);
+                std::copy_n(N_VGetArrayPointer(w.between), system.size(), state);
+            },
+        .steps = count(CVodeGetNumSteps),
+        .rejected = count(CVodeGetNumErrTestFails),
+        .meaning = [](int flag) { return flag_name(CVodeGetReturnFlagName(flag)); }};
     Trajectory motion = Collected(system, initial, by).go();
     CVodeFree(&memory);
     return motion;
@@ -281,11 +298,23 @@ struct Implicit {
     }
 };
 
-Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
+Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rhs& rhs,
+                  const std::vector<double>& initial, const Options& options) {
     const alembert_solver_table& table = module.table();
     const auto n = static_cast<std::size_t>(table.coordinates), m = static_cast<std::size_t>(table.constraints);
-    Implicit f{.system = {.rhs = rhs, .options = options}, .module = module, .par = par, .n = n, .m = m, .mass = std::vector<double>(n * n), .forcing = std::vector<double>(n),
-               .rows = std::vector<double>(m * n), .rate = std::vector<double>(initial.size()), .trial = {}, .trial_slope = {}, .here = {}, .moved = {}};
+    Implicit f{.system = {.rhs = rhs, .options = options},
+               .module = module,
+               .par = par,
+               .n = n,
+               .m = m,
+               .mass = std::vector<double>(n * n),
+               .forcing = std::vector<double>(n),
+               .rows = std::vector<double>(m * n),
+               .rate = std::vector<double>(initial.size()),
+               .trial = {},
+               .trial_slope = {},
+               .here = {},
+               .moved = {}};
     Workspace w(f.size());
     double *const y = N_VGetArrayPointer(w.y), *const slope = N_VGetArrayPointer(w.slope);
     std::fill_n(y, f.size(), 0.0);
@@ -294,9 +323,13 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
     if (m > 0) table.multipliers_at(options.start, initial.data(), par.data(), y + f.states());
 
     void* memory = IDACreate(w.context);
-    IDAInit(memory, [](realtype t, N_Vector at, N_Vector with, N_Vector out, void* s) {
-        return static_cast<Implicit*>(s)->residual(t, N_VGetArrayPointer(at), N_VGetArrayPointer(with), N_VGetArrayPointer(out));
-    }, options.start, w.y, w.slope);
+    IDAInit(
+        memory,
+        [](realtype t, N_Vector at, N_Vector with, N_Vector out, void* s) {
+            return static_cast<Implicit*>(s)->residual(t, N_VGetArrayPointer(at), N_VGetArrayPointer(with),
+                                                       N_VGetArrayPointer(out));
+        },
+        options.start, w.y, w.slope);
     IDASetErrHandlerFn(memory, quiet, nullptr);
     IDASetUserData(memory, &f);
     // Multipliers are not controlled, neither in the error test nor in Newton's iteration.
@@ -314,8 +347,10 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
         IDASetSuppressAlg(memory, 1);
     }
     IDASetLinearSolver(memory, w.solver, w.matrix);
-    IDASetJacFn(memory, [](realtype t, realtype c, N_Vector at, N_Vector with, N_Vector value, SUNMatrix J, void* s, N_Vector, N_Vector, N_Vector) {
-        return static_cast<Implicit*>(s)->jacobian(t, c, N_VGetArrayPointer(at), N_VGetArrayPointer(with), N_VGetArrayPointer(value), SUNDenseMatrix_Data(J));
+    IDASetJacFn(memory, [](realtype t, realtype c, N_Vector at, N_Vector with, N_Vector value, SUNMatrix J,
+                           void* s, N_Vector, N_Vector, N_Vector) {
+        return static_cast<Implicit*>(s)->jacobian(t, c, N_VGetArrayPointer(at), N_VGetArrayPointer(with),
+                                                   N_VGetArrayPointer(value), SUNDenseMatrix_Data(J));
     });
     IDASetStopTime(memory, options.start + options.duration);
     if (options.longest_step > 0) IDASetMaxStep(memory, options.longest_step);
@@ -330,10 +365,12 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
     const Stepping by{.name = "ida",
                       .step =
                           [&](double& t) {
-                              const int flag = IDASolve(memory, options.start + options.duration, &t, w.y, w.slope, IDA_ONE_STEP);
+                              const int flag = IDASolve(memory, options.start + options.duration, &t, w.y, w.slope,
+                                                        IDA_ONE_STEP);
                               if (flag < 0) return flag;
                               std::copy_n(N_VGetArrayPointer(w.y), f.states(), f.here.begin());
-                              if (options.project) options.project(t, f.here.data());  // what is told; IDA goes on from its own
+                              if (options.project)
+                                  options.project(t, f.here.data());  // what is told; IDA goes on from its own
                               return flag;
                           },
                       .state = [&] { return f.here.data(); },
@@ -354,7 +391,8 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
 const Backend backend{.version = backend_version,
                       .cvode = [](const Module&, const std::vector<double>&) -> Integrator { return by_cvode; },
                       .ida = [](const Module& module, const std::vector<double>& parameters) -> Integrator {
-                          return [module, par = prepared(module, parameters)](const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
+                          return [module, par = prepared(module, parameters)](
+                                     const Rhs& rhs, const std::vector<double>& initial, const Options& options) {
                               return by_ida(module, par, rhs, initial, options);
                           };
                       }};
@@ -363,4 +401,6 @@ const Backend backend{.version = backend_version,
 
 }  // namespace alembert
 
-extern "C" __attribute__((visibility("default"))) const alembert::Backend* alembert_backend() { return &alembert::backend; }
+extern "C" __attribute__((visibility("default"))) const alembert::Backend* alembert_backend() {
+    return &alembert::backend;
+}

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// SUNDIALS as a back end of `simulate`: a shared object of its own, `alembert-sundials.so`, that CMake builds where it finds
-/// libsundials-dev. The program opens it when it is asked for (commands/foreign.hpp), so that nothing of SUNDIALS is linked into either
-/// the program or the runtime.
+/// SUNDIALS as a back end of `simulate`: a shared object of its own, `alembert-sundials.so`, that CMake builds
+/// where it finds libsundials-dev. The program opens it when it is asked for (commands/foreign.hpp), so that
+/// nothing of SUNDIALS is linked into either the program or the runtime.
 ///
-/// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs where it has one, and
-/// Options::project as CVODE's projection. ida: the same equations implicitly where there are no constraints; with them the stabilized
-/// index-2 form of Gear, Gupta and Leimkuhler (Hairer & Wanner, Solving ODEs II, §VII.2) in q, u, λ and μ,
+/// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs where it has one,
+/// and Options::project as CVODE's projection. ida: the same equations implicitly where there are no constraints;
+/// with them the stabilized index-2 form of Gear, Gupta and Leimkuhler (Hairer & Wanner, Solving ODEs II, §VII.2)
+/// in q, u, λ and μ,
 ///
 ///     q' = u + Aᵀμ,   M u' = f + Aᵀλ,   0 = f(q, t),   0 = A u + b
 ///

@@ -25,11 +25,12 @@ Answer solve(const Task& task, const gsl_odeiv2_step_type* type) {
     gsl_set_error_handler_off();
     Calls calls{&task.rhs, 0, task.budget};
     gsl_odeiv2_system system{rate, nullptr, task.initial.size(), &calls};
-    gsl_odeiv2_driver* const driver =
-        gsl_odeiv2_driver_alloc_y_new(&system, type, (task.end - task.start) * 1e-6, task.tolerance, task.tolerance);
+    gsl_odeiv2_driver* const driver = gsl_odeiv2_driver_alloc_y_new(&system, type, (task.end - task.start) * 1e-6,
+                                                                    task.tolerance, task.tolerance);
     Answer answer{.failed = false, .state = task.initial, .evaluations = 0, .steps = 0};
     double t = task.start;
-    answer.failed = driver == nullptr || gsl_odeiv2_driver_apply(driver, &t, task.end, answer.state.data()) != GSL_SUCCESS;
+    answer.failed =
+        driver == nullptr || gsl_odeiv2_driver_apply(driver, &t, task.end, answer.state.data()) != GSL_SUCCESS;
     answer.evaluations = calls.count;
     if (driver != nullptr) {
         answer.steps = static_cast<long>(driver->n);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // alembert-peers OBJECT TASK: runs each of the peers on an emitted solver and prints, a line for each run,
 //   run WHO METHOD TOLERANCE SECONDS EVALUATIONS STEPS FAILED STATE…
-// TASK holds lists, each after its length: parameters, initial state, tolerances; then start, duration, seconds a run may take.
-// Seconds: processor time of this thread, the median of what fits in 20 ms, set-up of the peer's memory included.
+// TASK holds lists, each after its length: parameters, initial state, tolerances; then start, duration, seconds a
+// run may take. Seconds: processor time of this thread, the median of what fits in 20 ms, set-up of the peer's
+// memory included.
 #include <ctime>
 
 #include <algorithm>
@@ -66,7 +67,12 @@ int main(int argc, char** argv) {
             all.insert(all.end(), some.begin(), some.end());
         for (const peers::Peer& peer : all) {
             for (const double tolerance : tolerances) {
-                const peers::Task task{.rhs = rhs, .initial = initial, .start = start, .end = start + duration, .tolerance = tolerance, .budget = budget};
+                const peers::Task task{.rhs = rhs,
+                                       .initial = initial,
+                                       .start = start,
+                                       .end = start + duration,
+                                       .tolerance = tolerance,
+                                       .budget = budget};
                 std::vector<double> times;
                 double sum = 0;
                 peers::Answer answer;
@@ -76,9 +82,10 @@ int main(int argc, char** argv) {
                     times.push_back(seconds() - before);
                     sum += times.back();
                 } while (times.size() < 200 && sum < 0.3 && (times.size() < 3 || sum < 0.02));
-                std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
-                std::printf("run %s %s %.17g %.17g %ld %ld %d", peer.who.c_str(), peer.method.c_str(), tolerance, times[times.size() / 2],
-                            answer.evaluations, answer.steps, answer.failed ? 1 : 0);
+                std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
+                                 times.end());
+                std::printf("run %s %s %.17g %.17g %ld %ld %d", peer.who.c_str(), peer.method.c_str(), tolerance,
+                            times[times.size() / 2], answer.evaluations, answer.steps, answer.failed ? 1 : 0);
                 for (const double y : answer.state) std::printf(" %.17g", y);
                 std::printf("\n");
                 if (answer.failed || sum > most) break;  // a stricter tolerance takes longer

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Boost.odeint: Fehlberg's pair of order 8, Dormand's and Prince's of order 5, and Bulirsch's and Stoer's extrapolation.
+// Boost.odeint: Fehlberg's pair of order 8, Dormand's and Prince's of order 5, and Bulirsch's and Stoer's
+// extrapolation.
 #include <boost/numeric/odeint.hpp>
 
 #include "peers.hpp"
@@ -21,8 +22,8 @@ Answer solve(const Task& task, Stepper stepper) {
         task.rhs(t, y.data(), out.data());
     };
     try {
-        answer.steps = static_cast<long>(
-            ode::integrate_adaptive(stepper, rate, answer.state, task.start, task.end, (task.end - task.start) * 1e-6));
+        answer.steps = static_cast<long>(ode::integrate_adaptive(stepper, rate, answer.state, task.start, task.end,
+                                                                 (task.end - task.start) * 1e-6));
     } catch (const TooMany&) {
         answer.failed = true;
     } catch (const std::exception&) {
@@ -36,14 +37,17 @@ Answer solve(const Task& task, Stepper stepper) {
 std::vector<Peer> odeint() {
     return {{"odeint", "rkf78",
              [](const Task& task) {
-                 return solve(task, ode::make_controlled(task.tolerance, task.tolerance, ode::runge_kutta_fehlberg78<State>()));
+                 return solve(task, ode::make_controlled(task.tolerance, task.tolerance,
+                                                         ode::runge_kutta_fehlberg78<State>()));
              }},
             {"odeint", "dopri5",
              [](const Task& task) {
-                 return solve(task, ode::make_controlled(task.tolerance, task.tolerance, ode::runge_kutta_dopri5<State>()));
+                 return solve(
+                     task, ode::make_controlled(task.tolerance, task.tolerance, ode::runge_kutta_dopri5<State>()));
              }},
-            {"odeint", "bulirsch-stoer",
-             [](const Task& task) { return solve(task, ode::bulirsch_stoer<State>(task.tolerance, task.tolerance)); }}};
+            {"odeint", "bulirsch-stoer", [](const Task& task) {
+                 return solve(task, ode::bulirsch_stoer<State>(task.tolerance, task.tolerance));
+             }}};
 }
 
 }  // namespace alembert::peers

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What each of the peers is given and gives back. One function for each library, absent where CMake did not find it.
+/// What each of the peers is given and gives back. One function for each library, absent where CMake did not find
+/// it.
 
 #include <functional>
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CVODE (Adams with fixed-point iteration, BDF with Newton's and a difference Jacobian), ARKODE's explicit method of order 8 and
-// IDA on y' − f(t, y) = 0. Tolerances: both relative and absolute, the nearest to tolerance · max(1, |y|).
+// CVODE (Adams with fixed-point iteration, BDF with Newton's and a difference Jacobian), ARKODE's explicit method
+// of order 8 and IDA on y' − f(t, y) = 0. Tolerances: both relative and absolute, the nearest to tolerance ·
+// max(1, |y|).
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <ida/ida.h>
@@ -58,7 +59,10 @@ struct Common {
 
     Answer answer(int flag, long steps) const {
         const double* const state = N_VGetArrayPointer(y);
-        return {.failed = flag < 0, .state = {state, state + N_VGetLength(y)}, .evaluations = calls.count, .steps = steps};
+        return {.failed = flag < 0,
+                .state = {state, state + N_VGetLength(y)},
+                .evaluations = calls.count,
+                .steps = steps};
     }
 
     Calls calls;

@@ -6,7 +6,8 @@
 ///     const Cost cost = cost_of(program);
 ///     cost.time();        // to compare programs with
 ///
-/// Chains are counted in cycles (readiness.hpp). A processor overlaps part of a chain with the next call, so that both count.
+/// Chains are counted in cycles (readiness.hpp). A processor overlaps part of a chain with the next call, so that
+/// both count.
 
 #include "program/processor.hpp"
 #include "program/program.hpp"

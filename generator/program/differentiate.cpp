@@ -23,13 +23,16 @@ struct System {
     std::vector<int> K, b;
     int speeds = 0;
     int size() const { return static_cast<int>(b.size()); }
-    int entry(int i, int j) const { return i < j ? entry(j, i) : K[static_cast<std::size_t>(i * (i + 1) / 2 + j)]; }
+    int entry(int i, int j) const {
+        return i < j ? entry(j, i) : K[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+    }
 };
 
 System system_of(Program& p) {
     System s{.K = p.nodes_of(Group::mass), .b = p.nodes_of(Group::forcing)};
     s.speeds = s.size();
-    const std::vector<int> rows = p.nodes_of(p.speeds.empty() ? Group::row : Group::speed_row), gamma = p.nodes_of(Group::gamma);
+    const std::vector<int> rows = p.nodes_of(p.speeds.empty() ? Group::row : Group::speed_row),
+                           gamma = p.nodes_of(Group::gamma);
     for (int k = 0; const int c : p.kept_constraints()) {
         for (int i = 0; i < s.speeds; ++i) s.K.push_back(rows[static_cast<std::size_t>(c * s.speeds + i)]);
         s.K.insert(s.K.end(), static_cast<std::size_t>(++k), p.number(0));
@@ -57,14 +60,17 @@ private:
     void rebuild(int id) {
         const Node node = p_[id];
         if (known_.contains(id)) return;
-        if (std::none_of(node.args.begin(), node.args.end(), [&](int arg) { return known_.contains(arg); })) return;
+        if (std::none_of(node.args.begin(), node.args.end(), [&](int arg) { return known_.contains(arg); }))
+            return;
         if (node.op == Op::sum) {
             std::vector<Program::Term> terms;
-            for (std::size_t k = 0; k < node.args.size(); ++k) terms.emplace_back(node.coefficients[k], at(node.args[k]));
+            for (std::size_t k = 0; k < node.args.size(); ++k)
+                terms.emplace_back(node.coefficients[k], at(node.args[k]));
             known_[id] = p_.sum(node.number, terms);
         } else if (node.op == Op::product) {
             std::vector<Program::Factor> factors;
-            for (std::size_t k = 0; k < node.args.size(); ++k) factors.emplace_back(at(node.args[k]), node.exponents[k]);
+            for (std::size_t k = 0; k < node.args.size(); ++k)
+                factors.emplace_back(at(node.args[k]), node.exponents[k]);
             known_[id] = p_.product(1, factors);
         } else {
             std::vector<int> args;
@@ -80,8 +86,10 @@ private:
 class Differentiation {
 public:
     Differentiation(const Program& program, long budget)
-        : p_(program), n_(static_cast<int>(program.coordinates.size())),
-          s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())), budget_(budget) {
+        : p_(program),
+          n_(static_cast<int>(program.coordinates.size())),
+          s_(program.speeds.empty() ? n_ : static_cast<int>(program.speeds.size())),
+          budget_(budget) {
         for (int i = 0; i < n_; ++i) state_.push_back(p_.variable({Variable::Kind::coordinate, i}));
         for (int i = 0; i < s_; ++i) state_.push_back(p_.variable({Variable::Kind::rate, i}));
         for (int id = 0; id < p_.size(); ++id)
@@ -118,7 +126,8 @@ public:
             if (inertia && i < s_) {
                 terms.emplace_back(-1, (*inertia)[static_cast<std::size_t>(i)]);
                 for (int j = s_; j < system.size(); ++j)
-                    terms.emplace_back(-1, p_.product(1, {{system.entry(i, j), 1}, {unknown[static_cast<std::size_t>(j)], 1}}));
+                    terms.emplace_back(
+                        -1, p_.product(1, {{system.entry(i, j), 1}, {unknown[static_cast<std::size_t>(j)], 1}}));
             } else {
                 terms.emplace_back(-1, row_times(system, i, unknown));
             }
@@ -129,13 +138,15 @@ public:
         Matrix columns(inputs.size(), std::vector<int>(residuals.size(), p_.number(0)));
         Substitution with_solution(p_, std::move(solved));
         for (const Partial& part : *parts)
-            columns[static_cast<std::size_t>(part.input)][static_cast<std::size_t>(part.output)] = with_solution(part.node);
+            columns[static_cast<std::size_t>(part.input)][static_cast<std::size_t>(part.output)] =
+                with_solution(part.node);
         const std::optional<Matrix> derivative = solve_for_sides(p_, system.K, columns, system.speeds);
         if (!derivative) return std::nullopt;
         std::optional<Matrix> result = rates(inputs, order);
         for (int i = 0; result && i < s_; ++i) {
             result->emplace_back();
-            for (const std::vector<int>& column : *derivative) result->back().push_back(column[static_cast<std::size_t>(i)]);
+            for (const std::vector<int>& column : *derivative)
+                result->back().push_back(column[static_cast<std::size_t>(i)]);
         }
         return result;
     }
@@ -176,7 +187,8 @@ public:
                 sums[j].emplace_back(1, p_.product(1, {{part.node, 1}, {row[j], 1}}));
         }
         std::map<int, int> own;  // u' that the power names, as functions of the state
-        for (int i = 0; i < s_; ++i) own.emplace(p_.variable({Variable::Kind::acceleration, i}), acceleration[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < s_; ++i)
+            own.emplace(p_.variable({Variable::Kind::acceleration, i}), acceleration[static_cast<std::size_t>(i)]);
         Substitution at_state(p_, std::move(own));
         std::vector<int> gradient;
         for (const auto& terms : sums) gradient.push_back(at_state(p_.sum(0, terms)));
@@ -191,7 +203,8 @@ public:
 
     void keep(Group group, const std::string& letter, const Matrix& m) {
         for (std::size_t i = 0; i < m.size(); ++i)
-            for (std::size_t j = 0; j < m[i].size(); ++j) p_.roots.push_back({group, fmt::format("{}{}_{}", letter, i, j), m[i][j]});
+            for (std::size_t j = 0; j < m[i].size(); ++j)
+                p_.roots.push_back({group, fmt::format("{}{}_{}", letter, i, j), m[i][j]});
     }
 
     Program finished() && { return p_.canonical(); }
@@ -232,7 +245,8 @@ private:
             const std::vector<double> value = interpret(p_, s);
             double largest = 0, difference = 0;
             for (std::size_t i = 0; i < result.size(); ++i) {
-                const double a = value[static_cast<std::size_t>(result[i])], b = value[static_cast<std::size_t>(by_matrix[i])];
+                const double a = value[static_cast<std::size_t>(result[i])],
+                             b = value[static_cast<std::size_t>(by_matrix[i])];
                 largest = std::max(largest, std::abs(b));
                 difference = std::max(difference, std::isfinite(a - b) ? std::abs(a - b) : HUGE_VAL);
             }
@@ -264,7 +278,8 @@ private:
         Matrix result(static_cast<std::size_t>(n_), std::vector<int>(inputs.size(), p_.number(0)));
         for (int i = 0; i < n_; ++i)
             for (std::size_t j = 0; j < inputs.size(); ++j)
-                if (inputs[j] == state_[static_cast<std::size_t>(n_ + i)]) result[static_cast<std::size_t>(i)][j] = p_.number(1);
+                if (inputs[j] == state_[static_cast<std::size_t>(n_ + i)])
+                    result[static_cast<std::size_t>(i)][j] = p_.number(1);
         return result;
     }
 
@@ -288,7 +303,8 @@ constexpr Route routes[] = {{"implicit with M u' from T, reverse", Route::by_ene
                             {"implicit, forward", Route::by_matrix, Elimination::forward},
                             {"direct, least fill", Route::direct, Elimination::least_fill},
                             {"direct, forward", Route::direct, Elimination::forward}};
-constexpr int few_operations = 2000;  ///< where all routes are tried; beyond, the two that are shortest for large systems
+constexpr int few_operations =
+    2000;  ///< where all routes are tried; beyond, the two that are shortest for large systems
 
 std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const std::vector<int>& inputs) {
     return route.through == Route::direct ? d.direct(inputs, route.order)

@@ -11,16 +11,18 @@
 ///
 ///     K ∂x/∂y = ∂R/∂y |_x,
 ///
-/// solved with the factors of K that the right-hand side has anyway. ∂R/∂y comes from partials.hpp. In M u' each entry of M is
-/// differentiated; the same vector is ∂(∂T/∂u)/∂u · u', of as many operations as T, where numbers at random states say that it
-/// is the same. Of these two, in several orders of elimination, and of the derivative straight through the solved accelerations the
-/// one with the fewest operations is taken.
+/// solved with the factors of K that the right-hand side has anyway. ∂R/∂y comes from partials.hpp. In M u' each
+/// entry of M is differentiated; the same vector is ∂(∂T/∂u)/∂u · u', of as many operations as T, where numbers at
+/// random states say that it is the same. Of these two, in several orders of elimination, and of the derivative
+/// straight through the solved accelerations the one with the fewest operations is taken.
 ///
-/// Where the right-hand side has a kink, the entries are those of the side on which the state lies; on the kink itself abs, min
-/// and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has 0, and sqrt at 0 infinity.
+/// Where the right-hand side has a kink, the entries are those of the side on which the state lies; on the kink
+/// itself abs, min and max have the mean of both sides (0 for abs, 1/2 for each argument of min and max), sign has
+/// 0, and sqrt at 0 infinity.
 ///
-/// Groups of roots: Group::jacobian, (n + s) × (n + s); with `parameters` Group::parameter_jacobian, (n + s) × p, by the parameters
-/// that a caller sets, as they stand before `prepare`; with `power` Group::power_gradient, n + s: of dE/dt as a function of the state.
+/// Groups of roots: Group::jacobian, (n + s) × (n + s); with `parameters` Group::parameter_jacobian, (n + s) × p,
+/// by the parameters that a caller sets, as they stand before `prepare`; with `power` Group::power_gradient, n +
+/// s: of dE/dt as a function of the state.
 
 #include <optional>
 #include <string>

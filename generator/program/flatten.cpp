@@ -27,14 +27,16 @@ Program flattened(const Program& old) {
             constants[id] = node.number;
             for (std::size_t k = 0; k < node.args.size(); ++k) {
                 const int arg = node.args[k];
-                const bool dissolves = uses[arg] == 1 && !terms[arg].empty() && cln::equal(cln::abs(node.coefficients[k]), 1) &&
+                const bool dissolves = uses[arg] == 1 && !terms[arg].empty() &&
+                                       cln::equal(cln::abs(node.coefficients[k]), 1) &&
                                        terms[id].size() + terms[arg].size() + node.args.size() - k - 1 <= longest;
                 if (!dissolves) {
                     terms[id].emplace_back(node.coefficients[k], arg);
                     continue;
                 }
                 constants[id] = constants[id] + node.coefficients[k] * constants[arg];
-                for (const auto& [coefficient, inner] : terms[arg]) terms[id].emplace_back(node.coefficients[k] * coefficient, inner);
+                for (const auto& [coefficient, inner] : terms[arg])
+                    terms[id].emplace_back(node.coefficients[k] * coefficient, inner);
             }
             std::vector<Program::Term> images = terms[id];
             for (Program::Term& term : images) term.second = rewriting.image(term.second);

@@ -3,8 +3,8 @@
 
 /// Sums of sums as one: a − (b + c·d) becomes a − b − c·d, where nobody else uses the sum inside.
 ///
-/// A recursion adds two things at a time. Written as one sum, every product in it is a fused multiply-add, and what comes last can
-/// be added last.
+/// A recursion adds two things at a time. Written as one sum, every product in it is a fused multiply-add, and
+/// what comes last can be added last.
 
 #include "program/program.hpp"
 

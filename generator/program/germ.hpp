@@ -59,7 +59,9 @@ public:
     friend bool operator<(const Germ& a, const Germ& b) { return (a - b).side() < 0; }
     friend bool operator>(const Germ& a, const Germ& b) { return b < a; }
     /// Like a NaN, an undefined germ differs from every germ, itself included.
-    friend bool operator!=(const Germ& a, const Germ& b) { return !a.defined_ || !b.defined_ || (a - b).side() != 0; }
+    friend bool operator!=(const Germ& a, const Germ& b) {
+        return !a.defined_ || !b.defined_ || (a - b).side() != 0;
+    }
 
     friend Germ sin(const Germ& a);
     friend Germ cos(const Germ& a);

@@ -3,8 +3,8 @@
 
 /// Evaluates a Program node by node: the oracle of the tests, and `eval` without a compiler.
 ///
-///     const std::vector<double> values = interpret<double>(program, {.parameters = par, .t = 0, .q = q, .qdot = u});
-///     values[program.nodes_of(Group::energy)[0]];
+///     const std::vector<double> values = interpret<double>(program, {.parameters = par, .t = 0, .q = q, .qdot =
+///     u}); values[program.nodes_of(Group::energy)[0]];
 ///
 /// Works for every Real with the usual functions found by argument-dependent look-up (double, long double).
 
@@ -37,7 +37,8 @@ template <>
 inline long double real_of<long double>(const Rational& r) {
     const cln::cl_F value = cln::cl_float(r, cln::float_format(40));
     const double high = cln::double_approx(value);
-    return static_cast<long double>(high) + static_cast<long double>(cln::double_approx(r - cln::rational(cln::cl_DF(high))));
+    return static_cast<long double>(high) +
+           static_cast<long double>(cln::double_approx(r - cln::rational(cln::cl_DF(high))));
 }
 
 /// All nodes' values; parts that are not needed cost nothing extra but their own evaluation. Divisions by zero and
@@ -51,25 +52,40 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
         const Node& node = program[id];
         const auto arg = [&](std::size_t k) -> const Real& { return value[node.args[k]]; };
         switch (node.op) {
-            case Op::number: value[id] = real_of<Real>(node.number); break;
-            case Op::pi: value[id] = acos(Real(-1)); break;
+            case Op::number:
+                value[id] = real_of<Real>(node.number);
+                break;
+            case Op::pi:
+                value[id] = acos(Real(-1));
+                break;
             case Op::variable: {
                 const auto i = static_cast<std::size_t>(node.variable.index);
                 switch (node.variable.kind) {
-                    case Variable::Kind::parameter: value[id] = state.parameters.at(i); break;
-                    case Variable::Kind::time: value[id] = state.t; break;
-                    case Variable::Kind::coordinate: value[id] = state.q.at(i); break;
-                    case Variable::Kind::rate: value[id] = state.qdot.at(i); break;
+                    case Variable::Kind::parameter:
+                        value[id] = state.parameters.at(i);
+                        break;
+                    case Variable::Kind::time:
+                        value[id] = state.t;
+                        break;
+                    case Variable::Kind::coordinate:
+                        value[id] = state.q.at(i);
+                        break;
+                    case Variable::Kind::rate:
+                        value[id] = state.qdot.at(i);
+                        break;
                     case Variable::Kind::acceleration:
                         value[id] = i < state.qddot.size() ? state.qddot[i] : Real(0);
                         break;
-                    case Variable::Kind::unknown: value[id] = state.unknown.at(i); break;
+                    case Variable::Kind::unknown:
+                        value[id] = state.unknown.at(i);
+                        break;
                 }
                 break;
             }
             case Op::sum: {
                 Real sum = real_of<Real>(node.number);
-                for (std::size_t k = 0; k < node.args.size(); ++k) sum += real_of<Real>(node.coefficients[k]) * arg(k);
+                for (std::size_t k = 0; k < node.args.size(); ++k)
+                    sum += real_of<Real>(node.coefficients[k]) * arg(k);
                 value[id] = sum;
                 break;
             }
@@ -81,24 +97,60 @@ std::vector<Real> interpret(const Program& program, const State<Real>& state) {
                 value[id] = numerator / denominator;
                 break;
             }
-            case Op::sin: value[id] = sin(arg(0)); break;
-            case Op::cos: value[id] = cos(arg(0)); break;
-            case Op::tan: value[id] = tan(arg(0)); break;
-            case Op::asin: value[id] = asin(arg(0)); break;
-            case Op::acos: value[id] = acos(arg(0)); break;
-            case Op::atan: value[id] = atan(arg(0)); break;
-            case Op::sinh: value[id] = sinh(arg(0)); break;
-            case Op::cosh: value[id] = cosh(arg(0)); break;
-            case Op::tanh: value[id] = tanh(arg(0)); break;
-            case Op::exp: value[id] = exp(arg(0)); break;
-            case Op::log: value[id] = log(arg(0)); break;
-            case Op::sqrt: value[id] = sqrt(arg(0)); break;
-            case Op::abs: value[id] = abs(arg(0)); break;
-            case Op::sign: value[id] = sign_of(arg(0)); break;
-            case Op::pow: value[id] = pow(arg(0), arg(1)); break;
-            case Op::atan2: value[id] = atan2(arg(0), arg(1)); break;
-            case Op::min: value[id] = lesser(arg(0), arg(1)); break;
-            case Op::max: value[id] = greater(arg(0), arg(1)); break;
+            case Op::sin:
+                value[id] = sin(arg(0));
+                break;
+            case Op::cos:
+                value[id] = cos(arg(0));
+                break;
+            case Op::tan:
+                value[id] = tan(arg(0));
+                break;
+            case Op::asin:
+                value[id] = asin(arg(0));
+                break;
+            case Op::acos:
+                value[id] = acos(arg(0));
+                break;
+            case Op::atan:
+                value[id] = atan(arg(0));
+                break;
+            case Op::sinh:
+                value[id] = sinh(arg(0));
+                break;
+            case Op::cosh:
+                value[id] = cosh(arg(0));
+                break;
+            case Op::tanh:
+                value[id] = tanh(arg(0));
+                break;
+            case Op::exp:
+                value[id] = exp(arg(0));
+                break;
+            case Op::log:
+                value[id] = log(arg(0));
+                break;
+            case Op::sqrt:
+                value[id] = sqrt(arg(0));
+                break;
+            case Op::abs:
+                value[id] = abs(arg(0));
+                break;
+            case Op::sign:
+                value[id] = sign_of(arg(0));
+                break;
+            case Op::pow:
+                value[id] = pow(arg(0), arg(1));
+                break;
+            case Op::atan2:
+                value[id] = atan2(arg(0), arg(1));
+                break;
+            case Op::min:
+                value[id] = lesser(arg(0), arg(1));
+                break;
+            case Op::max:
+                value[id] = greater(arg(0), arg(1));
+                break;
         }
     }
     return value;

@@ -7,10 +7,10 @@
 ///     state.q[0] = {.value = 0.3, .d = {1, 0}};                  // x itself: ∂x/∂x = 1
 ///     interpret(program, state)[node].d                          // ∂node/∂x, ∂node/∂y; empty stands for zeros
 ///
-/// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient is the chain rule on those of
-/// its arguments, so the derivative of what is evaluated carries rounding errors and nothing else. At a kink of abs, sign,
-/// min or max it is that of one side of this function, which in a sum of several need be no side of the sum: germ.hpp gives
-/// one-sided derivatives.
+/// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient is the chain rule
+/// on those of its arguments, so the derivative of what is evaluated carries rounding errors and nothing else. At
+/// a kink of abs, sign, min or max it is that of one side of this function, which in a sum of several need be no
+/// side of the sum: germ.hpp gives one-sided derivatives.
 
 #include "program/interpret.hpp"
 
@@ -61,13 +61,17 @@ struct Jet {
 
     friend Jet sin(const Jet& a) { return through(a, std::sin(a.value), std::cos(a.value)); }
     friend Jet cos(const Jet& a) { return through(a, std::cos(a.value), -std::sin(a.value)); }
-    friend Jet tan(const Jet& a) { return through(a, std::tan(a.value), 1 / (std::cos(a.value) * std::cos(a.value))); }
+    friend Jet tan(const Jet& a) {
+        return through(a, std::tan(a.value), 1 / (std::cos(a.value) * std::cos(a.value)));
+    }
     friend Jet asin(const Jet& a) { return through(a, std::asin(a.value), 1 / std::sqrt(1 - a.value * a.value)); }
     friend Jet acos(const Jet& a) { return through(a, std::acos(a.value), -1 / std::sqrt(1 - a.value * a.value)); }
     friend Jet atan(const Jet& a) { return through(a, std::atan(a.value), 1 / (1 + a.value * a.value)); }
     friend Jet sinh(const Jet& a) { return through(a, std::sinh(a.value), std::cosh(a.value)); }
     friend Jet cosh(const Jet& a) { return through(a, std::cosh(a.value), std::sinh(a.value)); }
-    friend Jet tanh(const Jet& a) { return through(a, std::tanh(a.value), 1 / (std::cosh(a.value) * std::cosh(a.value))); }
+    friend Jet tanh(const Jet& a) {
+        return through(a, std::tanh(a.value), 1 / (std::cosh(a.value) * std::cosh(a.value)));
+    }
     friend Jet exp(const Jet& a) { return through(a, std::exp(a.value), std::exp(a.value)); }
     friend Jet log(const Jet& a) { return through(a, std::log(a.value), 1 / a.value); }
     friend Jet sqrt(const Jet& a) { return through(a, std::sqrt(a.value), 1 / (2 * std::sqrt(a.value))); }

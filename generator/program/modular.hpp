@@ -4,7 +4,8 @@
 /// Evaluates a Program exactly, modulo the prime 2⁶¹ − 1, at a random point.
 ///
 ///     const ModularPoint point{.seed = 7};
-///     if (const auto at = evaluate_mod(program, point, roots))    // nothing at an unusable point: try another seed
+///     if (const auto at = evaluate_mod(program, point, roots))    // nothing at an unusable point: try another
+///     seed
 ///         at->value[roots[0]] == other->value[other_root];
 ///
 /// Two programs at the same point see the same values, whatever their nodes are numbered: every random value is a
@@ -14,11 +15,13 @@
 ///  - Parameters, coordinates, rates, accelerations, t and π are independent random numbers, or those of `given`.
 ///  - An angle Σ c·x (x a monomial in the variables, c rational) is a product of powers of random points of the
 ///    circle, one for each x: (cos x/h, sin x/h) with h a power of two. The circle's group has order 2⁶¹, so odd
-///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of π/2ᵏ
-///    have their values. `given_angles` sets the point of an x by its value.
-///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol: this
+///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of
+///    π/2ᵏ have their values. `given_angles` sets the point of an x by its value.
+///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol:
+///  this
 ///    keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unusable.
-///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one and
+///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one
+///  and
 ///    the other of the pair. All other functions are random functions of their arguments' values.
 /// What the last line and √3, √5 … (no squares modulo this prime) leave out are identities such as
 /// cos(asin x)² = 1 − x²: a difference found here is certain only where `exact` is set.
@@ -43,8 +46,8 @@ struct ModularPoint {
     std::uint64_t seed = 0;
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
     std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
-    int halves = 2;                        ///< turns are kept of x/2^halves: sin(x/4) needs 2
-    int finer = 0;                         ///< turns that are not given, of x/2^(halves + finer): halvings() of exact/square_points.hpp
+    int halves = 2;                             ///< turns are kept of x/2^halves: sin(x/4) needs 2
+    int finer = 0;  ///< turns that are not given, of x/2^(halves + finer): halvings() of exact/square_points.hpp
 
     /// Uniform, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {
@@ -67,7 +70,8 @@ struct ModularPoint {
         PrimeTurn turn;
     };
     Part part(Prime monomial) const {
-        if (const auto found = given_angles.find(monomial); found != given_angles.end()) return {halves, found->second};
+        if (const auto found = given_angles.find(monomial); found != given_angles.end())
+            return {halves, found->second};
         return {halves + finer, PrimeTurn::rational(random(200, monomial.bits()))};
     }
     /// By the `halves`-th.
@@ -78,10 +82,11 @@ struct ModularPoint {
 };
 
 struct ModularValues {
-    std::vector<Prime> value;    ///< of each node; zero where no root needs it
-    std::vector<double> degree;  ///< of each node: zeros of numerator and denominator, in the random values, at most
-    double conditions = 0;       ///< squares that the point had to be chosen for: each doubles the chance of a failure
-    bool exact = true;           ///< no function was met whose identities the evaluation does not know
+    std::vector<Prime> value;  ///< of each node; zero where no root needs it
+    std::vector<double>
+        degree;             ///< of each node: zeros of numerator and denominator, in the random values, at most
+    double conditions = 0;  ///< squares that the point had to be chosen for: each doubles the chance of a failure
+    bool exact = true;      ///< no function was met whose identities the evaluation does not know
 };
 
 namespace modular {
@@ -118,10 +123,16 @@ private:
         const auto arg = [&](std::size_t k) { return value(node.args[k]); };
         for (const int a : node.args) degree = std::max(degree, result_.degree[a]);
         switch (node.op) {
-            case Op::number: return Prime::from(node.number);
-            case Op::pi: degree = 1; return pi_;
-            case Op::variable: degree = 1; return point_.variable(node.variable);
-            case Op::sum: return sum(node, degree);
+            case Op::number:
+                return Prime::from(node.number);
+            case Op::pi:
+                degree = 1;
+                return pi_;
+            case Op::variable:
+                degree = 1;
+                return point_.variable(node.variable);
+            case Op::sum:
+                return sum(node, degree);
             case Op::product: {
                 degree = 0;
                 Prime product = 1;
@@ -143,14 +154,16 @@ private:
                 if (turn->cos.is_zero()) return std::nullopt;
                 return turn->sin * turn->cos.inverse();
             }
-            case Op::sqrt: return square_root(node.args[0]);
+            case Op::sqrt:
+                return square_root(node.args[0]);
             case Op::abs:
                 result_.exact = result_.exact && arg(0).is_plain();
                 return arg(0).is_plain() ? (arg(0).is_square() ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
             case Op::sign:
                 result_.exact = result_.exact && arg(0).is_plain();
                 return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
-            case Op::exp: return exponential(node.args[0], degree);
+            case Op::exp:
+                return exponential(node.args[0], degree);
             case Op::sinh:
             case Op::cosh:
             case Op::tanh: {
@@ -172,7 +185,12 @@ private:
             case Op::log:
                 if (const Node& inner = program_[node.args[0]]; inner.op == Op::exp) return value(inner.args[0]);
                 break;
-            case Op::asin: case Op::acos: case Op::atan: case Op::pow: case Op::atan2: break;
+            case Op::asin:
+            case Op::acos:
+            case Op::atan:
+            case Op::pow:
+            case Op::atan2:
+                break;
         }
         result_.exact = false;
         degree += 1;
@@ -372,8 +390,8 @@ private:
 
 }  // namespace modular
 
-/// All that `roots` need. Nothing where the point is unusable: a denominator is zero, what stands under a root is no
-/// square, an angle is divided by more than 2^halves.
+/// All that `roots` need. Nothing where the point is unusable: a denominator is zero, what stands under a root is
+/// no square, an angle is divided by more than 2^halves.
 inline std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
                                                  std::span<const int> roots) {
     return modular::Evaluation(program, point).run(roots);

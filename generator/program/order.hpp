@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// sign, min and max that pass a NaN on, whichever argument it is: max(0, √(−1)) is no zero. The emitted code has the same
-/// (templates/elementary.cpp.mustache). For every number with <, > and !=; of equal arguments the first is taken.
+/// sign, min and max that pass a NaN on, whichever argument it is: max(0, √(−1)) is no zero. The emitted code has
+/// the same (templates/elementary.cpp.mustache). For every number with <, > and !=; of equal arguments the first
+/// is taken.
 
 namespace alembert {
 

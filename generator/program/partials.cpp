@@ -20,32 +20,53 @@ public:
         const Node node = p_[id];  // a copy: new nodes move the old ones
         const int x = node.args[k];
         switch (node.op) {
-            case Op::sum: return p_.number(node.coefficients[k]);
-            case Op::product: return of_product(node, id, k);
-            case Op::sin: return p_.call(Op::cos, {x});
-            case Op::cos: return times(-1, {{p_.call(Op::sin, {x}), 1}});
-            case Op::tan: return p_.sum(1, {{1, power(id, 2)}});
-            case Op::asin: return p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2);
-            case Op::acos: return times(-1, {{p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2), 1}});
-            case Op::atan: return p_.power(p_.sum(1, {{1, power(x, 2)}}), -1);
-            case Op::sinh: return p_.call(Op::cosh, {x});
-            case Op::cosh: return p_.call(Op::sinh, {x});
-            case Op::tanh: return p_.sum(1, {{-1, power(id, 2)}});
-            case Op::exp: return id;
-            case Op::log: return power(x, -1);
-            case Op::sqrt: return times(Rational(1) / 2, {{id, -1}});
-            case Op::abs: return p_.call(Op::sign, {x});
-            case Op::pow: return of_power(node, id, k);
+            case Op::sum:
+                return p_.number(node.coefficients[k]);
+            case Op::product:
+                return of_product(node, id, k);
+            case Op::sin:
+                return p_.call(Op::cos, {x});
+            case Op::cos:
+                return times(-1, {{p_.call(Op::sin, {x}), 1}});
+            case Op::tan:
+                return p_.sum(1, {{1, power(id, 2)}});
+            case Op::asin:
+                return p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2);
+            case Op::acos:
+                return times(-1, {{p_.power(p_.sum(1, {{-1, power(x, 2)}}), Rational(-1) / 2), 1}});
+            case Op::atan:
+                return p_.power(p_.sum(1, {{1, power(x, 2)}}), -1);
+            case Op::sinh:
+                return p_.call(Op::cosh, {x});
+            case Op::cosh:
+                return p_.call(Op::sinh, {x});
+            case Op::tanh:
+                return p_.sum(1, {{-1, power(id, 2)}});
+            case Op::exp:
+                return id;
+            case Op::log:
+                return power(x, -1);
+            case Op::sqrt:
+                return times(Rational(1) / 2, {{id, -1}});
+            case Op::abs:
+                return p_.call(Op::sign, {x});
+            case Op::pow:
+                return of_power(node, id, k);
             case Op::atan2: {  // atan2(y, x)
                 const int square = p_.sum(0, {{1, power(node.args[0], 2)}, {1, power(node.args[1], 2)}});
                 return times(k == 0 ? 1 : -1, {{node.args[1 - k], 1}, {square, -1}});
             }
-            case Op::min: case Op::max: {  // (1 ∓ sign(x − other))/2
+            case Op::min:
+            case Op::max: {  // (1 ∓ sign(x − other))/2
                 const int above = p_.call(Op::sign, {p_.sum(0, {{1, x}, {-1, node.args[1 - k]}})});
                 const Rational half = Rational(1) / 2;
                 return p_.sum(half, {{node.op == Op::min ? -half : half, above}});
             }
-            case Op::number: case Op::pi: case Op::variable: case Op::sign: break;
+            case Op::number:
+            case Op::pi:
+            case Op::variable:
+            case Op::sign:
+                break;
         }
         return p_.number(0);
     }
@@ -91,7 +112,8 @@ public:
                 if (active[static_cast<std::size_t>(args[k])]) add(args[k], id, label(id, k));
         }
         for (std::size_t k = 0; k < outputs.size(); ++k)
-            if (active[static_cast<std::size_t>(outputs[k])]) add(outputs[k], size + static_cast<int>(k), program.number(1));
+            if (active[static_cast<std::size_t>(outputs[k])])
+                add(outputs[k], size + static_cast<int>(k), program.number(1));
         first_output_ = size;
     }
 
@@ -184,12 +206,14 @@ private:
             const auto [count, v] = queue.top();
             queue.pop();
             if (!is_left[static_cast<std::size_t>(v)] || count != known[static_cast<std::size_t>(v)]) continue;
-            std::vector<int> neighbours(after_[static_cast<std::size_t>(v)].begin(), after_[static_cast<std::size_t>(v)].end());
+            std::vector<int> neighbours(after_[static_cast<std::size_t>(v)].begin(),
+                                        after_[static_cast<std::size_t>(v)].end());
             for (const auto& [j, edge] : before_[static_cast<std::size_t>(v)]) neighbours.push_back(j);
             is_left[static_cast<std::size_t>(v)] = 0;
             if (!eliminate(v)) return false;
             for (const int w : neighbours)
-                if (is_left[static_cast<std::size_t>(w)] && pairs(w) != known[static_cast<std::size_t>(w)]) enter(w);
+                if (is_left[static_cast<std::size_t>(w)] && pairs(w) != known[static_cast<std::size_t>(w)])
+                    enter(w);
         }
         return true;
     }
@@ -206,8 +230,8 @@ private:
 
 }  // namespace
 
-std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs, std::span<const int> inputs,
-                                             Elimination order, long budget) {
+std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
+                                             std::span<const int> inputs, Elimination order, long budget) {
     Graph graph(program, outputs, inputs);
     if (!graph.eliminate(order, budget)) return std::nullopt;
     return graph.result();

@@ -7,9 +7,9 @@
 ///     *Prime::from(Rational(1) / 3) == Prime(3).inverse();
 ///     Prime::root_of(3)->power(2) == 3;        // √3, an i times a root of −3
 ///
-/// p is 3 modulo 4: −1 is no square of a plain number (b = 0), and the root of a square a that is a square itself is
-/// a^((p+1)/4). All that is random is plain; i comes in with the square roots of those numbers, such as 3 and 5, that
-/// have none among the plain.
+/// p is 3 modulo 4: −1 is no square of a plain number (b = 0), and the root of a square a that is a square itself
+/// is a^((p+1)/4). All that is random is plain; i comes in with the square roots of those numbers, such as 3 and
+/// 5, that have none among the plain.
 
 #include <cln/integer.h>
 
@@ -26,7 +26,8 @@ public:
 
     constexpr Prime() = default;
     constexpr Prime(std::int64_t n)  // NOLINT: a number is a number
-        : n_(n >= 0 ? reduced(static_cast<std::uint64_t>(n)) : negative(reduced(0 - static_cast<std::uint64_t>(n)))) {}
+        : n_(n >= 0 ? reduced(static_cast<std::uint64_t>(n))
+                    : negative(reduced(0 - static_cast<std::uint64_t>(n)))) {}
     static constexpr Prime from_bits(std::uint64_t bits) {
         Prime result;
         result.n_ = reduced(bits);
@@ -46,8 +47,8 @@ public:
         if (below.is_zero()) return std::nullopt;
         return residue(cln::numerator(r)) * below.inverse();
     }
-    /// √r of a positive number: the product of the roots of its prime factors, so that √(ab) = √a √b. Nothing if a factor is
-    /// beyond the table of small primes.
+    /// √r of a positive number: the product of the roots of its prime factors, so that √(ab) = √a √b. Nothing if a
+    /// factor is beyond the table of small primes.
     static std::optional<Prime> root_of(const Rational& r) {
         constexpr int largest = 1000;
         const auto below = from(cln::denominator(r));
@@ -73,11 +74,14 @@ public:
     friend constexpr auto operator<=>(Prime, Prime) = default;
 
     friend constexpr Prime operator+(Prime a, Prime b) { return {reduced(a.n_ + b.n_), reduced(a.i_ + b.i_)}; }
-    friend constexpr Prime operator-(Prime a, Prime b) { return {reduced(a.n_ + modulus - b.n_), reduced(a.i_ + modulus - b.i_)}; }
+    friend constexpr Prime operator-(Prime a, Prime b) {
+        return {reduced(a.n_ + modulus - b.n_), reduced(a.i_ + modulus - b.i_)};
+    }
     friend constexpr Prime operator-(Prime a) { return {negative(a.n_), negative(a.i_)}; }
     friend constexpr Prime operator*(Prime a, Prime b) {
         if ((a.i_ | b.i_) == 0) return {product(a.n_, b.n_), 0};
-        return {reduced(product(a.n_, b.n_) + modulus - product(a.i_, b.i_)), reduced(product(a.n_, b.i_) + product(a.i_, b.n_))};
+        return {reduced(product(a.n_, b.n_) + modulus - product(a.i_, b.i_)),
+                reduced(product(a.n_, b.i_) + product(a.i_, b.n_))};
     }
     constexpr Prime& operator+=(Prime other) { return *this = *this + other; }
     constexpr Prime& operator-=(Prime other) { return *this = *this - other; }

@@ -6,8 +6,8 @@
 ///     const PrimePolynomial f = interpolate(points, values);    // ascending powers
 ///     for (const Prime root : roots(f, seed)) …                 // each once
 ///
-/// Roots: gcd(x^q − x, f), q the field's size, is the product of the distinct linear factors, split by gcd with (x + a)^((q−1)/2) − 1 for random
-/// a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
+/// Roots: gcd(x^q − x, f), q the field's size, is the product of the distinct linear factors, split by gcd with (x
+/// + a)^((q−1)/2) − 1 for random a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
 
 #include <vector>
 
@@ -34,7 +34,8 @@ inline PrimePolynomial remainder(PrimePolynomial f, const PrimePolynomial& g) {
     return f;
 }
 
-inline PrimePolynomial product_modulo(const PrimePolynomial& f, const PrimePolynomial& g, const PrimePolynomial& m) {
+inline PrimePolynomial product_modulo(const PrimePolynomial& f, const PrimePolynomial& g,
+                                      const PrimePolynomial& m) {
     if (f.empty() || g.empty()) return {};
     PrimePolynomial result(f.size() + g.size() - 1);
     for (std::size_t i = 0; i < f.size(); ++i)
@@ -97,7 +98,8 @@ inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std:
 /// Through all points (x_k, y_k), by Newton's divided differences; the x are different.
 inline PrimePolynomial interpolate(const std::vector<Prime>& x, std::vector<Prime> y) {
     for (std::size_t order = 1; order < x.size(); ++order)
-        for (std::size_t k = x.size() - 1; k >= order; --k) y[k] = (y[k] - y[k - 1]) * (x[k] - x[k - order]).inverse();
+        for (std::size_t k = x.size() - 1; k >= order; --k)
+            y[k] = (y[k] - y[k - 1]) * (x[k] - x[k - order]).inverse();
     PrimePolynomial result;
     for (std::size_t k = x.size(); k-- > 0;) {
         result.insert(result.begin(), 0);
@@ -114,7 +116,8 @@ inline Prime value_at(const PrimePolynomial& f, Prime x) {
     return result;
 }
 
-/// Zero if and only if f and g have a common root, or one of them is zero (von zur Gathen & Gerhard, Modern Computer Algebra, §6.3).
+/// Zero if and only if f and g have a common root, or one of them is zero (von zur Gathen & Gerhard, Modern
+/// Computer Algebra, §6.3).
 inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
     Prime result = 1;
     while (true) {
@@ -130,7 +133,8 @@ inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
     }
 }
 
-/// In ascending order: the plain ones if all coefficients are plain (program/prime.hpp). Of the zero polynomial: none.
+/// In ascending order: the plain ones if all coefficients are plain (program/prime.hpp). Of the zero polynomial:
+/// none.
 inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
     using namespace prime_polynomial;
     std::vector<Prime> found;

@@ -12,19 +12,28 @@ namespace alembert {
 
 namespace {
 
-constexpr std::array op_names{"number", "pi",   "variable", "sum",  "product", "sin",  "cos",  "tan",
-                              "asin",   "acos", "atan",     "sinh", "cosh",    "tanh", "exp",  "log",
+constexpr std::array op_names{"number", "pi",   "variable", "sum",  "product", "sin",  "cos", "tan",
+                              "asin",   "acos", "atan",     "sinh", "cosh",    "tanh", "exp", "log",
                               "sqrt",   "abs",  "sign",     "pow",  "atan2",   "min",  "max"};
 
 bool is_odd_function(Op op) {
     switch (op) {
-        case Op::sin: case Op::tan: case Op::asin: case Op::atan: case Op::sinh: case Op::tanh: case Op::sign:
+        case Op::sin:
+        case Op::tan:
+        case Op::asin:
+        case Op::atan:
+        case Op::sinh:
+        case Op::tanh:
+        case Op::sign:
             return true;
-        default: return false;
+        default:
+            return false;
     }
 }
 
-bool is_even_function(Op op) { return op == Op::cos || op == Op::cosh || op == Op::abs; }
+bool is_even_function(Op op) {
+    return op == Op::cos || op == Op::cosh || op == Op::abs;
+}
 
 std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // splitmix64's finalizer over a running sum
     h += value + 0x9e3779b97f4a7c15ULL;
@@ -33,7 +42,9 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // splitmix64's final
     return h ^ (h >> 31);
 }
 
-std::uint64_t hash_of(const Rational& r) { return cln::equal_hashcode(r); }
+std::uint64_t hash_of(const Rational& r) {
+    return cln::equal_hashcode(r);
+}
 
 bool same(const Node& a, const Node& b) {
     return a.op == b.op && a.variable == b.variable && a.args == b.args && a.exponents == b.exponents &&
@@ -44,7 +55,9 @@ bool same(const Node& a, const Node& b) {
 
 }  // namespace
 
-const char* name_of(Op op) { return op_names[static_cast<std::size_t>(op)]; }
+const char* name_of(Op op) {
+    return op_names[static_cast<std::size_t>(op)];
+}
 
 int Program::intern(Node node) {
     std::uint64_t h = mix(static_cast<std::uint64_t>(node.op), static_cast<std::uint64_t>(node.variable.kind));
@@ -93,9 +106,13 @@ int Program::number(const Rational& value) {
     return intern(std::move(node));
 }
 
-int Program::pi() { return intern(Node{.op = Op::pi}); }
+int Program::pi() {
+    return intern(Node{.op = Op::pi});
+}
 
-int Program::variable(Variable variable) { return intern(Node{.op = Op::variable, .variable = variable}); }
+int Program::variable(Variable variable) {
+    return intern(Node{.op = Op::variable, .variable = variable});
+}
 
 int Program::scaled(const Rational& coefficient, int id) {
     if (cln::equal(coefficient, 1)) return id;
@@ -197,7 +214,8 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
             id = product(1, {{id, -1}});
             exponent = -exponent;
         }
-    std::sort(kept.begin(), kept.end(), [&](const Factor& a, const Factor& b) { return before(a.first, b.first); });
+    std::sort(kept.begin(), kept.end(),
+              [&](const Factor& a, const Factor& b) { return before(a.first, b.first); });
     Node node{.op = Op::product};
     for (auto [id, exponent] : kept) {
         if (exponent > 3) {  // by repeated squaring, the squares shared
@@ -237,8 +255,8 @@ int Program::call(Op op, std::vector<int> args) {
         if (op == Op::sign) return number(cln::signum(arg.number));
         if (op == Op::log && cln::equal(arg.number, 1)) return number(0);
     }
-    const bool negative = (arg.is_scaled() && cln::minusp(arg.coefficients[0])) ||
-                          (arg.is_number() && cln::minusp(arg.number));
+    const bool negative =
+        (arg.is_scaled() && cln::minusp(arg.coefficients[0])) || (arg.is_number() && cln::minusp(arg.number));
     if (negative && (is_odd_function(op) || is_even_function(op))) {
         const int turned = scaled(-1, args[0]);
         return is_even_function(op) ? call(op, {turned}) : scaled(-1, call(op, {turned}));

@@ -29,8 +29,29 @@ namespace alembert {
 using Rational = cln::cl_RA;
 
 enum class Op : unsigned char {
-    number, pi, variable, sum, product,
-    sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs, sign, pow, atan2, min, max,
+    number,
+    pi,
+    variable,
+    sum,
+    product,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log,
+    sqrt,
+    abs,
+    sign,
+    pow,
+    atan2,
+    min,
+    max,
 };
 
 /// "sin" for Op::sin …; as in the scene language.
@@ -46,16 +67,16 @@ struct Variable {
 
 struct Node {
     Op op = Op::number;
-    Variable variable{};                 ///< of a variable
-    Rational number = 0;                 ///< of a number; the constant of a sum
+    Variable variable{};  ///< of a variable
+    Rational number = 0;  ///< of a number; the constant of a sum
     std::vector<int> args{};
     std::vector<Rational> coefficients{};  ///< of a sum: one for each argument
-    std::vector<int> exponents{};        ///< of a product: one for each argument, positive; or a lone −1
-    unsigned depends = 0;                ///< bits 1 << Variable::Kind
-    int lead = 0;                        ///< position of the first variable in it, for the order
-    double size = 1;                     ///< operations when written out as a tree
-    std::uint64_t hash = 0;              ///< of the content; the same in every run
-    std::vector<int> sources{};          ///< indices into Program::source_labels: whose term it is
+    std::vector<int> exponents{};          ///< of a product: one for each argument, positive; or a lone −1
+    unsigned depends = 0;                  ///< bits 1 << Variable::Kind
+    int lead = 0;                          ///< position of the first variable in it, for the order
+    double size = 1;                       ///< operations when written out as a tree
+    std::uint64_t hash = 0;                ///< of the content; the same in every run
+    std::vector<int> sources{};            ///< indices into Program::source_labels: whose term it is
 
     bool is_number() const { return op == Op::number; }
     /// Depends on nothing that changes during a run.
@@ -91,13 +112,21 @@ enum class Group : unsigned char {
     pivot,         ///< what this step divides by
     speed,         ///< the scene's generalized speeds, in the state or in rates
     speed_rate,
-    form_row,      ///< of a speed as a linear form in q', n for each
-    kinetic, potential, energy, power, jacobi,
-    output, event,
-    load,                                          ///< inverse dynamics: M q'' − f
-    force, moment,                                 ///< of joints, three components for each
-    input,                                         ///< prescribed motions and their derivatives
-    jacobian, parameter_jacobian, power_gradient,  ///< differentiate.hpp
+    form_row,  ///< of a speed as a linear form in q', n for each
+    kinetic,
+    potential,
+    energy,
+    power,
+    jacobi,
+    output,
+    event,
+    load,  ///< inverse dynamics: M q'' − f
+    force,
+    moment,  ///< of joints, three components for each
+    input,   ///< prescribed motions and their derivatives
+    jacobian,
+    parameter_jacobian,
+    power_gradient,  ///< differentiate.hpp
 };
 
 /// A value that somebody wants.
@@ -141,7 +170,8 @@ public:
     std::vector<int> nodes_of(Group group) const;
     /// The constraints that have multipliers in the equations, in the order of γ.
     std::vector<int> kept_constraints() const;
-    /// What a step of an integration evaluates: the accelerations, and the rates where the speeds are not the rates.
+    /// What a step of an integration evaluates: the accelerations, and the rates where the speeds are not the
+    /// rates.
     std::vector<int> right_hand_side() const;
 
     /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
@@ -150,20 +180,20 @@ public:
     /// Names and labels without any node or root: where a copy begins.
     Program shell() const;
 
-    /// The same program with its nodes in the order in which the roots meet them, and without those that no root needs.
-    /// Numbers of nodes are then the same in every run, whatever order they were made in.
+    /// The same program with its nodes in the order in which the roots meet them, and without those that no root
+    /// needs. Numbers of nodes are then the same in every run, whatever order they were made in.
     Program canonical() const;
 
-    /// New nodes get these sources from now on (indices into `source_labels`; 0 is the scene as a whole). Gives the
-    /// former ones.
+    /// New nodes get these sources from now on (indices into `source_labels`; 0 is the scene as a whole). Gives
+    /// the former ones.
     std::vector<int> set_sources(std::vector<int> sources) { return std::exchange(sources_, std::move(sources)); }
 
     std::vector<Root> roots;
     std::vector<std::string> source_labels;
-    std::string name;                                  ///< of the scene, a file's stem
-    std::vector<Quantity> parameters, coordinates;     ///< what the variables' indices mean
-    std::vector<Quantity> speeds;                      ///< of the state beside the coordinates; empty: their rates
-    std::string formulation;                           ///< formalism and form, for people
+    std::string name;                               ///< of the scene, a file's stem
+    std::vector<Quantity> parameters, coordinates;  ///< what the variables' indices mean
+    std::vector<Quantity> speeds;                   ///< of the state beside the coordinates; empty: their rates
+    std::string formulation;                        ///< formalism and form, for people
     bool is_textbook = false;  ///< the equations are in their readable form; the order of terms is the book's
     bool singular = false;     ///< no state makes the mass matrix regular; the accelerations are missing
 

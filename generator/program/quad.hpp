@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers of 34 digits: IEEE binary128, in the compiler's arithmetic and with glibc's functions (2.26 or later, x86-64).
+/// Numbers of 34 digits: IEEE binary128, in the compiler's arithmetic and with glibc's functions (2.26 or later,
+/// x86-64).
 ///
 ///     const Quad x = quad_of(Rational(1)/10);
 ///     text(sin(x), 30);
@@ -18,16 +19,31 @@ namespace alembert {
 
 __extension__ typedef __float128 Quad;
 
-#define ALEMBERT_QUAD(name) Quad name(Quad) __asm__(#name "f128");
-ALEMBERT_QUAD(sin) ALEMBERT_QUAD(cos) ALEMBERT_QUAD(tan) ALEMBERT_QUAD(asin) ALEMBERT_QUAD(acos) ALEMBERT_QUAD(atan)
-ALEMBERT_QUAD(sinh) ALEMBERT_QUAD(cosh) ALEMBERT_QUAD(tanh) ALEMBERT_QUAD(exp) ALEMBERT_QUAD(log) ALEMBERT_QUAD(sqrt)
+#define ALEMBERT_QUAD(name) Quad name(Quad) __asm__(#name "f128")
+ALEMBERT_QUAD(sin);
+ALEMBERT_QUAD(cos);
+ALEMBERT_QUAD(tan);
+ALEMBERT_QUAD(asin);
+ALEMBERT_QUAD(acos);
+ALEMBERT_QUAD(atan);
+ALEMBERT_QUAD(sinh);
+ALEMBERT_QUAD(cosh);
+ALEMBERT_QUAD(tanh);
+ALEMBERT_QUAD(exp);
+ALEMBERT_QUAD(log);
+ALEMBERT_QUAD(sqrt);
 #undef ALEMBERT_QUAD
+
 Quad pow(Quad, Quad) __asm__("powf128");
 Quad atan2(Quad, Quad) __asm__("atan2f128");
 int format(char*, std::size_t, const char*, Quad) __asm__("strfromf128");
 
-inline Quad abs(Quad x) { return x < 0 ? -x : x; }
-inline bool is_finite(Quad x) { return x - x == 0; }
+inline Quad abs(Quad x) {
+    return x < 0 ? -x : x;
+}
+inline bool is_finite(Quad x) {
+    return x - x == 0;
+}
 
 /// To the last bit or two: three doubles hold 159 bits.
 inline Quad quad_of(cln::cl_RA r) {

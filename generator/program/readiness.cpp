@@ -11,7 +11,9 @@ namespace {
 
 using processor::division, processor::function, processor::step;
 
-bool is_product(const Node& node) { return node.op == Op::product && !node.is_reciprocal(); }
+bool is_product(const Node& node) {
+    return node.op == Op::product && !node.is_reciprocal();
+}
 
 }  // namespace
 
@@ -34,7 +36,8 @@ std::vector<Readiness::Term> Readiness::terms(int id) const {
         const int arg = node.args[k];
         if (node.op == Op::sum) {
             const bool scaled = !cln::equal(cln::abs(node.coefficients[k]), 1);
-            const bool fuses = scaled || (is_product(program_[arg]) && uses_[arg] == 1 && !program_[arg].is_constant());
+            const bool fuses =
+                scaled || (is_product(program_[arg]) && uses_[arg] == 1 && !program_[arg].is_constant());
             list.push_back({k, fuses && !scaled ? ready_[arg] - step : ready_[arg], fuses});
         } else {
             list.push_back({k, ready_[arg], false});
@@ -64,7 +67,8 @@ std::vector<std::size_t> Readiness::order(int id) const {
         const auto plain = std::find_if(list.begin(), list.end(), [](const Term& term) { return !term.fuses; });
         if (plain != list.end()) {
             std::vector<Term> other = list;
-            std::rotate(other.begin(), other.begin() + (plain - list.begin()), other.begin() + (plain - list.begin()) + 1);
+            std::rotate(other.begin(), other.begin() + (plain - list.begin()),
+                        other.begin() + (plain - list.begin()) + 1);
             if (end(node, other) <= end(node, list)) list = std::move(other);
         }
     }

@@ -7,7 +7,8 @@
 ///     ready[node];                       // with as many units as one likes
 ///     ready.order(node);                 // of a sum's or a product's arguments: what is late comes last
 ///
-/// Cycles are those of processor.hpp. A compiler keeps the order of a sum; the textbook's is kept, too, since it is there to be read.
+/// Cycles are those of processor.hpp. A compiler keeps the order of a sum; the textbook's is kept, too, since it
+/// is there to be read.
 
 #include <span>
 #include <vector>
@@ -21,15 +22,16 @@ public:
     Readiness(const Program& program, std::span<const int> roots);
 
     int operator[](int node) const { return ready_[node]; }
-    /// Positions of the arguments. A term of a sum that is no product goes first where that costs no time: it saves an addition.
+    /// Positions of the arguments. A term of a sum that is no product goes first where that costs no time: it
+    /// saves an addition.
     std::vector<std::size_t> order(int node) const;
     bool is_ordered() const { return !is_textbook_; }
 
 private:
     struct Term {
         std::size_t position;
-        int ready;    ///< of a product: of its factors
-        bool fuses;   ///< a product that nobody else needs
+        int ready;   ///< of a product: of its factors
+        bool fuses;  ///< a product that nobody else needs
     };
     std::vector<Term> terms(int node) const;
     std::vector<Term> arranged(std::vector<Term> list) const;

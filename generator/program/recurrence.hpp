@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The Taylor coefficients of a motion, order by order: what each node of a Program becomes when its arguments are power
-/// series in time.
+/// The Taylor coefficients of a motion, order by order: what each node of a Program becomes when its arguments are
+/// power series in time.
 ///
 ///     const Recurrences series = recurrences(program);
 ///     series.nodes[7];          // sum: z_k = 2 x_k + Σ_j a_j b_(k−j)
 ///
-/// With x_k the coefficient of order k of x, ⊗ the Cauchy product and x' the series j x_j (Jorba & Zou, A software package for
-/// the numerical integration of ODEs by means of high-order Taylor methods, Experimental Math. 14 (2005), §2; Moore, Interval
-/// Analysis (1966), §11):
+/// With x_k the coefficient of order k of x, ⊗ the Cauchy product and x' the series j x_j (Jorba & Zou, A software
+/// package for the numerical integration of ODEs by means of high-order Taylor methods, Experimental Math. 14
+/// (2005), §2; Moore, Interval Analysis (1966), §11):
 ///
 ///     sum         z = Σ w x + Σ w a⊗b                               one accumulator for all its products
-///     quotient    d⊗z = (numerator)                                 no reciprocal is made where something is divided
-///     root        z⊗z = a
-///     power       k a_0 z_k = Σ_{j<k} (α(k−j) − j) a_{k−j} z_j
-///     exponential k z_k = (a'⊗z)_k;  sine, cosine and the hyperbolic ones: k s_k = (a'⊗c)_k, k c_k = ∓(a'⊗s)_k
-///     area        z' = a'·w: tan with w = 1 + z², tanh
-///     ratio       z' = a'/w: log with w = a, atan with 1 + a², asin
-///     turn        z' = (x y' − y x')/w: atan2
+///     quotient    d⊗z = (numerator)                                 no reciprocal is made where something is
+///     divided root        z⊗z = a power       k a_0 z_k = Σ_{j<k} (α(k−j) − j) a_{k−j} z_j exponential k z_k =
+///     (a'⊗z)_k;  sine, cosine and the hyperbolic ones: k s_k = (a'⊗c)_k, k c_k = ∓(a'⊗s)_k area        z' = a'·w:
+///     tan with w = 1 + z², tanh ratio       z' = a'/w: log with w = a, atan with 1 + a², asin turn        z' = (x
+///     y' − y x')/w: atan2
 ///
-/// Accelerations come by one of two ways, whichever takes fewer Cauchy products: as the nodes that the Program has for them, or
-/// coefficient by coefficient from M u' = f (and A u' = γ where there are multipliers), with one factorization at order 0:
+/// Accelerations come by one of two ways, whichever takes fewer Cauchy products: as the nodes that the Program has
+/// for them, or coefficient by coefficient from M u' = f (and A u' = γ where there are multipliers), with one
+/// factorization at order 0:
 ///
 ///     M_0 u'_k = f_k − Σ_{j≥1} M_j u'_{k−j}
 ///
@@ -39,8 +38,24 @@ struct Weight {
 
 struct SeriesNode {
     enum class Kind {
-        time, coordinate, speed, work, unknown,  // given from outside: `index` says which
-        sum, residual, quotient, root, power, sine, cosine, hyperbolic_sine, hyperbolic_cosine, exponential, area, ratio, turn,
+        time,
+        coordinate,
+        speed,
+        work,
+        unknown,  // given from outside: `index` says which
+        sum,
+        residual,
+        quotient,
+        root,
+        power,
+        sine,
+        cosine,
+        hyperbolic_sine,
+        hyperbolic_cosine,
+        exponential,
+        area,
+        ratio,
+        turn,
     };
     struct Linear {
         Weight weight;
@@ -52,12 +67,12 @@ struct SeriesNode {
     };
     Kind kind = Kind::sum;
     int index = 0;
-    std::vector<Weight> constants = {};     ///< of a sum or a numerator: at order 0 only
-    std::vector<Linear> linear = {};        ///< likewise
-    std::vector<Bilinear> bilinear = {};    ///< likewise
-    std::vector<Bilinear> implied = {};     ///< of a residual: −M⊗u', without M_0 u'_k
-    int a = -1, b = -1, w = -1;             ///< arguments; the divisor of a quotient is w
-    Op op = Op::number;                     ///< of a ratio or an area: the function, for its value
+    std::vector<Weight> constants = {};   ///< of a sum or a numerator: at order 0 only
+    std::vector<Linear> linear = {};      ///< likewise
+    std::vector<Bilinear> bilinear = {};  ///< likewise
+    std::vector<Bilinear> implied = {};   ///< of a residual: −M⊗u', without M_0 u'_k
+    int a = -1, b = -1, w = -1;           ///< arguments; the divisor of a quotient is w
+    Op op = Op::number;                   ///< of a ratio or an area: the function, for its value
     Weight exponent = {};
 };
 
@@ -68,22 +83,24 @@ struct SeriesEntry {
 };
 
 struct Recurrences {
-    Program program;                     ///< with the constants that the weights name
-    std::vector<SeriesNode> nodes;       ///< arguments first, but for `w` of an area
-    std::vector<int> coordinate_rates;   ///< where the speeds are not the rates: the node of each q'
-    std::vector<int> accelerations;      ///< the node of each u'
-    int work = -1;                       ///< the node of the power, where it is integrated
-    std::vector<SeriesEntry> matrix;     ///< lower triangle of [M Aᵀ; A 0], empty where accelerations are ordinary nodes
-    std::vector<int> residuals;          ///< a row each
-    std::vector<int> unknowns;           ///< of each row: u', then −λ
-    int solved_at = 0;                   ///< nodes before this one precede the solution
-    int preferred = 0;                   ///< how many of the unknowns are accelerations
+    Program program;                    ///< with the constants that the weights name
+    std::vector<SeriesNode> nodes;      ///< arguments first, but for `w` of an area
+    std::vector<int> coordinate_rates;  ///< where the speeds are not the rates: the node of each q'
+    std::vector<int> accelerations;     ///< the node of each u'
+    int work = -1;                      ///< the node of the power, where it is integrated
+    std::vector<SeriesEntry>
+        matrix;                  ///< lower triangle of [M Aᵀ; A 0], empty where accelerations are ordinary nodes
+    std::vector<int> residuals;  ///< a row each
+    std::vector<int> unknowns;   ///< of each row: u', then −λ
+    int solved_at = 0;           ///< nodes before this one precede the solution
+    int preferred = 0;           ///< how many of the unknowns are accelerations
 
     /// Cauchy products at each order, a square being half of one.
     double products() const;
 };
 
-/// With `with_work` the power of loads is integrated beside the state. Throws ModelError for a function without a series.
+/// With `with_work` the power of loads is integrated beside the state. Throws ModelError for a function without a
+/// series.
 Recurrences recurrences(const Program& program, bool with_work = false);
 
 }  // namespace alembert

@@ -23,9 +23,12 @@ public:
     int plain(int id) {
         const Node& node = old_[id];
         switch (node.op) {
-            case Op::number: return made_.number(node.number);
-            case Op::pi: return made_.pi();
-            case Op::variable: return made_.variable(node.variable);
+            case Op::number:
+                return made_.number(node.number);
+            case Op::pi:
+                return made_.pi();
+            case Op::variable:
+                return made_.variable(node.variable);
             case Op::sum: {
                 std::vector<Program::Term> terms;
                 for (std::size_t k = 0; k < node.args.size(); ++k)

@@ -12,13 +12,15 @@ namespace alembert {
 
 namespace {
 
-/// One n-ary operation as a bag of items: (node or pair, weight). A product's weights are all 1, its items repeated.
+/// One n-ary operation as a bag of items: (node or pair, weight). A product's weights are all 1, its items
+/// repeated.
 struct Bag {
     int owner;
     std::vector<std::pair<int, Rational>> items;
 };
 
-/// Replaces pairs that occur in several bags by new items, most frequent first. New items are numbered from `first`.
+/// Replaces pairs that occur in several bags by new items, most frequent first. New items are numbered from
+/// `first`.
 class Pairing {
 public:
     struct Pair {
@@ -70,7 +72,10 @@ private:
             if (const auto known = order_.find(pair); known == order_.end())
                 order_.emplace(pair, static_cast<int>(order_.size()));
             by_count_.erase({-static_cast<int>(users.size()), order_[pair], pair});
-            if (sign > 0) users.insert(k); else users.erase(k);
+            if (sign > 0)
+                users.insert(k);
+            else
+                users.erase(k);
             if (users.size() > 1) by_count_.insert({-static_cast<int>(users.size()), order_[pair], pair});
         }
     }
@@ -109,7 +114,8 @@ Program with_shared_pairs(const Program& old) {
             product_of[id] = products.size();
             products.push_back(std::move(bag));
         } else if (node.op == Op::sum && !node.is_scaled()) {
-            for (std::size_t k = 0; k < node.args.size(); ++k) bag.items.emplace_back(node.args[k], node.coefficients[k]);
+            for (std::size_t k = 0; k < node.args.size(); ++k)
+                bag.items.emplace_back(node.args[k], node.coefficients[k]);
             sum_of[id] = sums.size();
             sums.push_back(std::move(bag));
         }
@@ -131,12 +137,14 @@ Program with_shared_pairs(const Program& old) {
     return rewriting.finish([&](int id) {
         if (const auto found = product_of.find(id); found != product_of.end()) {
             std::vector<Program::Factor> list;
-            for (const auto& [item, weight] : factors.bags()[found->second].items) list.emplace_back(factor(item), 1);
+            for (const auto& [item, weight] : factors.bags()[found->second].items)
+                list.emplace_back(factor(item), 1);
             return rewriting.made().product(1, list);
         }
         if (const auto found = sum_of.find(id); found != sum_of.end()) {
             std::vector<Program::Term> list;
-            for (const auto& [item, weight] : terms.bags()[found->second].items) list.emplace_back(weight, term(item));
+            for (const auto& [item, weight] : terms.bags()[found->second].items)
+                list.emplace_back(weight, term(item));
             return rewriting.made().sum(old[id].number, list);
         }
         return rewriting.plain(id);
@@ -172,12 +180,11 @@ Program with_common_factors(const Program& old) {
         for (std::size_t k = 0; k < node.args.size(); ++k)
             pieces.push_back({node.coefficients[k], factors_of(node.args[k])});
         Program& made = rewriting.made();
-        const std::function<int(std::vector<Piece>, const Rational&)> build = [&](std::vector<Piece> list,
-                                                                                 const Rational& constant) -> int {
+        const std::function<int(std::vector<Piece>, const Rational&)> build =
+            [&](std::vector<Piece> list, const Rational& constant) -> int {
             std::map<int, int> occurs;
             for (const Piece& piece : list)
-                for (const auto& [factor, exponent] : piece.factors)
-                    ++occurs[factor];
+                for (const auto& [factor, exponent] : piece.factors) ++occurs[factor];
             int best = -1;
             for (const auto& [factor, count] : occurs)
                 if (count > 1 && (best < 0 || count > occurs[best])) best = factor;
@@ -205,7 +212,8 @@ Program with_common_factors(const Program& old) {
             }
             for (const Piece& piece : list) {
                 std::vector<Program::Factor> factors;
-                for (const auto& [factor, exponent] : piece.factors) factors.emplace_back(rewriting.image(factor), exponent);
+                for (const auto& [factor, exponent] : piece.factors)
+                    factors.emplace_back(rewriting.image(factor), exponent);
                 terms.emplace_back(piece.coefficient, made.product(1, factors));
             }
             return made.sum(constant, terms);
@@ -227,24 +235,31 @@ Program with_gathered_constants(const Program& old) {
     };
     return rewriting.finish([&](int id) {
         const Node& node = old[id];
-        if (node.op != Op::product || node.is_constant() || node.is_reciprocal() || !has_constant(node)) return rewriting.plain(id);
+        if (node.op != Op::product || node.is_constant() || node.is_reciprocal() || !has_constant(node))
+            return rewriting.plain(id);
         std::vector<Program::Factor> factors;
         for (std::size_t k = 0; k < node.args.size(); ++k) {
             const int arg = node.args[k];
             const Node& inner = old[arg];
-            if (node.exponents[k] != 1 || uses[arg] != 1 || inner.op != Op::product || inner.is_reciprocal() || !has_constant(inner)) {
+            if (node.exponents[k] != 1 || uses[arg] != 1 || inner.op != Op::product || inner.is_reciprocal() ||
+                !has_constant(inner)) {
                 factors.emplace_back(rewriting.image(arg), node.exponents[k]);
                 continue;
             }
-            for (std::size_t i = 0; i < inner.args.size(); ++i) factors.emplace_back(rewriting.image(inner.args[i]), inner.exponents[i]);
+            for (std::size_t i = 0; i < inner.args.size(); ++i)
+                factors.emplace_back(rewriting.image(inner.args[i]), inner.exponents[i]);
         }
         return rewriting.made().product(1, factors);
     });
 }
 
-Program with_pairs_and_constants(const Program& old) { return with_gathered_constants(with_shared_pairs(old)); }
+Program with_pairs_and_constants(const Program& old) {
+    return with_gathered_constants(with_shared_pairs(old));
+}
 
-int cost(const Program& program) { return program.count(program.right_hand_side()).total(); }
+int cost(const Program& program) {
+    return program.count(program.right_hand_side()).total();
+}
 
 }  // namespace
 

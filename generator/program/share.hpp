@@ -8,8 +8,9 @@
 ///     a·b + a·c         a·(b + c), where the products serve nobody else
 ///     k·(k′·a)          (k·k′)·a, where k k′ is known before the run and k′·a serves nobody else
 ///
-/// Greedy: the pair that occurs most often is taken first, ties by the canonical order, so the result is the same in
-/// every run (the idea is Breuer's, Generation of optimal code for expressions via factorization, CACM 12 (1969)).
+/// Greedy: the pair that occurs most often is taken first, ties by the canonical order, so the result is the same
+/// in every run (the idea is Breuer's, Generation of optimal code for expressions via factorization, CACM 12
+/// (1969)).
 
 #include "program/program.hpp"
 

@@ -12,8 +12,14 @@ namespace {
 
 class Elimination {
 public:
-    Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides, int preferred)
-        : p_(program), preferred_(preferred), n_(static_cast<int>(sides[0].size())), b_(std::move(sides)), rows_(n_, std::vector<int>(n_)), later_pivots_(n_ - preferred, -1) {
+    Elimination(Program& program, const std::vector<int>& lower, std::vector<std::vector<int>> sides,
+                int preferred)
+        : p_(program),
+          preferred_(preferred),
+          n_(static_cast<int>(sides[0].size())),
+          b_(std::move(sides)),
+          rows_(n_, std::vector<int>(n_)),
+          later_pivots_(n_ - preferred, -1) {
         for (int i = 0, k = 0; i < n_; ++i)
             for (int j = 0; j <= i; ++j, ++k) rows_[i][j] = rows_[j][i] = lower[k];
     }
@@ -52,7 +58,8 @@ private:
             for (const int i : left) neighbours += i != k && !zero(i, k) ? 1 : 0;
             const bool is_first = k < preferred_, best_is_first = best >= 0 && left[best] < preferred_;
             if (best >= 0 && best_is_first && !is_first) continue;
-            if (best < 0 || neighbours <= fewest || (is_first && !best_is_first)) best = static_cast<int>(place), fewest = neighbours;
+            if (best < 0 || neighbours <= fewest || (is_first && !best_is_first))
+                best = static_cast<int>(place), fewest = neighbours;
         }
         return best;
     }
@@ -63,8 +70,7 @@ private:
             if (zero(i, k)) continue;
             const int l = times(rows_[i][k], inverse);
             for (const int j : left)
-                if (j <= i && !zero(j, k))
-                    rows_[i][j] = rows_[j][i] = minus(rows_[i][j], times(l, rows_[j][k]));
+                if (j <= i && !zero(j, k)) rows_[i][j] = rows_[j][i] = minus(rows_[i][j], times(l, rows_[j][k]));
             for (auto& b : b_) b[i] = minus(b[i], times(l, b[k]));
         }
         for (const int i : left)
@@ -98,7 +104,8 @@ private:
                 if (zero(rows[i], left[c])) continue;
                 const int factor = times(rows_[rows[i]][left[c]], inverse);
                 for (std::size_t j = c; j < left.size(); ++j)
-                    rows_[rows[i]][left[j]] = minus(rows_[rows[i]][left[j]], times(factor, rows_[rows[c]][left[j]]));
+                    rows_[rows[i]][left[j]] =
+                        minus(rows_[rows[i]][left[j]], times(factor, rows_[rows[c]][left[j]]));
                 for (auto& b : b_) b[rows[i]] = minus(b[rows[i]], times(factor, b[rows[c]]));
             }
         }
@@ -117,7 +124,7 @@ private:
     Program& p_;
     int preferred_;
     int n_;
-    std::vector<std::vector<int>> b_;  // right-hand sides, one after the other
+    std::vector<std::vector<int>> b_;     // right-hand sides, one after the other
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
     std::vector<int> later_pivots_;  // with the sign changed; −1 where rows were exchanged
@@ -141,7 +148,8 @@ std::vector<int> later_pivots(Program& program, const std::vector<int>& lower, i
 }
 
 std::optional<std::vector<std::vector<int>>> solve_for_sides(Program& program, const std::vector<int>& lower,
-                                                             const std::vector<std::vector<int>>& sides, int preferred) {
+                                                             const std::vector<std::vector<int>>& sides,
+                                                             int preferred) {
     return Elimination(program, lower, sides, preferred).solve();
 }
 

@@ -6,10 +6,10 @@
 ///     Tape<Quad> rhs(program, program.nodes_of(Group::acceleration), parameters);
 ///     rhs(t, q, u, out);                                   // out: a value for each of the nodes wanted
 ///
-/// What depends on parameters alone is computed once; constants are exact rationals until they become a Real. It is
-/// `interpret` (the oracle) with the decisions taken beforehand: three to five times its speed, and in Quad the arithmetic
-/// itself takes nearly all of the time. Real is double, long double or Quad. One object
-/// serves one thread.
+/// What depends on parameters alone is computed once; constants are exact rationals until they become a Real. It
+/// is `interpret` (the oracle) with the decisions taken beforehand: three to five times its speed, and in Quad the
+/// arithmetic itself takes nearly all of the time. Real is double, long double or Quad. One object serves one
+/// thread.
 
 #include <span>
 #include <utility>
@@ -36,12 +36,19 @@ public:
                 at(id) = parameters[static_cast<std::size_t>(node.variable.index)];
                 continue;
             }
-            Instruction step{.op = node.op, .kind = node.variable.kind, .index = node.variable.index, .to = id,
-                             .first = terms_.size(), .count = 0, .number = real_of<Real>(node.number)};
+            Instruction step{.op = node.op,
+                             .kind = node.variable.kind,
+                             .index = node.variable.index,
+                             .to = id,
+                             .first = terms_.size(),
+                             .count = 0,
+                             .number = real_of<Real>(node.number)};
             for (std::size_t k = 0; k < node.args.size(); ++k) {
                 const bool is_sum = node.op == Op::sum;
                 terms_.push_back({node.args[k], is_sum ? real_of<Real>(node.coefficients[k]) : Real(0),
-                                  is_sum ? unity(node.coefficients[k]) : node.op == Op::product ? node.exponents[k] : 0});
+                                  is_sum                   ? unity(node.coefficients[k])
+                                  : node.op == Op::product ? node.exponents[k]
+                                                           : 0});
             }
             step.count = node.args.size();
             if (node.is_constant())
@@ -76,19 +83,26 @@ private:
     Real& at(int id) { return value_[static_cast<std::size_t>(id)]; }
 
     void carry_out(const Instruction& step, Real t, const Real* q, const Real* u) {
-        using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,
-            std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
-        using alembert::abs, alembert::acos, alembert::asin, alembert::atan, alembert::atan2, alembert::cos, alembert::cosh,
-            alembert::exp, alembert::log, alembert::pow, alembert::sin, alembert::sinh, alembert::sqrt, alembert::tan, alembert::tanh;
+        using alembert::abs, alembert::acos, alembert::asin, alembert::atan, alembert::atan2, alembert::cos,
+            alembert::cosh, alembert::exp, alembert::log, alembert::pow, alembert::sin, alembert::sinh,
+            alembert::sqrt, alembert::tan, alembert::tanh;
+        using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log,
+            std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
         const Term* const term = terms_.data() + step.first;
         Real& to = at(step.to);
         const auto arg = [&](int k) -> const Real& { return at(term[k].arg); };
         switch (step.op) {
-            case Op::number: to = step.number; break;
-            case Op::pi: to = acos(Real(-1)); break;
+            case Op::number:
+                to = step.number;
+                break;
+            case Op::pi:
+                to = acos(Real(-1));
+                break;
             case Op::variable:
-                to = step.kind == Variable::Kind::time ? t : step.kind == Variable::Kind::coordinate ? q[step.index]
-                     : step.kind == Variable::Kind::rate ? u[step.index] : Real(0);
+                to = step.kind == Variable::Kind::time         ? t
+                     : step.kind == Variable::Kind::coordinate ? q[step.index]
+                     : step.kind == Variable::Kind::rate       ? u[step.index]
+                                                               : Real(0);
                 break;
             case Op::sum: {
                 Real sum = step.number;
@@ -104,30 +118,67 @@ private:
                 bool divides = false;
                 for (std::size_t k = 0; k < step.count; ++k) {
                     const int exponent = term[k].exponent;
-                    for (int e = 0; e < exponent; ++e) above = k == 0 && e == 0 ? arg(0) : Real(above * at(term[k].arg));
+                    for (int e = 0; e < exponent; ++e)
+                        above = k == 0 && e == 0 ? arg(0) : Real(above * at(term[k].arg));
                     for (int e = 0; e < -exponent; ++e) below *= at(term[k].arg), divides = true;
                 }
                 to = divides ? Real(above / below) : above;
                 break;
             }
-            case Op::sin: to = sin(arg(0)); break;
-            case Op::cos: to = cos(arg(0)); break;
-            case Op::tan: to = tan(arg(0)); break;
-            case Op::asin: to = asin(arg(0)); break;
-            case Op::acos: to = acos(arg(0)); break;
-            case Op::atan: to = atan(arg(0)); break;
-            case Op::sinh: to = sinh(arg(0)); break;
-            case Op::cosh: to = cosh(arg(0)); break;
-            case Op::tanh: to = tanh(arg(0)); break;
-            case Op::exp: to = exp(arg(0)); break;
-            case Op::log: to = log(arg(0)); break;
-            case Op::sqrt: to = sqrt(arg(0)); break;
-            case Op::abs: to = abs(arg(0)); break;
-            case Op::sign: to = sign_of(arg(0)); break;
-            case Op::pow: to = pow(arg(0), arg(1)); break;
-            case Op::atan2: to = atan2(arg(0), arg(1)); break;
-            case Op::min: to = lesser(arg(0), arg(1)); break;
-            case Op::max: to = greater(arg(0), arg(1)); break;
+            case Op::sin:
+                to = sin(arg(0));
+                break;
+            case Op::cos:
+                to = cos(arg(0));
+                break;
+            case Op::tan:
+                to = tan(arg(0));
+                break;
+            case Op::asin:
+                to = asin(arg(0));
+                break;
+            case Op::acos:
+                to = acos(arg(0));
+                break;
+            case Op::atan:
+                to = atan(arg(0));
+                break;
+            case Op::sinh:
+                to = sinh(arg(0));
+                break;
+            case Op::cosh:
+                to = cosh(arg(0));
+                break;
+            case Op::tanh:
+                to = tanh(arg(0));
+                break;
+            case Op::exp:
+                to = exp(arg(0));
+                break;
+            case Op::log:
+                to = log(arg(0));
+                break;
+            case Op::sqrt:
+                to = sqrt(arg(0));
+                break;
+            case Op::abs:
+                to = abs(arg(0));
+                break;
+            case Op::sign:
+                to = sign_of(arg(0));
+                break;
+            case Op::pow:
+                to = pow(arg(0), arg(1));
+                break;
+            case Op::atan2:
+                to = atan2(arg(0), arg(1));
+                break;
+            case Op::min:
+                to = lesser(arg(0), arg(1));
+                break;
+            case Op::max:
+                to = greater(arg(0), arg(1));
+                break;
         }
     }
 

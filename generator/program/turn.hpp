@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Angles modulo 2⁶¹ − 1: points of the circle x² + y² = 1, which multiply as complex numbers. Those with plain coordinates
-/// (program/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and every π/2ᵏ; π/3 is beside it.
+/// Angles modulo 2⁶¹ − 1: points of the circle x² + y² = 1, which multiply as complex numbers. Those with plain
+/// coordinates (program/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and
+/// every π/2ᵏ; π/3 is beside it.
 ///
 ///     const PrimeTurn third = turn.power(*PrimeTurn::exponent(Rational(1) / 3));    // third.power(3) is turn
-///     PrimeTurn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every program
+///     PrimeTurn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every
+///     program
 
 #include <cln/integer.h>
 
@@ -42,9 +44,11 @@ struct PrimeTurn {
         if (cln::zerop(cln::mod(cln::denominator(c), cln::cl_I(3)))) {  // a third of a half turn, and what is left
             const PrimeTurn third{Prime(2).inverse(), *Prime::root_of(3) * Prime(2).inverse()};
             for (int k = 1; k <= 2; ++k)
-                if (const Rational rest = c - Rational(k) / 3; !cln::zerop(cln::mod(cln::denominator(rest), cln::cl_I(3)))) {
+                if (const Rational rest = c - Rational(k) / 3;
+                    !cln::zerop(cln::mod(cln::denominator(rest), cln::cl_I(3)))) {
                     const auto other = by_pi(rest);
-                    return other ? std::optional(*other * third.power(static_cast<std::uint64_t>(k))) : std::nullopt;
+                    return other ? std::optional(*other * third.power(static_cast<std::uint64_t>(k)))
+                                 : std::nullopt;
                 }
             return std::nullopt;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A released joint K between the parent's side and the joint itself: moment about the joint's point of the parent M₀, so that about
-// the point of the child, which is d away, M = M₀ − d × F.
+// A released joint K between the parent's side and the joint itself: moment about the joint's point of the parent
+// M₀, so that about the point of the child, which is d away, M = M₀ − d × F.
 #include "reaction/joint_reactions.hpp"
 
 #include <algorithm>
@@ -23,7 +23,9 @@ Expression nothing() {
     return parse_expression("0", {}, none);
 }
 
-Vector no_shift() { return {.component = {nothing(), nothing(), nothing()}, .place = {}}; }
+Vector no_shift() {
+    return {.component = {nothing(), nothing(), nothing()}, .place = {}};
+}
 
 /// A massless body that a joint places.
 void add_link(Scene& scene, Joint joint) {
@@ -38,7 +40,9 @@ void add_link(Scene& scene, Joint joint) {
 }
 
 /// No name of a scene has a dot.
-std::string named(const Joint& joint, const std::string& what) { return joint.name.text + "." + what; }
+std::string named(const Joint& joint, const std::string& what) {
+    return joint.name.text + "." + what;
+}
 
 /// The same with all joints released; their coordinates come after the scene's own.
 Scene released(Scene scene) {
@@ -70,7 +74,11 @@ Scene released(Scene scene) {
                       .closes_loop = false};
         for (const char* direction : directions) {
             release.coordinates.push_back({named(joint, direction), joint.name.place});
-            scene.coordinates.push_back({.name = release.coordinates.back(), .initial = nothing(), .rate = nothing(), .unit = {}, .about = {}});
+            scene.coordinates.push_back({.name = release.coordinates.back(),
+                                         .initial = nothing(),
+                                         .rate = nothing(),
+                                         .unit = {},
+                                         .about = {}});
         }
         if (joint.closes_loop) {  // where its point of the child is
             Joint mark = release;
@@ -94,21 +102,27 @@ std::array<double, 3> three(const std::vector<double>& value, const std::vector<
 }  // namespace
 
 JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
-    if (mechanism.given_lagrangian) throw ModelError("reactions of joints need masses and loads; a given Lagrangian does not say which body bears what");
+    if (mechanism.given_lagrangian)
+        throw ModelError(
+            "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what");
     const Mechanism m = build(released(scene));
     const int n = mechanism.size();
     JointReactions result;
-    const auto add_multiplier = [&](const Mechanism::Constraint& c) { result.multipliers.push_back(c.multiplier.get_name()); };
+    const auto add_multiplier = [&](const Mechanism::Constraint& c) {
+        result.multipliers.push_back(c.multiplier.get_name());
+    };
     for (const auto* list : {&mechanism.constraints, &mechanism.redundant})
         for (const Mechanism::Constraint& c : *list) add_multiplier(c);
     for (const Mechanism::Unilateral& contact : mechanism.unilateral) add_multiplier(contact.gap);
     std::sort(result.multipliers.begin(), result.multipliers.end());
-    result.multipliers.erase(std::unique(result.multipliers.begin(), result.multipliers.end()), result.multipliers.end());
+    result.multipliers.erase(std::unique(result.multipliers.begin(), result.multipliers.end()),
+                             result.multipliers.end());
 
     Program program = begun(mechanism);
     std::vector<std::pair<GiNaC::symbol, int>> held;
     for (int i = n; i < m.size(); ++i)
-        for (const GiNaC::symbol& symbol : {m.q[i], m.qdot[i], m.qddot[i]}) held.emplace_back(symbol, program.number(0));
+        for (const GiNaC::symbol& symbol : {m.q[i], m.qdot[i], m.qddot[i]})
+            held.emplace_back(symbol, program.number(0));
     std::vector<std::vector<Program::Term>> terms(static_cast<std::size_t>(m.size()));
     if (masses_are_known(m)) {
         const std::vector<int> loads = held_loads(program, m, n, held);
@@ -119,17 +133,21 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     }
     const auto lowering = lowering_into(program, m, held);
     const auto take_off = [&](const Mechanism::Constraint& c) {
-        const auto found = std::lower_bound(result.multipliers.begin(), result.multipliers.end(), c.multiplier.get_name());
+        const auto found =
+            std::lower_bound(result.multipliers.begin(), result.multipliers.end(), c.multiplier.get_name());
         if (found == result.multipliers.end() || *found != c.multiplier.get_name()) return;
-        const int lambda = program.variable({Variable::Kind::unknown, static_cast<int>(found - result.multipliers.begin())});
+        const int lambda =
+            program.variable({Variable::Kind::unknown, static_cast<int>(found - result.multipliers.begin())});
         for (int i = n; i < m.size(); ++i)
-            if (!c.row[i].is_zero()) terms[i].emplace_back(-1, program.product(1, {{lowering(c.row[i]), 1}, {lambda, 1}}));
+            if (!c.row[i].is_zero())
+                terms[i].emplace_back(-1, program.product(1, {{lowering(c.row[i]), 1}, {lambda, 1}}));
     };
     for (const Mechanism::Constraint& c : m.constraints) take_off(c);
     for (const Mechanism::Unilateral& contact : m.unilateral) take_off(contact.gap);
 
     const auto arc_named = [&](const std::string& name) -> const JointArc& {
-        return *std::find_if(m.joints.begin(), m.joints.end(), [&](const JointArc& arc) { return arc.name == name; });
+        return *std::find_if(m.joints.begin(), m.joints.end(),
+                             [&](const JointArc& arc) { return arc.name == name; });
     };
     int i = n;
     for (const JointArc& arc : mechanism.joints) {
@@ -143,15 +161,20 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
         Vector3 way = sign > 0 ? arc_named(arc.name).shift : Vector3{0, 0, 0};
         if (arc.role == JointArc::Role::closes_loop) {
             const JointArc& release = arc_named(arc.name + ".release");
-            const Vector3 from = m.masses[release.child].position, to = m.masses[arc_named(arc.name + ".mark").child].position;
-            for (std::size_t k = 0; k < 3; ++k) way[k] = dot(release.slide_axes[k], add(to, scale(-1, from, *m.z), *m.z), *m.z);
+            const Vector3 from = m.masses[release.child].position,
+                          to = m.masses[arc_named(arc.name + ".mark").child].position;
+            for (std::size_t k = 0; k < 3; ++k)
+                way[k] = dot(release.slide_axes[k], add(to, scale(-1, from, *m.z), *m.z), *m.z);
         }
         std::array<int, 3> d;
         for (std::size_t k = 0; k < 3; ++k) d[k] = lowering(way[k]);
         for (std::size_t k = 0; k < 3; ++k) program.roots.push_back({Group::force, arc.name, R[k]});
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-            program.roots.push_back({Group::moment, arc.name, program.sum(0, {{1, R[3 + k]}, {-1, program.product(1, {{d[a], 1}, {R[b], 1}})}, {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
+            program.roots.push_back({Group::moment, arc.name,
+                                     program.sum(0, {{1, R[3 + k]},
+                                                     {-1, program.product(1, {{d[a], 1}, {R[b], 1}})},
+                                                     {1, program.product(1, {{d[b], 1}, {R[a], 1}})}})});
         }
     }
     result.program = program.canonical();
@@ -176,12 +199,14 @@ std::vector<JointLoad> JointReactions::at(const Program& solved, const State<dou
     for (const Root& root : solved.roots) {
         if (root.group != Group::multiplier) continue;
         const auto found = std::lower_bound(multipliers.begin(), multipliers.end(), root.name);
-        if (found != multipliers.end() && *found == root.name) whole.unknown[static_cast<std::size_t>(found - multipliers.begin())] = value[root.node];
+        if (found != multipliers.end() && *found == root.name)
+            whole.unknown[static_cast<std::size_t>(found - multipliers.begin())] = value[root.node];
     }
     const std::vector<double> here = interpret(program, whole);
     const std::vector<int> force = program.nodes_of(Group::force), moment = program.nodes_of(Group::moment);
     std::vector<JointLoad> result;
-    for (std::size_t k = 0; k < joints.size(); ++k) result.push_back({joints[k], three(here, force, k), three(here, moment, k)});
+    for (std::size_t k = 0; k < joints.size(); ++k)
+        result.push_back({joints[k], three(here, force, k), three(here, moment, k)});
     return result;
 }
 

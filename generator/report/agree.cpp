@@ -15,10 +15,14 @@ const char* word(Agreement::Verdict verdict) {
 
 std::string how_it_was_proved(const Agreement& a) {
     if (a.normal_form)
-        return fmt::format("The normal forms of all entries of M and f are equal; so are the accelerations at {} random points modulo 2^61 - 1\n",
-                           a.points);
-    return fmt::format("The accelerations are equal at {} random points modulo 2^61 - 1; the chance that a difference was missed is below 2^{:.0f}\n",
-                       a.points, a.failure);
+        return fmt::format(
+            "The normal forms of all entries of M and f are equal; so are the accelerations at {} random points "
+            "modulo 2^61 - 1\n",
+            a.points);
+    return fmt::format(
+        "The accelerations are equal at {} random points modulo 2^61 - 1; the chance that a difference was missed "
+        "is below 2^{:.0f}\n",
+        a.points, a.failure);
 }
 
 }  // namespace
@@ -45,7 +49,8 @@ std::string as_text(const Agreed& agreed) {
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
     std::string text = fmt::format("{}: {}\n", names, word(a.verdict));
     text += a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason + "\n";
-    for (const auto& [name, reason] : agreed.derivations.refused) text += fmt::format("{} does not apply: {}\n", name, reason);
+    for (const auto& [name, reason] : agreed.derivations.refused)
+        text += fmt::format("{} does not apply: {}\n", name, reason);
     return text + fmt::format("{:.3f} s\n", agreed.seconds);
 }
 

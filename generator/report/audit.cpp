@@ -10,7 +10,9 @@ namespace alembert {
 
 namespace {
 
-const char* answer(const std::optional<bool>& value) { return value ? (*value ? "yes" : "no") : "undecided"; }
+const char* answer(const std::optional<bool>& value) {
+    return value ? (*value ? "yes" : "no") : "undecided";
+}
 
 }  // namespace
 
@@ -43,9 +45,11 @@ Json as_json(const Audited& audited) {
     json["failure_bound_log2"] = audit.failure < 0 ? Json(audit.failure) : Json(nullptr);
     json["integrable_combinations"] = Json::array();
     for (const auto& [name, integral] : audit.combinations)
-        json["integrable_combinations"].push_back({{"combination", name}, {"integral", integral ? Json(text(*integral)) : Json(nullptr)}});
+        json["integrable_combinations"].push_back(
+            {{"combination", name}, {"integral", integral ? Json(text(*integral)) : Json(nullptr)}});
     json["adjusted"] = Json::array();
-    for (const Adjusted& a : audit.adjusted) json["adjusted"].push_back({{"name", a.name}, {"from", a.from}, {"to", a.to}});
+    for (const Adjusted& a : audit.adjusted)
+        json["adjusted"].push_back({{"name", a.name}, {"from", a.from}, {"to", a.to}});
     json["singular_poses"] = Json::array();
     for (const SingularPose& pose : audit.singular_poses) {
         Json one;
@@ -66,8 +70,8 @@ std::string as_text(const Audited& audited) {
     const Audit& audit = audited.audit;
     const Mechanism& m = audited.mechanism;
     std::string page;
-    put(page, "{} coordinate{}, rank {}: {} degree{} of freedom", m.size(), m.size() == 1 ? "" : "s", audit.rank, audit.degrees_of_freedom,
-               audit.degrees_of_freedom == 1 ? "" : "s");
+    put(page, "{} coordinate{}, rank {}: {} degree{} of freedom", m.size(), m.size() == 1 ? "" : "s", audit.rank,
+        audit.degrees_of_freedom, audit.degrees_of_freedom == 1 ? "" : "s");
     if (audit.integrals && m.size() - *audit.integrals != audit.degrees_of_freedom)
         put(page, " (independent rates), {} coordinates that can be reached", m.size() - *audit.integrals);
     put(page, "\n");
@@ -79,13 +83,13 @@ std::string as_text(const Audited& audited) {
     }
     std::size_t width = 10;
     for (const AuditedConstraint& c : audit.constraints) width = std::max(width, c.name.size());
-    put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", "constraint", width, "kind", "time",
-               "integrable", "alone", "redundant", "position", "velocity");
+    put(page, "\n{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9}\n", "constraint", width, "kind",
+        "time", "integrable", "alone", "redundant", "position", "velocity");
     for (const AuditedConstraint& c : audit.constraints)
         put(page, "{:<{}}  {:<12}  {:<11}  {:<10}  {:<9}  {:<9}  {:>9}  {:>9.2g}\n", c.name, width,
-                   c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? "rheonomic" : "scleronomic",
-                   answer(c.integrable), answer(c.alone), c.redundant ? "yes" : "no",
-                   c.holonomic ? fmt::format("{:.2g}", c.residual[0]) : "-", c.residual[1]);
+            c.holonomic ? "holonomic" : "nonholonomic", c.rheonomic ? "rheonomic" : "scleronomic",
+            answer(c.integrable), answer(c.alone), c.redundant ? "yes" : "no",
+            c.holonomic ? fmt::format("{:.2g}", c.residual[0]) : "-", c.residual[1]);
     put(page, "\n");
     for (const AuditedConstraint& c : audit.constraints) {
         if (c.integral) put(page, "{}: {} = const\n", c.name, text(*c.integral));
@@ -94,18 +98,24 @@ std::string as_text(const Audited& audited) {
     for (const auto& [name, integral] : audit.combinations)
         put(page, "{} is integrable{}\n", name, integral ? fmt::format(": {} = const", text(*integral)) : "");
     for (const std::string& note : audit.notes) put(page, "{}\n", note);
-    for (const Adjusted& a : audit.adjusted) put(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
+    for (const Adjusted& a : audit.adjusted)
+        put(page, "adjusted {} from {:.6g} to {:.17g}\n", a.name, a.from, a.to);
     for (const SingularPose& pose : audit.singular_poses) {
         std::string where, among;
-        for (int i = 0; i < m.size(); ++i) where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
-        for (const int k : pose.among) among += fmt::format("{}'{}'", among.empty() ? "" : ", ", m.constraints[k].name);
-        put(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank, pose.given ? "at the initial state, " : "", where, among,
-                   pose.among.size() == 1 ? "has no row left" : "become dependent");
+        for (int i = 0; i < m.size(); ++i)
+            where += fmt::format("{}{} = {:.10g}", i == 0 ? "" : ", ", m.q[i].get_name(), pose.q[i]);
+        for (const int k : pose.among)
+            among += fmt::format("{}'{}'", among.empty() ? "" : ", ", m.constraints[k].name);
+        put(page, "the rank drops to {} {}at {}: {} {}\n", pose.rank, pose.given ? "at the initial state, " : "",
+            where, among, pose.among.size() == 1 ? "has no row left" : "become dependent");
     }
     put(page, "The rank is that at states which obey the constraints, with the scene's parameters{}.\n",
-               audit.exact_rank ? "; exact arithmetic modulo 2^61 - 1 finds the same" : ", in floating point");
+        audit.exact_rank ? "; exact arithmetic modulo 2^61 - 1 finds the same" : ", in floating point");
     if (audit.failure < 0)
-        put(page, "Integrable: Frobenius' condition, exactly, for general parameters; the chance of a wrong yes is below 2^{:.0f}.\n", audit.failure);
+        put(page,
+            "Integrable: Frobenius' condition, exactly, for general parameters; the chance of a wrong yes is "
+            "below 2^{:.0f}.\n",
+            audit.failure);
     return page;
 }
 

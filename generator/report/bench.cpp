@@ -16,7 +16,9 @@ namespace {
 constexpr double floor_of_doubles = 1e-15;
 
 Json json_of(const Measured& run) {
-    const auto optional = [](const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); };
+    const auto optional = [](const std::optional<double>& value) {
+        return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+    };
     Json one{{"who", run.who}, {"method", run.method}, {"tolerance", optional(run.tolerance)}};
     if (run.step) one["step"] = *run.step;
     one["error"] = optional(run.error);
@@ -32,11 +34,15 @@ Json json_of(const Measured& run) {
 }
 
 std::string csv_of(const std::vector<Measured>& runs) {
-    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : std::string(); };
-    std::string text = "who,method,tolerance,step,error,seconds,evaluations,steps,energy_drift,constraint_error,momentum_error\n";
+    const auto cell = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:.6g}", *value) : std::string();
+    };
+    std::string text =
+        "who,method,tolerance,step,error,seconds,evaluations,steps,energy_drift,constraint_error,momentum_error\n";
     for (const Measured& run : runs)
-        text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{}\n", run.who, run.method, cell(run.tolerance), cell(run.step), cell(run.error),
-                            run.seconds, run.evaluations, run.steps, cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
+        text += fmt::format("{},{},{},{},{},{:.6g},{},{},{},{},{}\n", run.who, run.method, cell(run.tolerance),
+                            cell(run.step), cell(run.error), run.seconds, run.evaluations, run.steps,
+                            cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
     return text;
 }
 
@@ -66,21 +72,27 @@ void add_best(std::string& page, const std::vector<Measured>& runs) {
         std::string line = fmt::format("  1e-{:<3}", decade);
         for (const bool ours : {true, false})
             if (best[ours] != nullptr)
-                line += fmt::format("  {:>24} {:>11.1f} us", ours ? best[ours]->method : best[ours]->who + " " + best[ours]->method, 1e6 * best[ours]->seconds);
-        if (best[true] != nullptr && best[false] != nullptr) line += fmt::format("   ratio {:.2f}", best[true]->seconds / best[false]->seconds);
+                line += fmt::format("  {:>24} {:>11.1f} us",
+                                    ours ? best[ours]->method : best[ours]->who + " " + best[ours]->method,
+                                    1e6 * best[ours]->seconds);
+        if (best[true] != nullptr && best[false] != nullptr)
+            line += fmt::format("   ratio {:.2f}", best[true]->seconds / best[false]->seconds);
         put(page, "{}\n", line);
     }
 }
 
 void add_runs(std::string& page, const std::vector<Measured>& runs) {
-    put(page, "{:<22}{:>11}{:>11}{:>13}{:>12}{:>9}{:>11}{:>11}{:>11}\n", "method", "tolerance", "error", "time us", "evaluations", "steps", "energy",
-               "constraint", "momentum");
-    const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.1e}", *value) : std::string("-"); };
+    put(page, "{:<22}{:>11}{:>11}{:>13}{:>12}{:>9}{:>11}{:>11}{:>11}\n", "method", "tolerance", "error", "time us",
+        "evaluations", "steps", "energy", "constraint", "momentum");
+    const auto cell = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:.1e}", *value) : std::string("-");
+    };
     for (const Measured& run : runs) {
         const std::string name = run.who == "alembert" ? run.method : run.who + " " + run.method;
         const std::string given = run.step ? fmt::format("h {:.1e}", *run.step) : cell(run.tolerance);
-        put(page, "{:<22}{:>11}{:>11}{:>13.1f}{:>12}{:>9}{:>11}{:>11}{:>11}\n", name, given, run.failure.empty() ? cell(run.error) : "failed", 1e6 * run.seconds,
-                   run.evaluations, run.steps, cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
+        put(page, "{:<22}{:>11}{:>11}{:>13.1f}{:>12}{:>9}{:>11}{:>11}{:>11}\n", name, given,
+            run.failure.empty() ? cell(run.error) : "failed", 1e6 * run.seconds, run.evaluations, run.steps,
+            cell(run.energy_drift), cell(run.constraint_error), cell(run.momentum_error));
     }
 }
 
@@ -88,7 +100,9 @@ Json reference_of(const Bench& b) {
     const std::size_t n = b.coordinates.size();
     const std::vector<double>& final = b.reference.final;
     Json result;
-    result["final"] = {{"time", b.end}, {"coordinates", by_name(b.coordinates, std::span(final).first(n))}, {"rates", by_name(b.coordinates, std::span(final).last(n))}};
+    result["final"] = {{"time", b.end},
+                       {"coordinates", by_name(b.coordinates, std::span(final).first(n))},
+                       {"rates", by_name(b.coordinates, std::span(final).last(n))}};
     result["digits"] = b.reference.digits;
     result["by"] = b.reference.by;
     if (!b.exact) return result;
@@ -96,7 +110,8 @@ Json reference_of(const Bench& b) {
         result["text"]["coordinates"][b.coordinates[i]] = text(b.exact->coordinates[i], 30);
         result["text"]["rates"][b.coordinates[i]] = text(b.exact->rates[i], 30);
     }
-    for (std::size_t i = 0; i < b.exact->speeds.size(); ++i) result["text"]["speeds"][b.speeds[i]] = text(b.exact->speeds[i], 30);
+    for (std::size_t i = 0; i < b.exact->speeds.size(); ++i)
+        result["text"]["speeds"][b.speeds[i]] = text(b.exact->speeds[i], 30);
     return result;
 }
 
@@ -122,7 +137,9 @@ std::string as_text(const Bench& b) {
     return page;
 }
 
-std::string as_csv(const Bench& b) { return csv_of(b.runs); }
+std::string as_csv(const Bench& b) {
+    return csv_of(b.runs);
+}
 
 std::string as_svg(const Bench& b) {
     const std::string& name = b.mechanism.title.empty() ? b.mechanism.name : b.mechanism.title;

@@ -53,7 +53,9 @@ std::string words_of(const Slip& slip) {
 
 std::string text_of(const Claim& claim, const CheckedClaim& c) {
     std::string page = fmt::format("{:<9}  {}\n", name_of(c.verdict), text_of(claim.equation));
-    const auto line = [&page](const std::string& label, const std::string& text) { page += fmt::format("{:<9}  {}{}\n", "", label, text); };
+    const auto line = [&page](const std::string& label, const std::string& text) {
+        page += fmt::format("{:<9}  {}{}\n", "", label, text);
+    };
     if (!claim.source.empty()) line("", claim.source);
     if (!c.reason.empty()) line("", c.reason);
     if (c.verdict != Verdict::refuted) return page;
@@ -65,7 +67,8 @@ std::string text_of(const Claim& claim, const CheckedClaim& c) {
     }
     if (!c.counterexample.empty()) {
         std::string state;
-        for (const auto& [name, value] : c.counterexample) state += (state.empty() ? "" : ", ") + name + " = " + value;
+        for (const auto& [name, value] : c.counterexample)
+            state += (state.empty() ? "" : ", ") + name + " = " + value;
         line("it fails at ", state);
         line("where left - right = ", c.residual);
     }
@@ -85,7 +88,8 @@ Json as_json(const CheckedScene& checked) {
 
 std::string as_text(const CheckedScene& checked) {
     std::string page;
-    for (std::size_t k = 0; k < checked.checked.claims.size(); ++k) page += text_of(checked.scene.claims[k], checked.checked.claims[k]);
+    for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
+        page += text_of(checked.scene.claims[k], checked.checked.claims[k]);
     return page + (checked.checked.complete ? "With the constraints, the claims that hold determine the motion.\n"
                                             : "The claims that hold do not determine the motion.\n");
 }

@@ -21,11 +21,13 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     std::string names;
     for (const Phrase& q : shown.coordinates) names += (names.empty() ? "" : ", ") + n.inline_phrase(q);
     const int freedom = shown.degrees_of_freedom;
-    std::vector<Block> blocks{{fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
-                                           freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
-                               {}}};
+    std::vector<Block> blocks{
+        {fmt::format("1. The system has {} degree{} of freedom; generalized coordinate{}: {}.", freedom,
+                     freedom == 1 ? "" : "s", shown.coordinates.size() == 1 ? "" : "s", names),
+         {}}};
 
-    if (!shown.angular.empty()) blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
+    if (!shown.angular.empty())
+        blocks.push_back({"Angular velocities along the axes of the bodies:", statements(shown.angular)});
     std::vector<Statement> energies = shown.energies;
     const auto total = [&](const char* letter, const Phrase& value) {
         energies.push_back({Statement::Kind::energy, letter, "", {}, value});
@@ -36,8 +38,9 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
         total("T", shown.kinetic);
         total("V", shown.potential);
     }
-    blocks.push_back({shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
-                      statements(energies)});
+    blocks.push_back(
+        {shown.lagrangian ? "2. The Lagrangian, as the scene gives it:" : "2. Kinetic and potential energy:",
+         statements(energies)});
     blocks.push_back({shown.forces.empty() ? "3. No force does virtual work beside what is in the energies."
                                            : "3. Generalized forces, from the virtual work dW = sum of Q(q) dq:",
                       statements(shown.forces)});
@@ -91,7 +94,8 @@ Json as_json(const DerivedScene& d) {
     if (!shown.kinematics.empty()) {
         result["kinematics"] = Json::array();
         for (const auto& [rate, value] : shown.kinematics)
-            result["kinematics"].push_back({{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
+            result["kinematics"].push_back(
+                {{"text", text(rate) + " = " + text(value)}, {"latex", latex(rate) + " = " + latex(value)}});
     }
     for (const auto* list : {&shown.speeds, &shown.definitions})
         for (const auto& [name, value] : *list)
@@ -112,54 +116,69 @@ std::string as_page(const DerivedScene& d, const PageOptions& options) {
         for (const Section& section : shown.sections) {
             if (!options.steps) break;
             blocks.push_back({section.words, {}});
-            for (const Statement& s : section.statements) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+            for (const Statement& s : section.statements)
+                blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
         }
     } else if (options.steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
-    const bool free = d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
+    const bool free =
+        d.mechanism.constraints.size() == (d.has_unilateral_reactions ? d.mechanism.unilateral.size() : 0);
     if (!shown.choice.empty()) blocks.push_back({shown.choice, {}});
-    for (const auto& [speed, form] : shown.speeds) blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
-    blocks.push_back({fmt::format("Equations of motion ({}{}):",
-                                  shown.title,
-                                  !d.by.empty()        ? ""
+    for (const auto& [speed, form] : shown.speeds)
+        blocks.back().equalities.emplace_back(n.phrase(speed), n.phrase(form));
+    blocks.push_back({fmt::format("Equations of motion ({}{}):", shown.title,
+                                  !d.by.empty()                     ? ""
                                   : !d.equations.speeds_are_rates() ? "; the scene has generalized speeds"
-                                  : free && d.has_unilateral_reactions ? "; the coordinates are independent while all gaps are open"
-                                  : free              ? "; the coordinates are independent"
-                                                      : "; the coordinates are not independent"),
+                                  : free && d.has_unilateral_reactions
+                                      ? "; the coordinates are independent while all gaps are open"
+                                  : free ? "; the coordinates are independent"
+                                         : "; the coordinates are not independent"),
                       {}});
-    for (const ReadableEquation& e : shown.equations) blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    for (const ReadableEquation& e : shown.equations)
+        blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
     if (!shown.kinematics.empty()) {
         blocks.push_back({"with the rates of the coordinates:", {}});
-        for (const auto& [rate, value] : shown.kinematics) blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
+        for (const auto& [rate, value] : shown.kinematics)
+            blocks.back().equalities.emplace_back(n.phrase(rate), n.phrase(value));
     }
     for (const Phrase& pole : shown.poles)
-        blocks.push_back({fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
+        blocks.push_back(
+            {fmt::format("They do not follow from the speeds where {} = 0.", n.inline_phrase(pole)), {}});
     if (!shown.constraints.empty()) {
         const bool all = d.equations.A.empty();
-        blocks.push_back({all ? "The constraints, which the speeds obey:"
-                              : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):", {}});
-        for (const auto& [name, phrase] : shown.constraints) blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+        blocks.push_back(
+            {all ? "The constraints, which the speeds obey:"
+                 : "with the constraints (multipliers stand on the right with a plus: M q'' = F + A^T lambda):",
+             {}});
+        for (const auto& [name, phrase] : shown.constraints)
+            blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
     }
     if (!shown.reactions.empty()) {
         blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});
-        for (const Statement& r : shown.reactions) blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
+        for (const Statement& r : shown.reactions)
+            blocks.back().equalities.emplace_back(n.left(r), n.phrase(r.value));
     }
     if (!d.joint_loads.empty()) {
-        blocks.push_back({"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:", {}});
-        for (const Statement& s : d.joint_loads) blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
+        blocks.push_back(
+            {"Joints bear, as force and moment on the child at its point, along the joint's axes in the parent:",
+             {}});
+        for (const Statement& s : d.joint_loads)
+            blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
     }
     if (!shown.gaps.empty()) {
-        blocks.push_back({"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
+        blocks.push_back(
+            {"with the unilateral constraints gap >= 0, lambda >= 0, lambda*gap = 0 for the gaps:", {}});
         for (const auto& [name, phrase] : shown.gaps)
-            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}), n.phrase(phrase));
+            blocks.back().equalities.emplace_back(n.left({Statement::Kind::energy, "gap", name, {}, {}}),
+                                                  n.phrase(phrase));
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
-            blocks.push_back({fmt::format("The equation of {} has been divided by {}.",
-                                          n.inline_phrase(shown.rows[i]),
-                                          n.inline_phrase(*shown.equations[i].divided_by)),
-                              {}});
+            blocks.push_back(
+                {fmt::format("The equation of {} has been divided by {}.", n.inline_phrase(shown.rows[i]),
+                             n.inline_phrase(*shown.equations[i].divided_by)),
+                 {}});
     return n.page(blocks);
 }
 

@@ -13,7 +13,9 @@ Json as_json(const Emission& e, const std::string& path) {
     result["chain"] = e.choice.cost.chain;
     if (e.choice.runner_up) {
         const RunnerUp& second = *e.choice.runner_up;
-        result["runner_up"] = {{"formulation", second.formulation}, {"operations", second.cost.operations}, {"chain", second.cost.chain}};
+        result["runner_up"] = {{"formulation", second.formulation},
+                               {"operations", second.cost.operations},
+                               {"chain", second.cost.chain}};
         result["runner_up_operations"] = second.cost.operations;
     }
     if (e.derivatives) {
@@ -27,12 +29,20 @@ Json as_json(const Emission& e, const std::string& path) {
 std::string as_text(const Emission& e, const std::string& path) {
     const Operations& count = e.source.operations;
     std::string page;
-    put(page, "{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} functions)\n", path,
-        e.source.formulation, count.total(), count.additions, count.multiplications, count.divisions, count.functions);
-    if (e.derivatives) put(page, "the Jacobian takes {} operations ({})\n", e.derivatives->operations.total(), e.derivatives->route);
-    if (e.choice.runner_up) put(page, "next best: {}, {} operations\n", e.choice.runner_up->formulation, e.choice.runner_up->cost.operations);
+    put(page,
+        "{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} functions)\n",
+        path, e.source.formulation, count.total(), count.additions, count.multiplications, count.divisions,
+        count.functions);
+    if (e.derivatives)
+        put(page, "the Jacobian takes {} operations ({})\n", e.derivatives->operations.total(),
+            e.derivatives->route);
+    if (e.choice.runner_up)
+        put(page, "next best: {}, {} operations\n", e.choice.runner_up->formulation,
+            e.choice.runner_up->cost.operations);
     if (!e.mechanism.unilateral.empty())
-        page += "this is the motion while all gaps are open; simulate emits the other contact modes as it meets them\n";
+        page +=
+            "this is the motion while all gaps are open; simulate emits the other contact modes as it meets "
+            "them\n";
     return page;
 }
 

@@ -46,7 +46,8 @@ Json as_json(const Evaluation& e, bool reactions) {
     result["reactions"] = Json::object();
     for (const Evaluation::Reaction& r : e.reactions) result["reactions"][r.constraint][r.coordinate] = r.force;
     result["joint_reactions"] = Json::object();
-    for (const JointLoad& load : e.joint_loads) result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
+    for (const JointLoad& load : e.joint_loads)
+        result["joint_reactions"][load.joint] = {{"force", load.force}, {"moment", load.moment}};
     return result;
 }
 
@@ -55,9 +56,11 @@ std::string as_text(const Evaluation& e) {
     std::string page;
     put(page, "t = {}\n\n{:<{}}{:>24}{:>24}{:>24}\n", e.time, "", width, "value", "rate", "acceleration");
     for (std::size_t i = 0; i < e.coordinates.size(); ++i)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", e.coordinates[i], width, e.q[i], e.rates[i], e.accelerations[i]);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}\n", e.coordinates[i], width, e.q[i], e.rates[i],
+            e.accelerations[i]);
     for (std::size_t k = 0; k < e.speeds.size() && k < e.speed_rates.size(); ++k)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second, e.speed_rates[k].second);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second,
+            e.speed_rates[k].second);
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
     for (const std::string& line : e.adjusted) put(page, "adjusted {}\n", line);
     put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
@@ -65,7 +68,8 @@ std::string as_text(const Evaluation& e) {
     if (!e.joint_loads.empty()) page += "\nJoints exert on their children, along the joint's axes:\n";
     for (const JointLoad& load : e.joint_loads)
         for (const auto& [what, v] : {std::pair("force", &load.force), std::pair("moment", &load.moment)})
-            put(page, "{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1], (*v)[2]);
+            put(page, "{:<{}}{:<8}{:>24.16g}{:>24.16g}{:>24.16g}\n", load.joint, width, what, (*v)[0], (*v)[1],
+                (*v)[2]);
     return page;
 }
 

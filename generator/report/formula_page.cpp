@@ -35,34 +35,51 @@ std::string escaped(const std::string& words, bool xml) {
             result += c;
             continue;
         }
-        if (xml && c == '&') result += "&amp;";
-        else if (xml && c == '<') result += "&lt;";
-        else if (xml && c == '>') result += "&gt;";
-        else if (!xml && std::string("_&%#${}").find(c) != std::string::npos) result += std::string("\\") + c;
-        else if (!xml && c == '^') result += "\\^{}";
-        else if (!xml && c == '~') result += "\\~{}";
-        else if (!xml && c == '\\') result += "\\textbackslash{}";
-        else result += c;
+        if (xml && c == '&')
+            result += "&amp;";
+        else if (xml && c == '<')
+            result += "&lt;";
+        else if (xml && c == '>')
+            result += "&gt;";
+        else if (!xml && std::string("_&%#${}").find(c) != std::string::npos)
+            result += std::string("\\") + c;
+        else if (!xml && c == '^')
+            result += "\\^{}";
+        else if (!xml && c == '~')
+            result += "\\~{}";
+        else if (!xml && c == '\\')
+            result += "\\textbackslash{}";
+        else
+            result += c;
     }
     return result;
 }
 
 std::string text_left(const Statement& s) {
     switch (s.kind) {
-        case Statement::Kind::partial: return fmt::format("d{}/d({})", s.letter, text(*s.by));
-        case Statement::Kind::force: return fmt::format("{}({})", s.letter, text(*s.by));
-        case Statement::Kind::work: return fmt::format("Q({}) of {}", text(*s.by), s.of);
-        default: return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
+        case Statement::Kind::partial:
+            return fmt::format("d{}/d({})", s.letter, text(*s.by));
+        case Statement::Kind::force:
+            return fmt::format("{}({})", s.letter, text(*s.by));
+        case Statement::Kind::work:
+            return fmt::format("Q({}) of {}", text(*s.by), s.of);
+        default:
+            return s.of.empty() ? s.letter : fmt::format("{} of {}", s.letter, s.of);
     }
 }
 
 /// w_x, the component of an angular velocity, is ω_x in print.
-bool is_angular(const std::string& letter) { return letter.size() == 3 && letter[0] == 'w' && letter[1] == '_'; }
+bool is_angular(const std::string& letter) {
+    return letter.size() == 3 && letter[0] == 'w' && letter[1] == '_';
+}
 
-std::string latex_letter(const std::string& letter) { return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter; }
+std::string latex_letter(const std::string& letter) {
+    return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter;
+}
 
 std::string mathml_letter(const std::string& letter) {
-    return is_angular(letter) ? "<msub><mi>ω</mi><mi>" + letter.substr(2) + "</mi></msub>" : "<mi>" + letter + "</mi>";
+    return is_angular(letter) ? "<msub><mi>ω</mi><mi>" + letter.substr(2) + "</mi></msub>"
+                              : "<mi>" + letter + "</mi>";
 }
 
 std::string latex_left(const Statement& s) {
@@ -71,8 +88,10 @@ std::string latex_left(const Statement& s) {
         case Statement::Kind::partial:
             return fmt::format("\\frac{{\\partial {}}}{{\\partial {}}}", latex_letter(s.letter), latex(*s.by));
         case Statement::Kind::force:
-        case Statement::Kind::work: return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
-        default: return latex_letter(s.letter) + of;
+        case Statement::Kind::work:
+            return fmt::format("{}_{{{}}}{}", s.letter, latex(*s.by), of);
+        default:
+            return latex_letter(s.letter) + of;
     }
 }
 
@@ -81,11 +100,14 @@ std::string mathml_left(const Statement& s) {
     const std::string of = "<mtext>" + escaped(s.of, true) + "</mtext>";
     switch (s.kind) {
         case Statement::Kind::partial:
-            return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) + "</mrow></mfrac>";
-        case Statement::Kind::force: return "<msub>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow></msub>";
+            return "<mfrac><mrow><mo>∂</mo>" + letter + "</mrow><mrow><mo>∂</mo>" + mathml_row(*s.by) +
+                   "</mrow></mfrac>";
+        case Statement::Kind::force:
+            return "<msub>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow></msub>";
         case Statement::Kind::work:
             return "<msubsup>" + letter + "<mrow>" + mathml_row(*s.by) + "</mrow>" + of + "</msubsup>";
-        default: return s.of.empty() ? letter : "<msup>" + letter + of + "</msup>";
+        default:
+            return s.of.empty() ? letter : "<msup>" + letter + of + "</msup>";
     }
 }
 

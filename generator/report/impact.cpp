@@ -9,7 +9,9 @@ namespace alembert {
 
 namespace {
 
-std::string equality(const ReadableEquation& e) { return text(e.lhs) + " = " + text(e.rhs); }
+std::string equality(const ReadableEquation& e) {
+    return text(e.lhs) + " = " + text(e.rhs);
+}
 
 /// (name, impulse) of all constraints, then of the closed contacts.
 std::vector<std::pair<std::string, double>> reactions(const Impact& hit, const Mechanism& m) {
@@ -17,16 +19,18 @@ std::vector<std::pair<std::string, double>> reactions(const Impact& hit, const M
     for (std::size_t k = 0; k < m.constraints.size(); ++k)
         result.emplace_back(m.constraints[k].name, hit.numbers.bilateral[static_cast<Eigen::Index>(k)]);
     for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        result.emplace_back(m.unilateral[hit.contacts[k]].gap.name, hit.numbers.contact[static_cast<Eigen::Index>(k)]);
+        result.emplace_back(m.unilateral[hit.contacts[k]].gap.name,
+                            hit.numbers.contact[static_cast<Eigen::Index>(k)]);
     return result;
 }
 
 void add_formulas(std::string& page, const Impact& hit, const Mechanism& m) {
     if (!hit.equations.empty()) {
         put(page, "Equations of the impact (x' is a rate after, x'(-) before{}):\n",
-                   hit.conditions.empty() ? "" : "; multipliers are the impulses of reactions");
+            hit.conditions.empty() ? "" : "; multipliers are the impulses of reactions");
         for (const ReadableEquation& e : hit.equations) put(page, "  {}\n", equality(e));
-        for (const auto& [name, condition] : hit.conditions) put(page, "  {}    ({})\n", equality(condition), name);
+        for (const auto& [name, condition] : hit.conditions)
+            put(page, "  {}    ({})\n", equality(condition), name);
         put(page, "\n");
     }
     if (!hit.solution.empty()) {
@@ -42,14 +46,17 @@ void add_formulas(std::string& page, const Impact& hit, const Mechanism& m) {
 void add_numbers(std::string& page, const Impact& hit, const Mechanism& m) {
     for (const std::string& name : hit.imposed)
         put(page, "The rates before break constraint '{}'; it is imposed suddenly, and plastically.\n", name);
-    if (hit.numbers.collisions > 1) put(page, "{} collisions follow each other in the same instant.\n", hit.numbers.collisions);
+    if (hit.numbers.collisions > 1)
+        put(page, "{} collisions follow each other in the same instant.\n", hit.numbers.collisions);
     for (std::size_t k = 0; k < hit.contacts.size(); ++k)
         put(page, "Contact '{}' {}.\n", m.unilateral[hit.contacts[k]].gap.name,
-                   hit.numbers.stays_closed[k] ? "stays closed" : "opens");
+            hit.numbers.stays_closed[k] ? "stays closed" : "opens");
     put(page, "{:<16}{:>24}{:>24}{:>24}\n", "", "value", "rate before", "rate after");
     for (int i = 0; i < m.size(); ++i)
-        put(page, "{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), hit.start.q[i], hit.start.qdot[i], hit.numbers.after[i]);
-    for (const auto& [name, value] : reactions(hit, m)) put(page, "{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
+        put(page, "{:<16}{:>24.16g}{:>24.16g}{:>24.16g}\n", m.q[i].get_name(), hit.start.q[i], hit.start.qdot[i],
+            hit.numbers.after[i]);
+    for (const auto& [name, value] : reactions(hit, m))
+        put(page, "{:<16}{:>24.16g}    (impulse of the reaction)\n", name, value);
     for (const std::string& line : hit.adjusted) put(page, "adjusted {}\n", line);
     put(page, "\nT before = {:.16g}\nT after = {:.16g}\n", hit.kinetic_before, hit.kinetic_after);
     if (!m.impulses.empty()) put(page, "work of the impulses = {:.16g}\n", hit.numbers.work);
@@ -72,7 +79,8 @@ Json as_json(const Struck& struck) {
     result["coordinates"] = by_name([&](int i) { return hit.start.q[i]; });
     result["before"] = by_name([&](int i) { return hit.start.qdot[i]; });
     result["after"] = by_name([&](int i) { return hit.numbers.after[i]; });
-    result["solution"] = hit.solution.empty() ? Json::object() : by_name([&](int i) { return text(hit.solution[i]); });
+    result["solution"] =
+        hit.solution.empty() ? Json::object() : by_name([&](int i) { return text(hit.solution[i]); });
     result["reactions"] = Json::object();
     for (const auto& [name, value] : reactions(hit, m)) result["reactions"][name] = value;
     result["reactions_solution"] = Json::object();
@@ -84,7 +92,8 @@ Json as_json(const Struck& struck) {
     for (const auto& [name, condition] : hit.conditions) result["conditions"][name] = equality(condition);
     result["contacts"] = Json::array();
     for (std::size_t k = 0; k < hit.contacts.size(); ++k)
-        result["contacts"].push_back({{"name", m.unilateral[hit.contacts[k]].gap.name}, {"stays_closed", bool(hit.numbers.stays_closed[k])}});
+        result["contacts"].push_back({{"name", m.unilateral[hit.contacts[k]].gap.name},
+                                      {"stays_closed", bool(hit.numbers.stays_closed[k])}});
     result["imposed"] = hit.imposed;
     result["collisions"] = hit.numbers.collisions;
     result["kinetic_before"] = hit.kinetic_before;
@@ -103,7 +112,9 @@ std::string as_text(const Struck& struck) {
     std::string page;
     if (!struck.scene.title.empty()) put(page, "{}\n\n", struck.scene.title);
     if (struck.hit.nothing_happens)
-        page += "Nothing is struck: no impulses, every constraint is obeyed, no closed contact approaches. The rates stay as they are.\n\n";
+        page +=
+            "Nothing is struck: no impulses, every constraint is obeyed, no closed contact approaches. The rates "
+            "stay as they are.\n\n";
     else
         add_formulas(page, struck.hit, struck.mechanism);
     add_numbers(page, struck.hit, struck.mechanism);

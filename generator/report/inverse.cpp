@@ -23,12 +23,14 @@ std::string as_text(const InverseLoads& needed) {
     std::size_t width = 16;
     for (const std::string& name : needed.coordinates) width = std::max(width, name.size() + 1);
     std::string page;
-    put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, "value", "rate", "acceleration", "load");
+    put(page, "t = {:.6g}\n\n{:<{}}{:>24}{:>24}{:>24}{:>24}\n", needed.time, "", width, "value", "rate",
+        "acceleration", "load");
     for (std::size_t i = 0; i < needed.coordinates.size(); ++i)
-        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i], needed.rates[i],
-            needed.accelerations[i], needed.loads[i]);
+        put(page, "{:<{}}{:>24.16g}{:>24.16g}{:>24.16g}{:>24.16g}\n", needed.coordinates[i], width, needed.q[i],
+            needed.rates[i], needed.accelerations[i], needed.loads[i]);
     for (std::size_t k = 0; k < needed.multipliers.size(); ++k)
-        put(page, "{}{} = {:.16g}\n", k == 0 ? "\n" : "", needed.multipliers[k].first, needed.multipliers[k].second);
+        put(page, "{}{} = {:.16g}\n", k == 0 ? "\n" : "", needed.multipliers[k].first,
+            needed.multipliers[k].second);
     return page;
 }
 

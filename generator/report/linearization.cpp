@@ -23,18 +23,21 @@ Json json_of(const Matrix& matrix) {
 }
 
 /// Columns of equal width, under their names where these are given.
-void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows, const std::vector<std::string>& columns) {
+void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows,
+         const std::vector<std::string>& columns) {
     std::size_t label = 0, width = 10;
     for (const std::string& name : rows) label = std::max(label, name.size());
     for (const std::string& name : columns) width = std::max(width, name.size());
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-        for (Eigen::Index j = 0; j < matrix.cols(); ++j) width = std::max(width, fmt::format("{:.8g}", matrix(i, j) + 0.0).size());
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+            width = std::max(width, fmt::format("{:.8g}", matrix(i, j) + 0.0).size());
     put(page, "{:<{}}", fmt::format("  {}", letter), label + 4);
     for (const std::string& name : columns) put(page, "  {:>{}}", name, width);
     put(page, "\n");
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
         put(page, "    {:<{}}", rows[i], label);
-        for (Eigen::Index j = 0; j < matrix.cols(); ++j) put(page, "  {:>{}}", fmt::format("{:.8g}", matrix(i, j) + 0.0), width);
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+            put(page, "  {:>{}}", fmt::format("{:.8g}", matrix(i, j) + 0.0), width);
         put(page, "\n");
     }
     put(page, "\n");
@@ -54,9 +57,10 @@ void add_matrices(std::string& page, const Linearization& near) {
             add(page, letter, m, near.speeds, columns);
     };
     const bool full = near.speeds.size() == near.coordinates.size() && near.paired;
-    put(page, "{} = 0 for small deviations, with\n\n", full           ? "M q'' + (C + G) q' + (K + N) q"
-                                                    : near.paired ? "M r'' + (C + G) r' + (K + N) r"
-                                                                  : "M w' + (C + G) w + P r");
+    put(page, "{} = 0 for small deviations, with\n\n",
+        full          ? "M q'' + (C + G) q' + (K + N) q"
+        : near.paired ? "M r'' + (C + G) r' + (K + N) r"
+                      : "M w' + (C + G) w + P r");
     show("M", near.M, rates);
     show("C", near.C, near.speeds);
     show("G", near.G, near.speeds);
@@ -76,8 +80,10 @@ void add_eigenvalues(std::string& page, const Linearization& near) {
     put(page, "{:>24}{:>24}{:>16}{:>16}\n", "eigenvalue, real", "imaginary", "period", "damping ratio");
     for (const std::complex<double>& value : near.eigenvalues) {
         if (value.imag() < 0) continue;
-        put(page, "{:>24.16g}{:>24}", value.real() + 0.0, value.imag() == 0 ? "" : fmt::format("+-{:.16g}", value.imag()));
-        if (value.imag() != 0) put(page, "{:>16.8g}{:>16.8g}", 2 * M_PI / value.imag(), -value.real() / std::abs(value) + 0.0);
+        put(page, "{:>24.16g}{:>24}", value.real() + 0.0,
+            value.imag() == 0 ? "" : fmt::format("+-{:.16g}", value.imag()));
+        if (value.imag() != 0)
+            put(page, "{:>16.8g}{:>16.8g}", 2 * M_PI / value.imag(), -value.real() / std::abs(value) + 0.0);
         put(page, "\n");
     }
 }
@@ -90,7 +96,8 @@ void add(std::string& page, const decltype(LinearizedScene::symbols)& symbols) {
         std::size_t width = 1;
         bool zero = true;
         for (const auto& row : rows)
-            for (const std::string& element : row) width = std::max(width, element.size()), zero = zero && element == "0";
+            for (const std::string& element : row)
+                width = std::max(width, element.size()), zero = zero && element == "0";
         if (zero) {
             zeros.push_back(name);
             continue;
@@ -136,7 +143,8 @@ Json as_json(const LinearizedScene& d) {
     matrices["A"] = json_of(near.A);
     matrices["B"] = json_of(near.B);
     result["eigenvalues"] = Json::array();
-    for (const std::complex<double>& value : near.eigenvalues) result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
+    for (const std::complex<double>& value : near.eigenvalues)
+        result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
     for (const auto& [name, rows] : d.symbols) result["symbolic"][name] = rows;
     return result;
 }
@@ -149,7 +157,8 @@ std::string as_text(const LinearizedScene& d) {
     if (near.moving.empty())
         put(page, "About the equilibrium\n");
     else
-        put(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "), near.moving.size() == 1 ? "moves" : "move");
+        put(page, "About the steady motion in which {} {}\n", fmt::join(near.moving, ", "),
+            near.moving.size() == 1 ? "moves" : "move");
     for (int i = 0; i < d.mechanism.size(); ++i) {
         const auto shown = [](double x, bool guess) { return guess && std::abs(x) < 1e-14 ? 0.0 : x + 0.0; };
         const double rate = shown(start.qdot[i], d.mechanism.qdot_is_guess[i]);
@@ -158,7 +167,9 @@ std::string as_text(const LinearizedScene& d) {
         put(page, "\n");
     }
     if (!near.dependent.empty()) put(page, "eliminated: {}\n", fmt::join(near.dependent, ", "));
-    if (!near.left_out.empty()) put(page, "left out, as nothing else depends on {}: {}\n", near.left_out.size() == 1 ? "it" : "them", fmt::join(near.left_out, ", "));
+    if (!near.left_out.empty())
+        put(page, "left out, as nothing else depends on {}: {}\n", near.left_out.size() == 1 ? "it" : "them",
+            fmt::join(near.left_out, ", "));
     put(page, "\n");
     add_matrices(page, near);
     add(page, d.symbols);

@@ -13,9 +13,12 @@ constexpr std::size_t most_lines = 20;
 
 const char* word(ContactEvent::Kind kind) {
     switch (kind) {
-        case ContactEvent::Kind::impact: return "impact";
-        case ContactEvent::Kind::release: return "release";
-        default: return "rest";
+        case ContactEvent::Kind::impact:
+            return "impact";
+        case ContactEvent::Kind::release:
+            return "release";
+        default:
+            return "rest";
     }
 }
 
@@ -38,7 +41,8 @@ std::string text_of(const std::vector<EventRecord>& events, const Mechanism& m) 
             i = events.size() - 1;
         }
         const EventRecord& event = events[i];
-        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name, event.time,
+        text += fmt::format("event {} at t = {:.15g}{}\n", m.events[static_cast<std::size_t>(event.index)].name,
+                            event.time,
                             event.impulse.empty() ? "" : fmt::format(", energy gain {:.6g}", event.energy_gain));
     }
     return text;
@@ -61,9 +65,11 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
     std::string text;
     for (std::size_t i = 0; i < std::min(events.size(), most_lines); ++i) {
         const ContactEvent& e = events[i];
-        text += fmt::format("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)], word(e.kind), e.time);
+        text += fmt::format("contact {}: {} at t = {:.15g}", names[static_cast<std::size_t>(e.contact)],
+                            word(e.kind), e.time);
         if (e.kind == ContactEvent::Kind::impact)
-            text += fmt::format(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after, e.energy_loss);
+            text += fmt::format(", speed {:.6g} -> {:.6g}, energy loss {:.6g}", e.speed_before, e.speed_after,
+                                e.energy_loss);
         text += "\n";
     }
     if (events.size() > most_lines) text += fmt::format("… and {} more\n", events.size() - most_lines);
@@ -72,8 +78,10 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
 
 /// "radau from t = 0.31 on: …", for a person.
 std::string described(const Switch& s) {
-    return fmt::format("{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} s)",
-                       s.method, s.time, s.largest_eigenvalue, s.step);
+    return fmt::format(
+        "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
+        "s)",
+        s.method, s.time, s.largest_eigenvalue, s.step);
 }
 
 Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
@@ -81,8 +89,10 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     Json result{{"value", number(e.value)},
                 {"by", e.by},
                 {"trustworthy", reasons.empty()},
-                {"norm", "value: max |y - y2| / max(1, |y2|) of coordinates and speeds at the end; scaled: max |y - y2| / how far components of "
-                         "that unit move in the run"},
+                {"norm",
+                 "value: max |y - y2| / max(1, |y2|) of coordinates and speeds at the end; scaled: max |y - y2| / "
+                 "how far components of "
+                 "that unit move in the run"},
                 {"scaled", number(e.scaled)},
                 {"reasons", reasons}};
     if (e.lyapunov) result["lyapunov_exponent"] = *e.lyapunov;
@@ -98,20 +108,24 @@ std::string warning_of(const Run& run) {
 /// The method, the end of the motion and who was in contact then.
 void add_motion(std::string& page, const Run& run) {
     const Statistics& s = run.motion.statistics;
-    put(page, "{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", run.solver.formulation, s.method, s.steps, s.rejected,
-        s.evaluations, run.solver.operations);
+    put(page, "{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", run.solver.formulation,
+        s.method, s.steps, s.rejected, s.evaluations, run.solver.operations);
     if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
     if (s.switched) put(page, "{}\n", described(*s.switched));
-    if (run.solver.jacobian_operations) put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
+    if (run.solver.jacobian_operations)
+        put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
     page += text_of(run.motion.events, run.mechanism);
     page += text_of(run.motion.contacts, run.contacts);
     put(page, "\nat t = {:.15g}\n", run.motion.final_time());
     for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        put(page, "{:<16}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], run.final_coordinates[i], run.final_rates[i]);
-    for (std::size_t k = 0; k < run.speeds.size(); ++k) put(page, "{:<16}{:>24.16g}\n", run.speeds[k], run.final_speeds[k]);
+        put(page, "{:<16}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], run.final_coordinates[i],
+            run.final_rates[i]);
+    for (std::size_t k = 0; k < run.speeds.size(); ++k)
+        put(page, "{:<16}{:>24.16g}\n", run.speeds[k], run.final_speeds[k]);
     if (run.contacts.empty()) return;
     std::string closed;
-    for (const int k : run.motion.phases.back().closed) closed += (closed.empty() ? "" : ", ") + run.contacts[static_cast<std::size_t>(k)];
+    for (const int k : run.motion.phases.back().closed)
+        closed += (closed.empty() ? "" : ", ") + run.contacts[static_cast<std::size_t>(k)];
     put(page, "closed: {}\n", closed.empty() ? "no contact" : closed);
 }
 
@@ -120,7 +134,9 @@ void add_account(std::string& page, const Run& run) {
     if (run.estimate && run.estimate->value) {
         const ErrorEstimate& e = *run.estimate;
         put(page, "\nestimated error {:.1e} ({:.1e} of the motion's size), by {}\n", *e.value, *e.scaled, e.by);
-        if (e.lyapunov) put(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *e.lyapunov, *e.horizon);
+        if (e.lyapunov)
+            put(page, "chaotic: Lyapunov exponent {:.3g}; no digit is left after about t = {:.4g}\n", *e.lyapunov,
+                *e.horizon);
     }
     const EnergyAccount& energy = run.energy;
     if (energy.impact_loss != 0) put(page, "\nlost in impacts {:.10g}", energy.impact_loss);
@@ -132,8 +148,8 @@ void add_account(std::string& page, const Run& run) {
     if (energy.jacobi_conserved) put(page, "T2 - T0 + V is; its drift {:.2e}\n", energy.jacobi_drift);
     if (run.is_constrained()) put(page, "constraint drift {:.2e}\n", run.constraint_drift);
     for (const std::string& line : run.adjusted) put(page, "adjusted at the start: {}\n", line);
-    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive, run.timings.emit,
-        run.timings.compile, run.solver.from_cache ? " (cached)" : "", run.timings.integrate);
+    put(page, "seconds: derive {:.4f}, emit {:.4f}, compile {:.4f}{}, integrate {:.4f}\n", run.timings.derive,
+        run.timings.emit, run.timings.compile, run.solver.from_cache ? " (cached)" : "", run.timings.integrate);
 }
 
 }  // namespace
@@ -193,7 +209,8 @@ std::string as_csv(const Table& table) {
     std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
     for (std::size_t row = 0; row < table.rows(); ++row)
         for (std::size_t column = 0; column < table.columns.size(); ++column)
-            text += fmt::format("{:.17g}{}", table.at(row, column), column + 1 < table.columns.size() ? ',' : '\n');
+            text +=
+                fmt::format("{:.17g}{}", table.at(row, column), column + 1 < table.columns.size() ? ',' : '\n');
     return text;
 }
 

@@ -9,7 +9,9 @@ namespace alembert {
 
 namespace {
 
-const char* drift_name(const Sweep& s) { return s.conserved ? "energy_drift" : "work_balance"; }
+const char* drift_name(const Sweep& s) {
+    return s.conserved ? "energy_drift" : "work_balance";
+}
 
 /// A field of a CSV file (RFC 4180), on one line.
 std::string quoted(std::string text) {
@@ -28,7 +30,8 @@ Json as_json(const Sweep& s) {
     result["members"] = s.grid.size();
     result["failed"] = sum.failed;
     for (const Axis& axis : s.grid.axes)
-        result["vary"].push_back({{"name", axis.name}, {"from", axis.from}, {"to", axis.to}, {"count", axis.count}});
+        result["vary"].push_back(
+            {{"name", axis.name}, {"from", axis.from}, {"to", axis.to}, {"count", axis.count}});
     result["method"] = s.method;
     result["formulation"] = s.formulation;
     result["side_by_side"] = s.packed ? 8 : 1;
@@ -37,7 +40,10 @@ Json as_json(const Sweep& s) {
     result["rejected"] = sum.rejected;
     result["evaluations"] = sum.evaluations;
     result[drift_name(s)] = sum.drift;
-    result["seconds"] = {{"derive", s.seconds}, {"compile", s.timings.compile}, {"start", s.timings.start}, {"integrate", s.timings.integrate}};
+    result["seconds"] = {{"derive", s.seconds},
+                         {"compile", s.timings.compile},
+                         {"start", s.timings.start},
+                         {"integrate", s.timings.integrate}};
     return result;
 }
 
@@ -46,7 +52,9 @@ Json rows_as_json(const Sweep& s) {
     for (const SweptMotion& m : s.members) {
         Json row;
         row["varied"] = by_name(s.grid.names(), m.varied);
-        row["final"] = {{"time", m.time}, {"coordinates", by_name(s.coordinates, m.final_coordinates)}, {"rates", by_name(s.coordinates, m.final_rates)}};
+        row["final"] = {{"time", m.time},
+                        {"coordinates", by_name(s.coordinates, m.final_coordinates)},
+                        {"rates", by_name(s.coordinates, m.final_rates)}};
         if (!s.speeds.empty()) row["final"]["speeds"] = by_name(s.speeds, m.final_speeds);
         row[drift_name(s)] = m.drift;
         row["steps"] = m.steps;
@@ -69,7 +77,8 @@ std::string as_csv(const Sweep& s) {
     for (const SweptMotion& m : s.members) {
         std::vector<double> numbers = m.varied;
         numbers.push_back(m.time);
-        for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds}) numbers.insert(numbers.end(), part->begin(), part->end());
+        for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds})
+            numbers.insert(numbers.end(), part->begin(), part->end());
         for (const double x : numbers) put(text, "{:.17g},", x);
         put(text, "{:.17g},{},{},{},{}\n", m.drift, m.steps, m.rejected, m.evaluations, quoted(m.status));
     }
@@ -79,9 +88,12 @@ std::string as_csv(const Sweep& s) {
 std::string as_text(const Sweep& s) {
     const SweepTotals sum = totals_of(s);
     std::string page;
-    put(page, "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} {:.2e} at the most\n",
-        s.formulation, s.method, s.grid.size(), s.packed ? ", eight side by side" : "", s.threads, s.threads == 1 ? "" : "s", sum.steps,
-        sum.rejected, sum.evaluations, s.operations, s.conserved ? "energy drift" : "work balance", sum.drift);
+    put(page,
+        "{} with {}: {} motions{} on {} thread{}, {} steps, {} rejected, {} evaluations of {} operations, {} "
+        "{:.2e} at the most\n",
+        s.formulation, s.method, s.grid.size(), s.packed ? ", eight side by side" : "", s.threads,
+        s.threads == 1 ? "" : "s", sum.steps, sum.rejected, sum.evaluations, s.operations,
+        s.conserved ? "energy drift" : "work balance", sum.drift);
     put(page, "integrated in {:.3f} s of processor time\n", s.timings.integrate);
     return page;
 }

@@ -26,13 +26,14 @@ namespace alembert {
 
 namespace {
 
-constexpr double most_seconds = 2;    // of one run; a method goes no further when a run has taken that
+constexpr double most_seconds = 2;  // of one run; a method goes no further when a run has taken that
 constexpr int first_decade = 3, last_decade = 14;
 
 /// The end in double precision by two methods, where there is no better one; the digits in which they agree.
 std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
     // Stiff systems are for the second pair.
-    for (const auto& [one, other, tolerance] : {std::tuple{Method::verner98, Method::dop853, 1e-14}, std::tuple{Method::radau13, Method::radau9, 1e-13}}) {
+    for (const auto& [one, other, tolerance] : {std::tuple{Method::verner98, Method::dop853, 1e-14},
+                                                std::tuple{Method::radau13, Method::radau9, 1e-13}}) {
         Options strict = options;
         strict.tolerance = tolerance;
         strict.method = one;
@@ -42,13 +43,15 @@ std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
         if (!second) continue;
         const double apart = std::max(error_against(*first, *second), 1e-16);
         return Judgement{*first, std::max(0, static_cast<int>(std::floor(-std::log10(apart)))),
-                     fmt::format("{} and {} at tolerance {:g}, doubles: no better reference in the time given", name(one), name(other), tolerance)};
+                         fmt::format("{} and {} at tolerance {:g}, doubles: no better reference in the time given",
+                                     name(one), name(other), tolerance)};
     }
     return std::nullopt;
 }
 
 /// Runs of one method, from loose to strict, as long as it pays.
-std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess, const std::function<void(double)>& progress) {
+std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess,
+                             const std::function<void(double)>& progress) {
     std::vector<Measured> runs;
     const long budget = options.budget;
     options.budget = std::min(budget, static_cast<long>(most_seconds / each) + 1000);
@@ -82,20 +85,23 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
 SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
     if (!wishes.method.empty() && wishes.method != name(Method::taylor)) return nullptr;
     try {
-        return load_series(
-            compile(emit_taylor(program, with_work).text, program.name + "_taylor", {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
-                .object);
+        return load_series(compile(emit_taylor(program, with_work).text, program.name + "_taylor",
+                                   {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
+                               .object);
     } catch (const ModelError&) {
         return nullptr;
     }
 }
 
 /// Null where the scene has no such form, or no method that needs it is asked for.
-std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module, const std::vector<double>& parameters, const RunOptions& wishes) {
+std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module,
+                                              const std::vector<double>& parameters, const RunOptions& wishes) {
     const auto asked = method_named(wishes.method);
     if ((asked && !needs_canonical(*asked)) || not_canonical(d)) return nullptr;
     const Program form = canonical_form(d);
-    const Compiled compiled = compile(emit(form).text, form.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+    const Compiled compiled =
+        compile(emit(form).text, form.name,
+                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
     return make_canonical(module, load(compiled.object), parameters);
 }
 
@@ -108,11 +114,16 @@ struct Compilation {
     std::shared_ptr<const Canonical> canonical = {};
 };
 
-Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved, const RunOptions& wishes) {
+Compilation compilation_of(const Derived& d, const Program& program, const Start& start, bool conserved,
+                           const RunOptions& wishes) {
     Source source = emit(with_jacobian(program, method_named(wishes.method).value_or(Method::radau), !conserved));
-    Compiled compiled = compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+    Compiled compiled = compile(source.text, program.name,
+                                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
     Module module = load(compiled.object);
-    Compilation c{.source = std::move(source), .compiled = std::move(compiled), .module = std::move(module), .series = series_of(program, false, wishes)};
+    Compilation c{.source = std::move(source),
+                  .compiled = std::move(compiled),
+                  .module = std::move(module),
+                  .series = series_of(program, false, wishes)};
     if (c.series && !conserved) c.series_with_work = series_of(program, true, wishes);
     c.canonical = canonical_of(d, c.module, start.parameters, wishes);
     return c;
@@ -120,7 +131,8 @@ Compilation compilation_of(const Derived& d, const Program& program, const Start
 
 class Benchmark {
 public:
-    Benchmark(Bench& result, const BenchOptions& options) : result_(result), options_(options), wishes_(options.wishes) {}
+    Benchmark(Bench& result, const BenchOptions& options)
+        : result_(result), options_(options), wishes_(options.wishes) {}
 
     void run() {
         const Mechanism& m = result_.mechanism;
@@ -151,11 +163,12 @@ public:
                              .parameters = start_.parameters,
                              .initial = initial,
                              .conserved = energy.conserved});
-        const Options options{.start = start_.t,
-                              .duration = duration,
-                              .longest_step = longest_step(wishes_, start_),
-                              .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
-                              .budget = wishes_.budget};
+        const Options options{
+            .start = start_.t,
+            .duration = duration,
+            .longest_step = longest_step(wishes_, start_),
+            .quick_times = quick_times(program, start_.parameters, start_.t, start_.t + duration),
+            .budget = wishes_.budget};
         find_reference(program, workbench, options, first);
         workbench.set_reference(result_.reference.final);
         measure(workbench, options, c);
@@ -182,10 +195,13 @@ private:
         result_.runs = std::move(bounces.runs);
     }
 
-    void find_reference(const Program& program, Workbench& workbench, const Options& options, const State<double>& first) {
-        const std::optional<double> duration = wishes_.duration >= 0 ? std::optional(options.duration) : std::nullopt;
+    void find_reference(const Program& program, Workbench& workbench, const Options& options,
+                        const State<double>& first) {
+        const std::optional<double> duration =
+            wishes_.duration >= 0 ? std::optional(options.duration) : std::nullopt;
         result_.exact = reference(program, quad_start(result_.mechanism, result_.equations, start_, duration),
-                                  {.seconds = options_.reference_seconds, .progress = [&](double part) { tell("computing the reference", part); }});
+                                  {.seconds = options_.reference_seconds,
+                                   .progress = [&](double part) { tell("computing the reference", part); }});
         if (result_.exact) {
             result_.reference = {{}, result_.exact->digits, result_.exact->by};
             for (const auto* list : {&result_.exact->coordinates, &result_.exact->rates})
@@ -200,11 +216,13 @@ private:
         easy.tolerance = 1e-9;
         const Measured trial = workbench.measure(easy);
         const std::optional<std::string> at_start = failure_at(result_, first);
-        throw IntegrationError(
-            fmt::format("no method reaches the end at a strict tolerance: there is nothing to measure against; {} at tolerance 1e-9: {}{}; a "
-                        "shorter duration ends before what stops it, a larger budget and more seconds for the reference let it take longer",
-                        trial.method, trial.failure.empty() ? "it does" : trial.failure, at_start ? ", there: " + *at_start : ""),
-            start_.t, start_.q);
+        throw IntegrationError(fmt::format("no method reaches the end at a strict tolerance: there is nothing to "
+                                           "measure against; {} at tolerance 1e-9: {}{}; a "
+                                           "shorter duration ends before what stops it, a larger budget and more "
+                                           "seconds for the reference let it take longer",
+                                           trial.method, trial.failure.empty() ? "it does" : trial.failure,
+                                           at_start ? ", there: " + *at_start : ""),
+                               start_.t, start_.q);
     }
 
     void measure(Workbench& workbench, const Options& options, const Compilation& c) {
@@ -223,25 +241,31 @@ private:
             if (!wishes_.method.empty() && name(methods[k]) != wishes_.method) continue;
             Options these = options;
             these.method = methods[k];
-            const auto at = [&](double part) { tell("measuring", (static_cast<double>(k) + part) / static_cast<double>(methods.size())); };
+            const auto at = [&](double part) {
+                tell("measuring", (static_cast<double>(k) + part) / static_cast<double>(methods.size()));
+            };
             for (Measured& run : ladder(workbench, these, each, guess, at)) result_.runs.push_back(std::move(run));
         }
     }
 
-    void measure_others(const Workbench& workbench, const Compilation& c, const std::vector<double>& initial, double duration) {
+    void measure_others(const Workbench& workbench, const Compilation& c, const std::vector<double>& initial,
+                        double duration) {
         std::vector<double> tolerances;
-        for (int decade = first_decade; decade <= last_decade; ++decade) tolerances.push_back(std::pow(10.0, -decade));
-        const Peers peers = measure_peers({.object = c.compiled.object,
-                                           .parameters = start_.parameters,
-                                           .initial = initial,
-                                           .start = start_.t,
-                                           .duration = duration,
-                                           .tolerances = tolerances,
-                                           .most_seconds = most_seconds},
-                                          [&](const std::vector<double>& state) {
-                                              return error_against(result_.reference.final, coordinates_and_rates(workbench.rhs(), result_.end, state.data(),
-                                                                                                                  start_.q.size()));
-                                          });
+        for (int decade = first_decade; decade <= last_decade; ++decade)
+            tolerances.push_back(std::pow(10.0, -decade));
+        const Peers peers = measure_peers(
+            {.object = c.compiled.object,
+             .parameters = start_.parameters,
+             .initial = initial,
+             .start = start_.t,
+             .duration = duration,
+             .tolerances = tolerances,
+             .most_seconds = most_seconds},
+            [&](const std::vector<double>& state) {
+                return error_against(
+                    result_.reference.final,
+                    coordinates_and_rates(workbench.rhs(), result_.end, state.data(), start_.q.size()));
+            });
         if (!peers.missing.empty()) result_.warnings.push_back("no peers: " + peers.missing + "\n");
         result_.runs.insert(result_.runs.end(), peers.runs.begin(), peers.runs.end());
     }
@@ -257,8 +281,10 @@ private:
 Bench bench(Scene scene, const BenchOptions& options) {
     const std::string& method = options.wishes.method;
     if (!method.empty() && !method_named(method))
-        throw ModelError(fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are measured as peers)",
-                                     method, method_names()));
+        throw ModelError(
+            fmt::format("method '{}' is none that bench measures; expected {} (those of SUNDIALS and others are "
+                        "measured as peers)",
+                        method, method_names()));
     Bench result{derived(std::move(scene), {.by = options.wishes.by, .use = Use::run})};
     Benchmark(result, options).run();
     return result;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `bench`: speed against error, every method over a range of tolerances against a reference of higher precision.
+/// The verb `bench`: speed against error, every method over a range of tolerances against a reference of higher
+/// precision.
 ///
 ///     const Bench measured = bench(read_scene("scenes/benchmark/pleiades.toml"), {.wishes = {.duration = 3}});
 ///     measured.runs[0].error, measured.runs[0].seconds;
@@ -14,9 +15,9 @@
 namespace alembert {
 
 struct BenchOptions {
-    RunOptions wishes = {};          ///< a method: that one alone
-    bool peers = false;              ///< other people's integrators too
-    double reference_seconds = 30;   ///< processor time for each of the reference's methods
+    RunOptions wishes = {};         ///< a method: that one alone
+    bool peers = false;             ///< other people's integrators too
+    double reference_seconds = 30;  ///< processor time for each of the reference's methods
 };
 
 /// What runs are held against.
@@ -31,12 +32,13 @@ struct Bench : Derived {
     Judgement reference = {};
     std::vector<std::string> coordinates = {}, speeds = {};
     std::string formulation = {};
-    int operations = 0;              ///< of one right-hand side
-    double end = 0;                  ///< time of the end, s
+    int operations = 0;  ///< of one right-hand side
+    double end = 0;      ///< time of the end, s
     std::vector<Measured> runs = {};
 };
 
-/// Throws what `derived` throws; ModelError for a method that is not measured; IntegrationError where nothing reaches the end.
+/// Throws what `derived` throws; ModelError for a method that is not measured; IntegrationError where nothing
+/// reaches the end.
 Bench bench(Scene scene, const BenchOptions& options = {});
 
 }  // namespace alembert

@@ -38,7 +38,9 @@ std::vector<double> kicks_of(const PhasedMotion& motion) {
 /// Infinite where one lacks a release, a coming to rest or a kick.
 double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
     double largest = 0;
-    const auto states = [&](const std::vector<double>& a, const std::vector<double>& b) { largest = std::max(largest, error_against(b, a)); };
+    const auto states = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        largest = std::max(largest, error_against(b, a));
+    };
     const std::vector<double> kicks = kicks_of(motion), expected = kicks_of(reference);
     if (kicks.size() != expected.size()) return HUGE_VAL;
     states(kicks, expected);
@@ -59,22 +61,29 @@ double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
 
 }  // namespace
 
-Bounces measured_bounces(const RunOptions& request, const Derived& d, const Start& start, const State<double>& first) {
+Bounces measured_bounces(const RunOptions& request, const Derived& d, const Start& start,
+                         const State<double>& first) {
     const ContactView view(d.mechanism);
     const KickView kicks(d.mechanism);
     const Contacts contacts = contacts_of(d, start, view, kicks);
     const MethodChoice choice;  // for its compilation: methods that need nothing else are measured
-    Modes modes(request, d, start, first, Work::left_out, choice, [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
+    Modes modes(request, d, start, first, Work::left_out, choice,
+                [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
-    Options options{.start = start.t, .duration = request.duration >= 0 ? request.duration : start.duration, .longest_step = longest_step(request, start), .budget = request.budget};
+    Options options{.start = start.t,
+                    .duration = request.duration >= 0 ? request.duration : start.duration,
+                    .longest_step = longest_step(request, start),
+                    .budget = request.budget};
     options.sample = options.duration > 0 ? options.duration : 1;
     double seconds = 0;
     const auto run = [&](Method method, double tolerance) {
         options.method = method;
         options.tolerance = tolerance;
         const double before = thread_seconds();
-        PhasedMotion motion = follow(contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, initial, options);
+        PhasedMotion motion = follow(
+            contacts, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
+            initial, options);
         seconds = thread_seconds() - before;
         return motion;
     };
@@ -83,16 +92,21 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     if (reference.failure) throw_failure(*reference.failure);
     Bounces result;
     result.end = reference.final_time();
-    result.final = coordinates_and_rates(modes({}).contact.rhs, result.end, reference.final_state().data(), start.q.size());
+    result.final =
+        coordinates_and_rates(modes({}).contact.rhs, result.end, reference.final_state().data(), start.q.size());
     const double agreement = other.failure ? HUGE_VAL : apart(other, reference);
     result.digits = agreement < 1 ? static_cast<int>(std::floor(-std::log10(std::max(agreement, 1e-16)))) : 0;
-    result.by = "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses";
-    constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98, Method::abm, Method::bdf, Method::radau};
+    result.by =
+        "verner98 and dop853 at tolerance 1e-13, doubles: states at the end and times of contacts and impulses";
+    constexpr std::array methods = {Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
+                                    Method::abm,    Method::bdf,    Method::radau};
     for (std::size_t k = 0; k < methods.size(); ++k) {
         const Method method = methods[k];
         if (!request.method.empty() && name(method) != request.method) continue;
         for (int decade = 3; decade <= 13; ++decade) {
-            if (request.progress) request.progress("measuring", (static_cast<double>(k) + (decade - 3) / 11.0) / static_cast<double>(methods.size()));
+            if (request.progress)
+                request.progress("measuring", (static_cast<double>(k) + (decade - 3) / 11.0) /
+                                                  static_cast<double>(methods.size()));
             Measured one{.method = std::string(name(method)), .tolerance = std::pow(10.0, -decade)};
             std::vector<double> all;
             PhasedMotion motion;

@@ -6,9 +6,10 @@
 ///     const Bounces bounces = measured_bounces(request, derived, start, first);
 ///     bounces.runs[0].error;
 ///
-/// `error` is the largest of: |y − reference| / max(1, |reference|) at the end, and the same of the times of impacts (those that both runs
-/// have: a loose run lays a ball down earlier), of releases, of comings to rest, of kicks and of the end. The reference is the strictest run of one method, in
-/// doubles; the digits are those in which another method agrees. Seconds: processor time of the whole run, impacts included.
+/// `error` is the largest of: |y − reference| / max(1, |reference|) at the end, and the same of the times of
+/// impacts (those that both runs have: a loose run lays a ball down earlier), of releases, of comings to rest, of
+/// kicks and of the end. The reference is the strictest run of one method, in doubles; the digits are those in
+/// which another method agrees. Seconds: processor time of the whole run, impacts included.
 
 #include "run/measure.hpp"
 #include "run/options.hpp"
@@ -24,6 +25,7 @@ struct Bounces {
 };
 
 /// Throws IntegrationError where no run comes to the end.
-Bounces measured_bounces(const RunOptions& request, const Derived& derived, const Start& start, const State<double>& first);
+Bounces measured_bounces(const RunOptions& request, const Derived& derived, const Start& start,
+                         const State<double>& first);
 
 }  // namespace alembert

@@ -10,7 +10,8 @@ namespace alembert {
 using GiNaC::ex;
 
 std::optional<std::string> not_canonical(const Derived& d) {
-    if (!d.equations.speeds_are_rates()) return "the equations are in generalized speeds (the formalism 'routh' has them in rates)";
+    if (!d.equations.speeds_are_rates())
+        return "the equations are in generalized speeds (the formalism 'routh' has them in rates)";
     for (const Mechanism::Constraint& c : d.mechanism.constraints)
         if (!c.position) return fmt::format("the constraint '{}' is one of rates", c.name);
     return std::nullopt;
@@ -18,8 +19,10 @@ std::optional<std::string> not_canonical(const Derived& d) {
 
 void need_canonical(const Derived& d, std::string_view method) {
     if (const auto why = not_canonical(d))
-        throw ModelError(fmt::format("method '{}' needs coordinates with their rates and holonomic constraints, but {}; take gauss or dop853",
-                                     method, *why));
+        throw ModelError(
+            fmt::format("method '{}' needs coordinates with their rates and holonomic constraints, but {}; take "
+                        "gauss or dop853",
+                        method, *why));
 }
 
 Program canonical_form(const Derived& d) {
@@ -56,8 +59,14 @@ Program canonical_form(const Derived& d) {
     const std::vector<int> nodes = lower_expressions(program, m, wanted);
     for (std::size_t k = 0; k < nodes.size(); ++k) program.roots.push_back({Group::output, names[k], nodes[k]});
     const int zero = program.number(0);
-    for (const auto& [group, count] : {std::pair{Group::mass, n * (n + 1) / 2}, {Group::forcing, n}, {Group::acceleration, n}, {Group::kinetic, 1},
-                                       {Group::potential, 1}, {Group::energy, 1}, {Group::power, 1}, {Group::jacobi, 1}})
+    for (const auto& [group, count] : {std::pair{Group::mass, n * (n + 1) / 2},
+                                       {Group::forcing, n},
+                                       {Group::acceleration, n},
+                                       {Group::kinetic, 1},
+                                       {Group::potential, 1},
+                                       {Group::energy, 1},
+                                       {Group::power, 1},
+                                       {Group::jacobi, 1}})
         for (int k = 0; k < count; ++k) program.roots.push_back({group, "", zero});
     return program.canonical();
 }

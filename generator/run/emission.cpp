@@ -8,7 +8,9 @@ Emission emission(Scene scene, const EmissionOptions& options) {
     e.choice = lowered(e, options.fold);
     if (options.jacobian) {
         e.derivatives = differentiated(e.choice.program, {.parameters = true, .power = true});
-        if (!e.derivatives) throw ModelError("the derivatives of the right-hand side are too long to be written out; leave the Jacobian out");
+        if (!e.derivatives)
+            throw ModelError(
+                "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out");
     }
     e.source = emit(e.derivatives ? e.derivatives->program : e.choice.program, {.batch = options.batch});
     return e;

@@ -27,7 +27,8 @@ struct Emission : Derived {
     Source source = {};
 };
 
-/// Throws what `derived` throws; ModelError for a singular system, and for derivatives that are too long to be written out.
+/// Throws what `derived` throws; ModelError for a singular system, and for derivatives that are too long to be
+/// written out.
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

@@ -18,7 +18,8 @@ struct Separation {
 
 double apart(std::span<const double> a, std::span<const double> b, std::size_t compared) {
     double largest = 0;
-    for (std::size_t i = 0; i < compared; ++i) largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1.0, std::abs(b[i])));
+    for (std::size_t i = 0; i < compared; ++i)
+        largest = std::max(largest, std::abs(a[i] - b[i]) / std::max(1.0, std::abs(b[i])));
     return largest;
 }
 
@@ -44,7 +45,8 @@ std::vector<double> extents(const PhasedMotion& motion, const Components& compar
     for (std::size_t i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(2 * compared.kinds[i]);
         const double steady = i < n ? size[k] : duration > 0 ? size[k] / duration : 0;
-        result[i] = std::max({moved[i < n ? k : k + 1], of_kind * steady, of_all * largest[i < n ? 0 : 1], of_one});
+        result[i] =
+            std::max({moved[i < n ? k : k + 1], of_kind * steady, of_all * largest[i < n ? 0 : 1], of_one});
     }
     return result;
 }
@@ -82,7 +84,8 @@ std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b
     const auto rows = [](const PhasedMotion& motion) {
         std::vector<Row> list;
         for (const Phase& phase : motion.phases)
-            for (std::size_t k = 0; k < phase.motion.rows(); ++k) list.push_back({phase.motion.times[k], phase.motion.state(k)});
+            for (std::size_t k = 0; k < phase.motion.rows(); ++k)
+                list.push_back({phase.motion.times[k], phase.motion.state(k)});
         return list;
     };
     const std::vector<Row> left = rows(a), right = rows(b);
@@ -121,8 +124,8 @@ std::optional<double> exponent(std::vector<Separation> list) {
 
 }  // namespace
 
-ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& given, const std::vector<double>& initial,
-                             const Components& components) {
+ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& given,
+                             const std::vector<double>& initial, const Components& components) {
     constexpr long few_steps = 16;
     const std::size_t compared = components.kinds.size();
     Options options = given;
@@ -137,7 +140,8 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
             options.tolerance = std::max(given.tolerance * factor, 1e-15);
         if (!fixed && options.tolerance == given.tolerance) continue;
         second = run(options, initial);
-        const bool stopped = motion.ending == Ending::stopped_by_event && second->ending == motion.ending;  // at times of their own
+        const bool stopped =
+            motion.ending == Ending::stopped_by_event && second->ending == motion.ending;  // at times of their own
         if (second->ending != Ending::failed && later(*second, motion) <= (stopped ? no_digit : 1e-6)) break;
         second.reset();
     }
@@ -145,8 +149,10 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
         estimate.by = "no second run came to the same end";
         return estimate;
     }
-    estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step) : fmt::format("a second run at tolerance {:g}", options.tolerance);
-    estimate.value = std::max(apart(motion.final_state(), second->final_state(), compared), later(*second, motion));
+    estimate.by = fixed ? fmt::format("a second run with step {:g}", options.step)
+                        : fmt::format("a second run at tolerance {:g}", options.tolerance);
+    estimate.value =
+        std::max(apart(motion.final_state(), second->final_state(), compared), later(*second, motion));
     std::vector<double> extent = extents(motion, components);
     const std::vector<double> other = extents(*second, components);
     for (std::size_t i = 0; i < extent.size(); ++i) extent[i] = std::min(extent[i], other[i]);
@@ -157,7 +163,9 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
     if (fixed && motion.statistics.steps < few_steps) {
         options.step /= 2;
         const PhasedMotion finer = run(options, initial);
-        if (finer.ending != Ending::failed) estimate.scaled = std::max(*estimate.scaled, apart_of(motion.final_state(), finer.final_state(), extent));
+        if (finer.ending != Ending::failed)
+            estimate.scaled =
+                std::max(*estimate.scaled, apart_of(motion.final_state(), finer.final_state(), extent));
     }
     if (*estimate.value < (fixed ? 1e-6 : suspicious * given.tolerance)) return estimate;
 
@@ -173,7 +181,8 @@ ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const
             estimate.horizon = s.time;
             break;
         }
-    if (!estimate.horizon) estimate.horizon = motion.final_time() + std::log(no_digit / *estimate.value) / *estimate.lyapunov;
+    if (!estimate.horizon)
+        estimate.horizon = motion.final_time() + std::log(no_digit / *estimate.value) / *estimate.lyapunov;
     return estimate;
 }
 

@@ -5,7 +5,8 @@
 ///
 ///     const ErrorEstimate estimate = error_estimate(motion, run, options, initial, kinds);
 ///     estimate.value;          // max |y − y₂| / max(1, |y₂|) of coordinates and speeds at the end
-///     estimate.scaled;         // max |y − y₂| / (how far components of its kind move), which sees a small motion too
+///     estimate.scaled;         // max |y − y₂| / (how far components of its kind move), which sees a small motion
+///     too
 ///
 /// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and
 /// the largest |u| of their speeds, in the run that moves less. No motion counts as smaller than what rounding may
@@ -35,8 +36,8 @@ namespace alembert {
 struct ErrorEstimate {
     std::optional<double> value;  ///< nothing where no second run came to the end
     std::string by;
-    std::optional<double> scaled;             ///< likewise
-    double moved = 0;                         ///< the largest |y − y(0)| of a coordinate on the rows; 0 where that is rounding
+    std::optional<double> scaled;  ///< likewise
+    double moved = 0;  ///< the largest |y − y(0)| of a coordinate on the rows; 0 where that is rounding
     std::optional<double> lyapunov, horizon;  ///< only where errors grow exponentially
 };
 
@@ -48,7 +49,7 @@ struct Components {
     std::vector<int> kinds = {};  ///< a number for each; equal where they have a unit in common
 };
 
-ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& options, const std::vector<double>& initial,
-                             const Components& compared);
+ErrorEstimate error_estimate(const PhasedMotion& motion, const Rerun& run, const Options& options,
+                             const std::vector<double>& initial, const Components& compared);
 
 }  // namespace alembert

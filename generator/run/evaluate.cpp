@@ -34,7 +34,8 @@ std::vector<double> values_of(const Program& program, const std::vector<double>&
 /// The accelerations at a state, or the reason why there are none.
 std::vector<double> accelerations_at(const Derived& d, const Program& program, const State<double>& state) {
     std::vector<double> result = values_of(program, interpret(program, state), Group::acceleration);
-    if (massless_combination(program, state) || !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
+    if (massless_combination(program, state) ||
+        !std::all_of(result.begin(), result.end(), [](double a) { return std::isfinite(a); }))
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", state.t,
                                            failure_at(d, state).value_or("the numbers overflow")),
                                state.t, state.q);
@@ -54,7 +55,8 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
 }  // namespace
 
 Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
-    Evaluation e{derived(std::move(scene), {.by = options.by, .use = Use::asked, .reactions = options.reactions, .at = options.at})};
+    Evaluation e{derived(std::move(scene),
+                         {.by = options.by, .use = Use::asked, .reactions = options.reactions, .at = options.at})};
     Start start = start_of(e.mechanism, options.at);
     e.adjusted = assemble(start, e.mechanism, lower_constraints(e.mechanism), options.at);
     State<double> state = state_of(start, e.mechanism, e.equations);
@@ -79,17 +81,21 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
     e.multipliers = named_values(program, value, Group::multiplier);
     for (const Mechanism::Unilateral& contact : m.unilateral) {
         const std::string name = contact.gap.multiplier.get_name();
-        if (std::none_of(e.multipliers.begin(), e.multipliers.end(), [&](const auto& known) { return known.first == name; }))
+        if (std::none_of(e.multipliers.begin(), e.multipliers.end(),
+                         [&](const auto& known) { return known.first == name; }))
             e.multipliers.emplace_back(name, 0.0);  // open
     }
     e.kinetic = single(Group::kinetic);
     e.potential = single(Group::potential);
     e.energy = single(Group::energy);
-    const std::vector<double> position = values_of(program, value, Group::position), velocity = values_of(program, value, Group::velocity);
-    for (std::size_t k = 0; k < position.size(); ++k) e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
+    const std::vector<double> position = values_of(program, value, Group::position),
+                              velocity = values_of(program, value, Group::velocity);
+    for (std::size_t k = 0; k < position.size(); ++k)
+        e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
     e.outputs = named_values(program, value, Group::output);
     if (options.reactions) {
-        for (const ReactionOutput& r : e.reaction_outputs) e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
+        for (const ReactionOutput& r : e.reaction_outputs)
+            e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
         if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).at(program, state);
     }
     return e;

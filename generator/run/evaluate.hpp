@@ -3,8 +3,8 @@
 
 /// The verb `eval`: one evaluation of a scene, at its initial state or another. No compiler is needed.
 ///
-///     const Evaluation at = evaluate(read_scene("scenes/textbook/double_pendulum.toml"), {.at = {{"theta1", 0.3}}});
-///     at.accelerations[0];     // rad/s², of at.coordinates[0]
+///     const Evaluation at = evaluate(read_scene("scenes/textbook/double_pendulum.toml"), {.at = {{"theta1",
+///     0.3}}}); at.accelerations[0];     // rad/s², of at.coordinates[0]
 
 #include <array>
 #include <optional>
@@ -27,22 +27,23 @@ struct Evaluation : Derived {
     std::vector<std::string> coordinates = {};
     std::vector<double> q = {}, rates = {}, accelerations = {};
     Named speeds = {}, speed_rates = {};  ///< of the scene's generalized speeds; empty where there are none
-    Named multipliers = {};          ///< of open contacts too, where they are 0
+    Named multipliers = {};               ///< of open contacts too, where they are 0
     double kinetic = 0, potential = 0, energy = 0;
-    std::vector<std::pair<std::string, std::array<double, 2>>> residuals = {};  ///< of each constraint: position, velocity
+    std::vector<std::pair<std::string, std::array<double, 2>>> residuals =
+        {};                                               ///< of each constraint: position, velocity
     std::optional<std::vector<std::string>> closed = {};  ///< unilateral contacts that are closed and stay so
-    std::vector<std::string> adjusted = {};               ///< in words, what was moved so that the constraints hold
+    std::vector<std::string> adjusted = {};  ///< in words, what was moved so that the constraints hold
     Named outputs = {};
     struct Reaction {
         std::string constraint, coordinate;
         double force;
     };
-    std::vector<Reaction> reactions = {};      ///< where they were asked for
-    std::vector<JointLoad> joint_loads = {};   ///< likewise
+    std::vector<Reaction> reactions = {};     ///< where they were asked for
+    std::vector<JointLoad> joint_loads = {};  ///< likewise
 };
 
-/// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is negative;
-/// IntegrationError where the accelerations are not finite, with the reason in terms of the scene.
+/// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is
+/// negative; IntegrationError where the accelerations are not finite, with the reason in terms of the scene.
 Evaluation evaluate(Scene scene, const EvaluateOptions& options = {});
 
 }  // namespace alembert

@@ -17,17 +17,21 @@ constexpr std::string_view cvode = "cvode", ida = "ida";
 /// Beside this program; it stays open to the end.
 const Backend& backend(std::string_view method) {
     std::error_code failed;
-    const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / "alembert-sundials.so";
+    const std::filesystem::path beside =
+        std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / "alembert-sundials.so";
     if (failed || !std::filesystem::exists(beside))
-        throw CompileError(fmt::format("method '{}' needs SUNDIALS, with which this program was not built; install libsundials-dev (Debian) and build "
-                                       "again, or take bdf or radau",
-                                       method));
+        throw CompileError(
+            fmt::format("method '{}' needs SUNDIALS, with which this program was not built; install "
+                        "libsundials-dev (Debian) and build "
+                        "again, or take bdf or radau",
+                        method));
     static const ObjectFile file(beside);
     using Function = const Backend* (*)();
     const auto function = reinterpret_cast<Function>(file.find(backend_function));
     const Backend* const found = function != nullptr ? function() : nullptr;
     if (found == nullptr || found->version != backend_version)
-        throw CompileError(fmt::format("{} belongs to another version of this program; build both again", beside.string()));
+        throw CompileError(
+            fmt::format("{} belongs to another version of this program; build both again", beside.string()));
     return *found;
 }
 
@@ -43,10 +47,12 @@ void need_foreign(const Derived& d, std::string_view method) {
     };
     if (!d.mechanism.unilateral.empty()) refuse("contacts ([[unilateral]])");
     if (!d.mechanism.events.empty()) refuse("events ([[event]])");
-    if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty()) refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");
+    if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty())
+        refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");
 }
 
-Integrator foreign_integrator(std::string_view method, const Module& module, const std::vector<double>& parameters) {
+Integrator foreign_integrator(std::string_view method, const Module& module,
+                              const std::vector<double>& parameters) {
     const Backend& own = backend(method);
     return (method == ida ? own.ida : own.cvode)(module, parameters);
 }

@@ -16,10 +16,12 @@ namespace alembert {
 
 bool is_foreign(std::string_view method);
 
-/// Throws ModelError for a scene that they do not follow: contacts, events that stop; for ida, speeds with constraints.
+/// Throws ModelError for a scene that they do not follow: contacts, events that stop; for ida, speeds with
+/// constraints.
 void need_foreign(const Derived& derived, std::string_view method);
 
 /// Throws CompileError where this build has no SUNDIALS.
-Integrator foreign_integrator(std::string_view method, const Module& module, const std::vector<double>& parameters);
+Integrator foreign_integrator(std::string_view method, const Module& module,
+                              const std::vector<double>& parameters);
 
 }  // namespace alembert

@@ -16,7 +16,8 @@ std::vector<double> Grid::point(std::size_t k) const {
         const std::size_t step = k % axis.count, last = axis.count - 1;
         values[i] = step == 0      ? axis.from
                     : step == last ? axis.to
-                                   : axis.from + (axis.to - axis.from) * static_cast<double>(step) / static_cast<double>(last);
+                                   : axis.from + (axis.to - axis.from) * static_cast<double>(step) /
+                                                     static_cast<double>(last);
         k /= axis.count;
     }
     return values;

@@ -40,9 +40,11 @@ Affine affine(const Program& program, State<double> state) {
         return v;
     };
     state.qddot.assign(state.q.size(), 0);
-    Affine result{.M = Eigen::MatrixXd(n, n), .A = {}, .minus_f = vector(Group::load), .gamma = vector(Group::gamma)};
+    Affine result{
+        .M = Eigen::MatrixXd(n, n), .A = {}, .minus_f = vector(Group::load), .gamma = vector(Group::gamma)};
     const Eigen::VectorXd rows = vector(Group::row);
-    result.A = Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(rows.data(), result.gamma.size(), n);
+    result.A =
+        Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(rows.data(), result.gamma.size(), n);
     for (Eigen::Index j = 0; j < n; ++j) {
         std::fill(state.qddot.begin(), state.qddot.end(), 0);
         state.qddot[static_cast<std::size_t>(j)] = 1;
@@ -51,8 +53,10 @@ Affine affine(const Program& program, State<double> state) {
     return result;
 }
 
-/// The loads act along the coordinates whose accelerations are given, if these are not more than the freedom; the others follow.
-Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& given, double t, const std::vector<double>& q) {
+/// The loads act along the coordinates whose accelerations are given, if these are not more than the freedom; the
+/// others follow.
+Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& given, double t,
+                   const std::vector<double>& q) {
     const Eigen::Index n = s.M.rows(), m = s.A.rows();
     Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n + m, n + m);  // of (τ or q'' for each coordinate, λ)
     Eigen::VectorXd right(n + m);
@@ -70,7 +74,10 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
     S.topRightCorner(n, m) = -s.A.transpose();
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(S);
     if (!lu.isInvertible())
-        throw IntegrationError("loads along the coordinates whose accelerations are given do not determine the motion at this pose; give the accelerations of others, or of all", t, q);
+        throw IntegrationError(
+            "loads along the coordinates whose accelerations are given do not determine the motion at this pose; "
+            "give the accelerations of others, or of all",
+            t, q);
     const Eigen::VectorXd x = lu.solve(right);
     Loads result{x.head(n), Eigen::VectorXd::Zero(n), x.tail(m)};
     for (Eigen::Index j = 0; j < n; ++j)
@@ -81,24 +88,36 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
 /// All accelerations are known; of the loads that bring them about with the constraints' help the least.
 Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
     for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
-        const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()), off = s.A.row(k).dot(a) - s.gamma[k];
+        const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()),
+                     off = s.A.row(k).dot(a) - s.gamma[k];
         if (std::abs(off) > consistent * std::max(1.0, size))
-            throw ModelError(fmt::format("the accelerations given break constraint '{}', by {:.3g}; give those of as many coordinates as there are degrees of freedom, {}, and the others follow",
-                                         m.constraints[static_cast<std::size_t>(k)].name, off, m.size() - static_cast<int>(m.constraints.size())));
+            throw ModelError(
+                fmt::format("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
+                            "coordinates as there are degrees of freedom, {}, and the others follow",
+                            m.constraints[static_cast<std::size_t>(k)].name, off,
+                            m.size() - static_cast<int>(m.constraints.size())));
     }
     const Eigen::VectorXd whole = s.M * a + s.minus_f;
-    const Eigen::VectorXd lambda = s.A.rows() > 0 ? Eigen::VectorXd(least_norm(s.A.transpose(), whole).x) : Eigen::VectorXd();
+    const Eigen::VectorXd lambda =
+        s.A.rows() > 0 ? Eigen::VectorXd(least_norm(s.A.transpose(), whole).x) : Eigen::VectorXd();
     return {a, s.A.rows() > 0 ? Eigen::VectorXd(whole - s.A.transpose() * lambda) : whole, lambda};
 }
 
-Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given, const Mechanism& m, const Start& start) {
-    const auto n = given.size(), count = static_cast<std::size_t>(std::count_if(given.begin(), given.end(), [](const auto& a) { return a.has_value(); }));
+Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given, const Mechanism& m,
+                const Start& start) {
+    const auto n = given.size(), count = static_cast<std::size_t>(std::count_if(
+                                     given.begin(), given.end(), [](const auto&a) { return a.has_value(); }));
     const std::size_t freedom = n - m.constraints.size();
-    if (!m.constraints.empty() && count > 0 && count <= freedom && count < n) return partly_given(s, given, start.t, start.q);
+    if (!m.constraints.empty() && count > 0 && count <= freedom && count < n)
+        return partly_given(s, given, start.t, start.q);
     if (!m.constraints.empty() && count > 0 && count < n)
-        throw ModelError(fmt::format("the accelerations of {} coordinates are given; expected those of {} or fewer, the degrees of freedom, or of all {}", count, freedom, n));
+        throw ModelError(
+            fmt::format("the accelerations of {} coordinates are given; expected those of {} or fewer, the "
+                        "degrees of freedom, or of all {}",
+                        count, freedom, n));
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
-    if (count == 0 && !m.constraints.empty()) a = least_norm(s.A, s.gamma).x;  // the least that the constraints allow
+    if (count == 0 && !m.constraints.empty())
+        a = least_norm(s.A, s.gamma).x;  // the least that the constraints allow
     for (std::size_t j = 0; j < n; ++j)
         if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
     return all_given(s, a, m);
@@ -114,7 +133,8 @@ std::vector<std::optional<double>> take_accelerations(Overrides& at, const Mecha
         const auto found = std::find(known.begin(), known.end(), name);
         if (found == known.end()) {
             const std::string meant = nearest(name, known);
-            throw ModelError(fmt::format("no coordinate has the acceleration {}{}", name, meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+            throw ModelError(fmt::format("no coordinate has the acceleration {}{}", name,
+                                         meant.empty() ? "" : "; did you mean '" + meant + "'?"));
         }
         if (!std::isfinite(value)) throw ModelError(fmt::format("{} = {}: expected a finite number", name, value));
         given[static_cast<std::size_t>(found - known.begin())] = value;
@@ -144,7 +164,8 @@ InverseLoads inverse(Scene scene, const InverseOptions& options) {
     result.accelerations.assign(loads.acceleration.begin(), loads.acceleration.end());
     result.loads.assign(loads.load.begin(), loads.load.end());
     for (std::size_t k = 0; k < m.constraints.size(); ++k)
-        result.multipliers.emplace_back(m.constraints[k].multiplier.get_name(), loads.multiplier[static_cast<Eigen::Index>(k)]);
+        result.multipliers.emplace_back(m.constraints[k].multiplier.get_name(),
+                                        loads.multiplier[static_cast<Eigen::Index>(k)]);
     return result;
 }
 

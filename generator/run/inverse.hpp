@@ -3,8 +3,8 @@
 
 /// The verb `inverse`: the loads along the coordinates that given accelerations need.
 ///
-///     const InverseLoads needed = inverse(read_scene("scenes/gallery/six_joint_arm.toml"), {.at = {{"q1''", 2}, {"q1", 0.3}}});
-///     needed.loads[0];      // N m, along needed.coordinates[0]
+///     const InverseLoads needed = inverse(read_scene("scenes/gallery/six_joint_arm.toml"), {.at = {{"q1''", 2},
+///     {"q1", 0.3}}}); needed.loads[0];      // N m, along needed.coordinates[0]
 
 #include "derive/derived.hpp"
 
@@ -22,10 +22,10 @@ struct InverseLoads : Derived {
     std::vector<std::pair<std::string, double>> multipliers = {};
 };
 
-/// M q'' = f + Aᵀλ + τ with A q'' = γ, for the loads τ. Accelerations that are not given follow from those that are (as many as there
-/// are degrees of freedom, or fewer), or are 0; without constraints. Where all are given, the loads are the least that bring them about.
-/// Throws ModelError for accelerations of unknown names and for those that break a constraint; IntegrationError where the
-/// given ones do not determine the motion.
+/// M q'' = f + Aᵀλ + τ with A q'' = γ, for the loads τ. Accelerations that are not given follow from those that
+/// are (as many as there are degrees of freedom, or fewer), or are 0; without constraints. Where all are given,
+/// the loads are the least that bring them about. Throws ModelError for accelerations of unknown names and for
+/// those that break a constraint; IntegrationError where the given ones do not determine the motion.
 InverseLoads inverse(Scene scene, const InverseOptions& options);
 
 }  // namespace alembert

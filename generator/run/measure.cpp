@@ -38,7 +38,8 @@ Workbench::Workbench(Parts parts)
     if (parts_.series_with_work) with_work_.series = make_series(parts_.series_with_work, parts_.parameters);
     rhs_.canonical = with_work_.canonical = parts_.canonical;
     const Mechanism& m = parts_.derived.mechanism;
-    if (!m.constraints.empty()) rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
+    if (!m.constraints.empty())
+        rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
     if (!m.constraints.empty()) return;  // their forces change the momenta
     const std::vector<int> cyclic = cyclic_coordinates(m);
     if (cyclic.empty()) return;
@@ -52,8 +53,11 @@ std::vector<double> Workbench::momenta(double t, const double* state, const Rhs&
     const std::size_t n = parts_.derived.mechanism.q.size();
     const std::vector<double> now = coordinates_and_rates(rhs, t, state, n);
     const auto middle = now.begin() + static_cast<std::ptrdiff_t>(n);
-    const std::vector<double> values = interpret<double>(
-        momentum_program_, {.parameters = parts_.parameters, .t = t, .q = {now.begin(), middle}, .qdot = {middle, now.end()}, .qddot = {}});
+    const std::vector<double> values = interpret<double>(momentum_program_, {.parameters = parts_.parameters,
+                                                                             .t = t,
+                                                                             .q = {now.begin(), middle},
+                                                                             .qdot = {middle, now.end()},
+                                                                             .qddot = {}});
     std::vector<double> result;
     for (const int id : momentum_nodes_) result.push_back(values[static_cast<std::size_t>(id)]);
     return result;
@@ -64,7 +68,8 @@ Measured Workbench::measure(Options options) {
     const bool constrained = !parts_.derived.mechanism.constraints.empty();
     if (constrained) options.project = projection_.after_steps();
     Measured result{.method = std::string(name(options.method))};
-    (has_fixed_step(options.method) ? result.step : result.tolerance) = has_fixed_step(options.method) ? options.step : options.tolerance;
+    (has_fixed_step(options.method) ? result.step : result.tolerance) =
+        has_fixed_step(options.method) ? options.step : options.tolerance;
     std::vector<double> seconds;
     double sum = 0;
     Trajectory motion;
@@ -74,7 +79,8 @@ Measured Workbench::measure(Options options) {
         seconds.push_back(motion.statistics.seconds);
         sum += seconds.back();
     } while (seconds.size() < 200 && sum < 0.3 && (seconds.size() < 3 || sum < 0.02));
-    std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2), seconds.end());
+    std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
+                     seconds.end());
     result.seconds = seconds[seconds.size() / 2];
     result.evaluations = motion.statistics.evaluations;
     result.steps = motion.statistics.steps;
@@ -85,9 +91,11 @@ Measured Workbench::measure(Options options) {
     const std::size_t n = parts_.derived.mechanism.q.size();
     const double end = motion.times.back();
     if (!parts_.reference.empty())
-        result.error = error_against(parts_.reference, coordinates_and_rates(rhs_, end, motion.final_state().data(), n));
+        result.error =
+            error_against(parts_.reference, coordinates_and_rates(rhs_, end, motion.final_state().data(), n));
     if (!momentum_nodes_.empty())
-        result.momentum_error = error_against(momenta(options.start, parts_.initial.data(), rhs_), momenta(end, motion.final_state().data(), rhs_));
+        result.momentum_error = error_against(momenta(options.start, parts_.initial.data(), rhs_),
+                                              momenta(end, motion.final_state().data(), rhs_));
     kept(options, result);
     return result;
 }
@@ -118,7 +126,8 @@ std::optional<std::vector<double>> Workbench::end_of(const Options& given) {
     projection_.forget();
     const Trajectory motion = integrate(rhs_, parts_.initial, options);
     if (motion.failure) return std::nullopt;
-    return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(), parts_.derived.mechanism.q.size());
+    return coordinates_and_rates(rhs_, motion.times.back(), motion.final_state().data(),
+                                 parts_.derived.mechanism.q.size());
 }
 
 }  // namespace alembert

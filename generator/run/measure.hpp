@@ -6,9 +6,10 @@
 ///     const Workbench workbench(derived, program, module, start, initial, reference_state);
 ///     const Measured run = workbench.measure({.method = Method::dop853, .duration = 10, .tolerance = 1e-9});
 ///
-/// `error` is the largest |y − reference| / max(1, |reference|) of coordinates and rates at the end. `seconds` is processor time
-/// of the integration alone, without rows, dense output or anything recorded: the median of as many runs as fit in 20 ms (three
-/// at least, one where it takes longer than 0.3 s). Drifts are those of a run of their own.
+/// `error` is the largest |y − reference| / max(1, |reference|) of coordinates and rates at the end. `seconds` is
+/// processor time of the integration alone, without rows, dense output or anything recorded: the median of as many
+/// runs as fit in 20 ms (three at least, one where it takes longer than 0.3 s). Drifts are those of a run of their
+/// own.
 
 #include <optional>
 
@@ -25,11 +26,12 @@ namespace alembert {
 struct Measured {
     std::string who = "alembert", method = {};
     std::optional<double> tolerance = {}, step = {};  ///< one of the two
-    std::optional<double> error = {};            ///< nothing where the run failed, or there is no reference
+    std::optional<double> error = {};                 ///< nothing where the run failed, or there is no reference
     double seconds = 0;
     long evaluations = 0, steps = 0;
-    std::optional<double> energy_drift = {}, constraint_error = {}, momentum_error = {};  ///< nothing where there is nothing to keep
-    bool work = false;      ///< energy_drift is that of E − E₀ − W
+    std::optional<double> energy_drift = {}, constraint_error = {},
+                          momentum_error = {};  ///< nothing where there is nothing to keep
+    bool work = false;                          ///< energy_drift is that of E − E₀ − W
     std::string failure = {};
 };
 
@@ -45,9 +47,9 @@ public:
         const Derived& derived;
         const Module& module;
         SeriesModule series = {}, series_with_work = {};  ///< null where methods that need them are not measured
-        std::shared_ptr<const Canonical> canonical = {};      ///< likewise
+        std::shared_ptr<const Canonical> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
-        bool conserved = true;  ///< the energy is
+        bool conserved = true;               ///< the energy is
         std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty
     };
     explicit Workbench(Parts parts);

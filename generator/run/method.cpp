@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "alembert/error.hpp"
+#include "program/recurrence.hpp"
 #include "run/canonical.hpp"
 #include "run/foreign.hpp"
 #include "run/separable.hpp"
-#include "program/recurrence.hpp"
 
 namespace alembert {
 
@@ -35,7 +35,8 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         const double steps = duration / step;
         if (steps >= many_steps && !inseparable(d))
             return {.method = Method::kahanli8,
-                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in {:.0f} steps the energy must "
+                    .why = fmt::format("a fixed step was asked for, forces depend on positions alone, and in "
+                                       "{:.0f} steps the energy must "
                                        "not drift",
                                        steps)};
         return {.method = Method::rk4, .why = "a fixed step was asked for"};
@@ -44,10 +45,13 @@ MethodChoice automatic(const RunOptions& request, const Derived& d, const Progra
         if (const auto products = products_of_series(program, d); products && *products <= most_products)
             return {.method = Method::taylor,
                     .when_stiff = Method::radau,
-                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at each order); if the system turns out "
+                    .why = fmt::format("the tolerance is {:g} and the motion has a power series ({:g} products at "
+                                       "each order); if the system turns out "
                                        "stiff, radau goes on",
                                        tolerance, *products)};
-    const Method method = tolerance > 1e-5 ? Method::dopri5 : tolerance >= 1e-12 ? Method::dop853 : Method::verner98;
+    const Method method = tolerance > 1e-5     ? Method::dopri5
+                          : tolerance >= 1e-12 ? Method::dop853
+                                               : Method::verner98;
     return {.method = method,
             .when_stiff = Method::radau,
             .why = fmt::format("the tolerance is {:g}; if the system turns out stiff, radau goes on", tolerance)};
@@ -63,8 +67,11 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& d) 
     const std::string given = name_given(request, d);
     if (given == "auto") return std::nullopt;
     const auto known = method_named(given);
-    if (is_foreign(given)) throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
-    if (!known) throw ModelError(fmt::format("unknown method '{}'; expected auto, {}; or cvode, ida", given, method_names()));
+    if (is_foreign(given))
+        throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
+    if (!known)
+        throw ModelError(
+            fmt::format("unknown method '{}'; expected auto, {}; or cvode, ida", given, method_names()));
     if (needs_separable(*known)) need_separable(d, given);
     if (needs_canonical(*known)) need_canonical(d, given);
     return known;
@@ -78,20 +85,27 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     }
     if (const auto given = given_method(request, d)) {
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
-            throw ModelError(fmt::format("--step {:g}: {} chooses its own steps; give --tolerance, or a method with fixed steps (rk4, gauss, kahanli8 …)", request.step, name));
+            throw ModelError(
+                fmt::format("--step {:g}: {} chooses its own steps; give --tolerance, or a method with fixed "
+                            "steps (rk4, gauss, kahanli8 …)",
+                            request.step, name));
         return {.method = *given};
     }
     return automatic(request, d, program, start);
 }
 
-double longest_step(const RunOptions& wishes, const Start& start) { return wishes.max_step >= 0 ? wishes.max_step : start.max_step; }
+double longest_step(const RunOptions& wishes, const Start& start) {
+    return wishes.max_step >= 0 ? wishes.max_step : start.max_step;
+}
 
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start) {
     const bool fixed = has_fixed_step(choice.method) && choice.foreign.empty();
     if (fixed && wishes.max_step >= 0)
-        throw ModelError(fmt::format("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose their steps (dop853, radau …) "
-                                     "take a longest one",
-                                     wishes.max_step, name(choice.method)));
+        throw ModelError(
+            fmt::format("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose "
+                        "their steps (dop853, radau …) "
+                        "take a longest one",
+                        wishes.max_step, name(choice.method)));
     const auto wish = [](double asked, double scene) { return asked >= 0 ? asked : scene; };
     return {.method = choice.method,
             .start = start.t,

@@ -6,8 +6,8 @@
 ///     const MethodChoice choice = method_for(request, derived, program, start);
 ///     choice.why;      // "the tolerance is 1e-09; if the system turns out stiff, radau goes on"
 ///
-/// `auto` looks at the structure (is the energy separable? has the motion a power series?), the length of the run in steps,
-/// the tolerance, and the size of the equations:
+/// `auto` looks at the structure (is the energy separable? has the motion a power series?), the length of the run
+/// in steps, the tolerance, and the size of the equations:
 ///
 /// | asked for | chosen |
 /// | --- | --- |
@@ -29,21 +29,23 @@ namespace alembert {
 struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
-    std::string why = {};  ///< empty where the method was given
+    std::string why = {};      ///< empty where the method was given
     std::string foreign = {};  ///< a method of somebody else's in the place of `method` (foreign.hpp)
 };
 
-/// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a method that
-/// the scene does not allow.
+/// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a
+/// method that the scene does not allow.
 std::optional<Method> given_method(const RunOptions& request, const Derived& derived);
 
 /// That, or the one that suits. `program` is what will run.
-MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program, const Start& start);
+MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
+                        const Start& start);
 
 /// The longest step allowed (s; 0: no bound).
 double longest_step(const RunOptions& wishes, const Start& start);
 
-/// The scene's wishes, those of `wishes` first. Throws ModelError for a longest step with a method that has a fixed one.
+/// The scene's wishes, those of `wishes` first. Throws ModelError for a longest step with a method that has a
+/// fixed one.
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start);
 
 }  // namespace alembert

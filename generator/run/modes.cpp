@@ -7,11 +7,11 @@
 #include "alembert/compile.hpp"
 #include "alembert/process_time.hpp"
 #include "contact/contacts.hpp"
-#include "state/diagnose.hpp"
-#include "run/canonical.hpp"
-#include "run/foreign.hpp"
 #include "emit/taylor.hpp"
 #include "program/differentiate.hpp"
+#include "run/canonical.hpp"
+#include "run/foreign.hpp"
+#include "state/diagnose.hpp"
 
 namespace alembert {
 
@@ -48,28 +48,41 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
                       .on_jump = {}};
     for (const Mechanism::Occasion& event : m.occasions) contacts.kicks.events.push_back(!event.impulse.empty());
     contacts.kicks.coordinates = m.size();
-    contacts.kicks.impulse = [&kicks, at](int event, double t, const double* y) { return kicks.impulse(event, at(t, y)); };
-    contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after, const Eigen::VectorXd& acceleration) {
+    contacts.kicks.impulse = [&kicks, at](int event, double t, const double* y) {
+        return kicks.impulse(event, at(t, y));
+    };
+    contacts.kicks.passed = [&kicks, at](double t, const double* before, const double* after,
+                                         const Eigen::VectorXd& acceleration) {
         State<double> a = at(t, before), b = at(t, after);
         a.qddot.assign(acceleration.begin(), acceleration.end());
         b.qddot = a.qddot;
         return kicks.passed(a, b);
     };
-    if (!d.equations.speeds_are_rates()) contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
+    if (!d.equations.speeds_are_rates())
+        contacts.kicks.speeds = [&kicks, at](double t, const double* y) { return kicks.speeds(at(t, y)); };
     return contacts;
 }
 
 Program with_jacobian(Program program, Method method, bool with_power) {
     if (program.singular || !uses_jacobian(method)) return program;
-    std::optional<Differentiated> found = affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
+    std::optional<Differentiated> found =
+        affordable_derivatives(program, with_power ? Work::integrated : Work::left_out);
     return found ? std::move(found->program) : program;
 }
 
-Modes::Modes(const RunOptions& options, const Derived& derived, const Start& start, const State<double>& first, Work work,
-             const MethodChoice& method, OnModeStep on_step)
-    : wishes_(options), derived_(derived), start_(start), first_(first), work_(work), method_(method), on_step_(std::move(on_step)) {}
+Modes::Modes(const RunOptions& options, const Derived& derived, const Start& start, const State<double>& first,
+             Work work, const MethodChoice& method, OnModeStep on_step)
+    : wishes_(options),
+      derived_(derived),
+      start_(start),
+      first_(first),
+      work_(work),
+      method_(method),
+      on_step_(std::move(on_step)) {}
 
-void Modes::take_free(Program program) { free_ = std::move(program); }
+void Modes::take_free(Program program) {
+    free_ = std::move(program);
+}
 
 void Modes::forget() {
     for (auto& entry : loaded_) entry.second->projection.forget();
@@ -92,7 +105,8 @@ Rhs Modes::with_jacobian(LoadedMode& mode) {
             const Compiled compiled = compile(source.text, mode.program.name + "_jacobian", options_of_compiler());
             mode.when_stiff = make_rhs(load(compiled.object), start_.parameters, work_);
             mode.when_stiff->extra = mode.contact.rhs.extra;
-            if (!mode.derived.mechanism.constraints.empty()) mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
+            if (!mode.derived.mechanism.constraints.empty())
+                mode.when_stiff = mode.projection.guarded(*std::move(mode.when_stiff));
             mode.jacobian_operations = derivatives->operations.total();
             seconds_.compile += process_seconds() - clock;
         }
@@ -112,9 +126,11 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         return clock - before;
     };
     const bool has_contacts = !derived_.mechanism.unilateral.empty();
-    Derived derived = has_contacts ? derived_again(derived_, with_contacts_watched(with_closed(derived_.mechanism, closed), closed),
-                                                   closed.empty() ? derived_.by : "routh")
-                                   : derived_;
+    Derived derived =
+        has_contacts
+            ? derived_again(derived_, with_contacts_watched(with_closed(derived_.mechanism, closed), closed),
+                            closed.empty() ? derived_.by : "routh")
+            : derived_;
     seconds_.derive += lap();
     Program program = free_ && !has_contacts ? *std::move(free_) : lowered(derived).program;
     if (program.singular || (loaded_.size() == 1 && massless_combination(program, first_)))
@@ -132,10 +148,13 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     const Compiled compiled = compile(source.text, program.name, options_of_compiler());
     const Module module = load(compiled.object);
     SeriesModule series_module;
-    if (series) series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
+    if (series)
+        series_module = load_series(compile(series->text, program.name + "_taylor", options_of_compiler()).object);
     std::shared_ptr<const Canonical> canonical;
     if (form)
-        canonical = make_canonical(module, load(compile(form->text, program.name + "_canonical", options_of_compiler()).object), start_.parameters);
+        canonical = make_canonical(
+            module, load(compile(form->text, program.name + "_canonical", options_of_compiler()).object),
+            start_.parameters);
     seconds_.compile += lap();
 
     const std::vector<double>& values = start_.parameters;
@@ -146,19 +165,21 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         directions.push_back(event.direction);
     }
     const bool constrained = !derived.mechanism.constraints.empty();
-    auto mode = std::make_unique<LoadedMode>(LoadedMode{.derived = std::move(derived),
-                                                        .program = std::move(program),
-                                                        .source = std::move(source),
-                                                        .module = module,
-                                                        .par = prepared(module, values),
-                                                        .projection = Projection(module, values),
-                                                        .contact = {.rhs = make_rhs(module, values, work_),
-                                                                    .events = make_events(module, values, stops, directions)},
-                                                        .from_cache = compiled.from_cache});
+    auto mode = std::make_unique<LoadedMode>(
+        LoadedMode{.derived = std::move(derived),
+                   .program = std::move(program),
+                   .source = std::move(source),
+                   .module = module,
+                   .par = prepared(module, values),
+                   .projection = Projection(module, values),
+                   .contact = {.rhs = make_rhs(module, values, work_),
+                               .events = make_events(module, values, stops, directions)},
+                   .from_cache = compiled.from_cache});
     if (derivatives) mode->jacobian_operations = derivatives->operations.total();
     if (series_module) mode->contact.rhs.series = make_series(series_module, values);
     mode->contact.rhs.canonical = canonical;
-    if (method_.when_stiff) mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
+    if (method_.when_stiff)
+        mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     // The work is to balance the energy: it has a tolerance like the rest, where there is one.
     if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
     if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A scene
-/// without unilateral constraints has the one mode {}.
+/// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A
+/// scene without unilateral constraints has the one mode {}.
 ///
 ///     Modes modes(request, derived, start, first, Work::left_out, method, on_step);
 ///     const LoadedMode& lying = modes({0});
@@ -17,9 +17,9 @@
 #include "alembert/project.hpp"
 #include "contact/contacts.hpp"
 #include "contact/kicks.hpp"
-#include "run/method.hpp"
 #include "derive/derived.hpp"
 #include "emit/emit.hpp"
+#include "run/method.hpp"
 
 namespace alembert {
 
@@ -36,28 +36,30 @@ struct LoadedMode {
     std::optional<Rhs> when_stiff = {};           ///< once the motion was found stiff
 };
 
-/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it, and it is not too
-/// long to be written out; else as it is. `with_power`: of the power too.
+/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it,
+/// and it is not too long to be written out; else as it is. `with_power`: of the power too.
 Program with_jacobian(Program program, Method method, bool with_power);
 
 /// What makes rates jump: contacts, and events with impulses.
 bool has_jumps(const Mechanism& mechanism);
 
-/// These as the runtime asks for them: gaps, rows and impulses by interpretation. The views must outlive them. Throws ModelError where
-/// the state has speeds that the motion with jumps is not followed in.
+/// These as the runtime asks for them: gaps, rows and impulses by interpretation. The views must outlive them.
+/// Throws ModelError where the state has speeds that the motion with jumps is not followed in.
 Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view, const KickView& kicks);
 
 class Modes {
 public:
-    /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode of each step.
-    /// Implicit methods have the solvers emitted with their Jacobian, unless it would take long to compile; those that turn to one
-    /// where the motion is stiff have it emitted then. taylor has the series emitted.
-    using OnModeStep = std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
-    Modes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first, Work work, const MethodChoice& method,
-          OnModeStep on_step);
+    /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode
+    /// of each step. Implicit methods have the solvers emitted with their Jacobian, unless it would take long to
+    /// compile; those that turn to one where the motion is stiff have it emitted then. taylor has the series
+    /// emitted.
+    using OnModeStep =
+        std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
+    Modes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first,
+          Work work, const MethodChoice& method, OnModeStep on_step);
 
-    /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what the
-    /// stages throw.
+    /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what
+    /// the stages throw.
     const LoadedMode& operator()(const std::vector<int>& closed);
 
     /// Takes the program of the mode {} from one who has it.

@@ -14,7 +14,8 @@ namespace alembert {
 struct RunOptions {
     std::string by = {};      ///< a formalism; empty: the program chooses
     std::string method = {};  ///< empty: the scene's
-    double duration = -1, tolerance = -1, step = -1, sample = -1, max_step = -1;  ///< s, but for the tolerance; negative: the scene's
+    double duration = -1, tolerance = -1, step = -1, sample = -1,
+           max_step = -1;      ///< s, but for the tolerance; negative: the scene's
     long budget = 10'000'000;  ///< right-hand sides, at the most
     bool fast_math = false;    ///< the compiler may reorder sums
     bool estimate = true;      ///< of the error, by a second run

@@ -36,7 +36,9 @@ void write_list(std::ofstream& out, const std::vector<double>& list) {
 std::filesystem::path new_file() {
     std::string pattern = (std::filesystem::temp_directory_path() / "alembert-peers-XXXXXX").string();
     const int made = mkstemp(pattern.data());
-    if (made < 0) throw CompileError(fmt::format("cannot make a temporary file {}: {}; name a writable folder with $TMPDIR", pattern, std::strerror(errno)));
+    if (made < 0)
+        throw CompileError(fmt::format("cannot make a temporary file {}: {}; name a writable folder with $TMPDIR",
+                                       pattern, std::strerror(errno)));
     close(made);
     return pattern;
 }
@@ -46,8 +48,11 @@ std::filesystem::path new_file() {
 Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>&)>& judge) {
     const std::filesystem::path program = peers_program();
     if (program.empty())
-        return {.runs = {}, .missing = "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, libgsl-dev "
-                                       "or libboost-dev (Debian)"};
+        return {.runs = {},
+                .missing =
+                    "alembert-peers is not beside this program; it is built where CMake finds libsundials-dev, "
+                    "libgsl-dev "
+                    "or libboost-dev (Debian)"};
     const Leftover task(new_file());
     {
         std::ofstream out(task.path());
@@ -66,7 +71,9 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
         Measured one;
         double tolerance = 0;
         int failed = 0;
-        if (!(words >> tag >> one.who >> one.method >> tolerance >> one.seconds >> one.evaluations >> one.steps >> failed) || tag != "run")
+        if (!(words >> tag >> one.who >> one.method >> tolerance >> one.seconds >> one.evaluations >> one.steps >>
+              failed) ||
+            tag != "run")
             continue;
         one.tolerance = tolerance;
         std::vector<double> state(request.initial.size());
@@ -81,7 +88,9 @@ Peers measure_peers(const PeerRequest& request, const std::function<double(const
             one.error = judge(state);
         peers.runs.push_back(std::move(one));
     }
-    if (finished.status != 0) peers.missing = "alembert-peers ended with " + std::to_string(finished.status) + ": " + finished.output.substr(0, 400);
+    if (finished.status != 0)
+        peers.missing =
+            "alembert-peers ended with " + std::to_string(finished.status) + ": " + finished.output.substr(0, 400);
     return peers;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Other people's integrators on the same emitted function, by a program of its own (`alembert-peers`, generator/peers), which
-/// is built with what CMake found of SUNDIALS, GSL and Boost.odeint and loads the same object file.
+/// Other people's integrators on the same emitted function, by a program of its own (`alembert-peers`,
+/// generator/peers), which is built with what CMake found of SUNDIALS, GSL and Boost.odeint and loads the same
+/// object file.
 ///
 ///     const Peers peers = measure_peers({.object = object, …});
 ///     peers.runs;                       // as Measured, `who` being "cvode", "gsl", …
@@ -30,6 +31,7 @@ struct PeerRequest {
 };
 
 /// `judge` gives the error of coordinates and rates at the end.
-Peers measure_peers(const PeerRequest& request, const std::function<double(const std::vector<double>& state)>& judge);
+Peers measure_peers(const PeerRequest& request,
+                    const std::function<double(const std::vector<double>& state)>& judge);
 
 }  // namespace alembert

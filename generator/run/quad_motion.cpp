@@ -10,13 +10,19 @@ namespace {
 
 using Vector = std::vector<Quad>;
 
-Quad size_of(Quad y) { return std::max(Quad(1), abs(y)); }
+Quad size_of(Quad y) {
+    return std::max(Quad(1), abs(y));
+}
 
 /// One step of extrapolated midpoint rules.
 class Extrapolation {
 public:
     Extrapolation(const QuadRhs& rhs, std::size_t size, int columns)
-        : rhs_(rhs), table_(static_cast<std::size_t>(columns), Vector(size)), before_(size), middle_(size), rate_(size) {}
+        : rhs_(rhs),
+          table_(static_cast<std::size_t>(columns), Vector(size)),
+          before_(size),
+          middle_(size),
+          rate_(size) {}
 
     /// The state at t + h; gives the error estimate.
     double operator()(Quad t, const Vector& y, const Vector& first_rate, Quad h, Vector& out) {
@@ -61,8 +67,8 @@ private:
     Vector before_, middle_, rate_;
 };
 
-/// Nodes on (0, 1) and weights ∫ of the Lagrange polynomials from 0 to each node and to 1, by Legendre's polynomials, in
-/// which interpolation on Gauss's nodes loses nothing: l_j(x) = w_j Σ (2k+1) P_k(x_j) P_k(x).
+/// Nodes on (0, 1) and weights ∫ of the Lagrange polynomials from 0 to each node and to 1, by Legendre's
+/// polynomials, in which interpolation on Gauss's nodes loses nothing: l_j(x) = w_j Σ (2k+1) P_k(x_j) P_k(x).
 struct Gauss {
     static constexpr int stages = 14;
     Quad c[stages], b[stages], a[stages][stages];
@@ -94,7 +100,8 @@ struct Gauss {
         for (int i = 0; i < stages; ++i)
             for (int j = 0; j < stages; ++j) {
                 Quad sum = c[i];  // ∫₀^c of P_k is (P_{k+1} − P_{k−1})/(2(2k+1))
-                for (int k = 1; k < stages; ++k) sum += at_node[j][k] * (at_node[i][k + 1] - at_node[i][k - 1]) / 2;
+                for (int k = 1; k < stages; ++k)
+                    sum += at_node[j][k] * (at_node[i][k + 1] - at_node[i][k - 1]) / 2;
                 a[i][j] = b[j] * sum;
             }
     }
@@ -103,9 +110,21 @@ struct Gauss {
 class Collocation {
 public:
     Collocation(const QuadRhs& rhs, const RoughRhs& rough, std::size_t size, const QuadOptions& options)
-        : rhs_(rhs), rough_(rough), options_(options), slopes_(Gauss::stages, Vector(size)), defect_(slopes_), here_(size), trial_(size), change_(size),
-          rough_slopes_(Gauss::stages, Rough(size)), correction_(rough_slopes_), rough_defect_(rough_slopes_), places_(rough_slopes_),
-          rates_(rough_slopes_), rough_trial_(size), rough_rate_(size) {
+        : rhs_(rhs),
+          rough_(rough),
+          options_(options),
+          slopes_(Gauss::stages, Vector(size)),
+          defect_(slopes_),
+          here_(size),
+          trial_(size),
+          change_(size),
+          rough_slopes_(Gauss::stages, Rough(size)),
+          correction_(rough_slopes_),
+          rough_defect_(rough_slopes_),
+          places_(rough_slopes_),
+          rates_(rough_slopes_),
+          rough_trial_(size),
+          rough_rate_(size) {
         for (int i = 0; i < Gauss::stages; ++i)
             for (int j = 0; j < Gauss::stages; ++j) a_[i][j] = static_cast<double>(gauss_.a[i][j]);
     }
@@ -138,7 +157,8 @@ private:
             for (Rough& slope : rough_slopes_) slope[n] = static_cast<double>(change_[n]);
         }
         if (!begin(static_cast<double>(t), static_cast<double>(h))) return false;
-        for (std::size_t i = 0; i < Gauss::stages; ++i) std::copy(rough_slopes_[i].begin(), rough_slopes_[i].end(), slopes_[i].begin());
+        for (std::size_t i = 0; i < Gauss::stages; ++i)
+            std::copy(rough_slopes_[i].begin(), rough_slopes_[i].end(), slopes_[i].begin());
         double former = HUGE_VAL;
         for (int round = 0; round < most_rounds; ++round) {
             const double change = defects(t, y, h);
@@ -161,10 +181,12 @@ private:
         for (int round = 0; round < most_rounds; ++round) {
             double change = 0;
             for (std::size_t i = 0; i < Gauss::stages; ++i) {
-                for (std::size_t n = 0; n < here_.size(); ++n) rough_trial_[n] = here_[n] + h * weighted(i, rough_slopes_, n);
+                for (std::size_t n = 0; n < here_.size(); ++n)
+                    rough_trial_[n] = here_[n] + h * weighted(i, rough_slopes_, n);
                 rough_(t + static_cast<double>(gauss_.c[i]) * h, rough_trial_.data(), rough_rate_.data());
                 for (std::size_t n = 0; n < here_.size(); ++n) {
-                    const double difference = h * std::abs(rough_rate_[n] - rough_slopes_[i][n]) / std::max(1.0, std::abs(here_[n]));
+                    const double difference =
+                        h * std::abs(rough_rate_[n] - rough_slopes_[i][n]) / std::max(1.0, std::abs(here_[n]));
                     if (!std::isfinite(difference)) return false;
                     change = std::max(change, difference);
                 }
@@ -198,22 +220,26 @@ private:
         return largest;
     }
 
-    /// δ_i = d_i + J h Σ a_ij δ_j in doubles, J along the change by a difference of f: seven digits of δ, whatever its size.
+    /// δ_i = d_i + J h Σ a_ij δ_j in doubles, J along the change by a difference of f: seven digits of δ, whatever
+    /// its size.
     void correct(double t, double h, double unit) {
         constexpr double apart = 1e-8;
         for (std::size_t i = 0; i < Gauss::stages; ++i) {
             rough_(t + static_cast<double>(gauss_.c[i]) * h, places_[i].data(), rates_[i].data());
-            for (std::size_t n = 0; n < here_.size(); ++n) correction_[i][n] = rough_defect_[i][n] = static_cast<double>(defect_[i][n] / unit);
+            for (std::size_t n = 0; n < here_.size(); ++n)
+                correction_[i][n] = rough_defect_[i][n] = static_cast<double>(defect_[i][n] / unit);
         }
         double former = HUGE_VAL;
         for (int round = 0; round < most_rounds; ++round) {
             double change = 0;
             for (std::size_t i = 0; i < Gauss::stages; ++i) {
-                for (std::size_t n = 0; n < here_.size(); ++n) rough_trial_[n] = places_[i][n] + apart * h * weighted(i, correction_, n);
+                for (std::size_t n = 0; n < here_.size(); ++n)
+                    rough_trial_[n] = places_[i][n] + apart * h * weighted(i, correction_, n);
                 rough_(t + static_cast<double>(gauss_.c[i]) * h, rough_trial_.data(), rough_rate_.data());
                 for (std::size_t n = 0; n < here_.size(); ++n) {
                     const double next = rough_defect_[i][n] + (rough_rate_[n] - rates_[i][n]) / apart;
-                    change = std::max(change, h * std::abs(next - correction_[i][n]) / std::max(1.0, std::abs(here_[n])));
+                    change = std::max(change,
+                                      h * std::abs(next - correction_[i][n]) / std::max(1.0, std::abs(here_[n])));
                     correction_[i][n] = next;
                 }
             }
@@ -221,7 +247,8 @@ private:
             former = change;
         }
         for (std::size_t i = 0; i < Gauss::stages; ++i)
-            for (std::size_t n = 0; n < here_.size(); ++n) slopes_[i][n] += static_cast<Quad>(unit) * static_cast<Quad>(correction_[i][n]);
+            for (std::size_t n = 0; n < here_.size(); ++n)
+                slopes_[i][n] += static_cast<Quad>(unit) * static_cast<Quad>(correction_[i][n]);
     }
 
     double weighted(std::size_t i, const std::vector<Rough>& values, std::size_t n) const {
@@ -267,7 +294,8 @@ QuadMotion extrapolate(const QuadRhs& rhs, Vector state, Quad start, Quad end, c
         for (double error = HUGE_VAL; error > options.tolerance && one.evaluations <= options.budget;) {
             const Quad to = t + Quad(1.01) * h < end ? t + h : end;
             error = one(t, state, rate, to - t, next);
-            const double factor = 0.9 * std::pow(options.tolerance / std::max(error, 1e-300), 1.0 / (2 * columns - 1));
+            const double factor =
+                0.9 * std::pow(options.tolerance / std::max(error, 1e-300), 1.0 / (2 * columns - 1));
             h = (to - t) * Quad(std::isfinite(error) ? std::clamp(factor, 0.1, 3.0) : 0.1);
             if (error <= options.tolerance) {
                 t = to;
@@ -284,7 +312,8 @@ QuadMotion extrapolate(const QuadRhs& rhs, Vector state, Quad start, Quad end, c
     return motion;
 }
 
-QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, Vector state, const std::vector<Quad>& mesh, const QuadOptions& options) {
+QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, Vector state, const std::vector<Quad>& mesh,
+                     const QuadOptions& options) {
     Collocation one(rhs, rough, state.size(), options);
     QuadMotion motion{.finished = true, .state = {}, .mesh = mesh};
     for (std::size_t k = 0; k + 1 < mesh.size() && motion.finished; ++k)

@@ -7,11 +7,12 @@
 ///     const QuadMotion second = collocate(rhs, rough, state, first.mesh, {});
 ///     agreement(first.state, second.state);        // 1e-22: so many digits are beyond doubt
 ///
-/// `extrapolate`: Gragg's modified midpoint rule with 2, 4, … 2K substeps, extrapolated to h² = 0 (Bulirsch & Stoer; Hairer,
-/// Nørsett, Wanner I, §II.9), order 2K, K from the tolerance; the step from the difference of the last two columns, held against
-/// tolerance · max(1, |y|). `collocate`: Gauss's nodes, 14 of them, order 28 (Hairer & Wanner II, §IV.5), solved to
-/// `tolerance` on the first one's mesh: by iteration in doubles, then by corrections that doubles find for what is left over in 34 digits,
-/// each of which brings seven digits for the price of one round. A step on which the iteration does not contract is halved.
+/// `extrapolate`: Gragg's modified midpoint rule with 2, 4, … 2K substeps, extrapolated to h² = 0 (Bulirsch &
+/// Stoer; Hairer, Nørsett, Wanner I, §II.9), order 2K, K from the tolerance; the step from the difference of the
+/// last two columns, held against tolerance · max(1, |y|). `collocate`: Gauss's nodes, 14 of them, order 28
+/// (Hairer & Wanner II, §IV.5), solved to `tolerance` on the first one's mesh: by iteration in doubles, then by
+/// corrections that doubles find for what is left over in 34 digits, each of which brings seven digits for the
+/// price of one round. A step on which the iteration does not contract is halved.
 ///
 /// Neither throws: `finished` is false where evaluations ran out or a step vanished.
 
@@ -37,8 +38,10 @@ struct QuadOptions {
     long budget = 10'000'000;
 };
 
-QuadMotion extrapolate(const QuadRhs& rhs, std::vector<Quad> state, Quad start, Quad end, const QuadOptions& options);
-QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, std::vector<Quad> state, const std::vector<Quad>& mesh, const QuadOptions& options);
+QuadMotion extrapolate(const QuadRhs& rhs, std::vector<Quad> state, Quad start, Quad end,
+                       const QuadOptions& options);
+QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, std::vector<Quad> state,
+                     const std::vector<Quad>& mesh, const QuadOptions& options);
 
 /// The largest |a − b| / max(1, |b|).
 double agreement(const std::vector<Quad>& a, const std::vector<Quad>& b);

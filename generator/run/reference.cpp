@@ -20,7 +20,8 @@ Quad quad_of_decimal(double x) {
     return quad_of(cln::rationalize(cln::cl_F(cln::cl_DF(x))));  // the simplest fraction that rounds to it
 }
 
-/// Moves `x[free]` until the nodes vanish, with the misfit in Quad and its derivatives in double: each round gains 15 digits.
+/// Moves `x[free]` until the nodes vanish, with the misfit in Quad and its derivatives in double: each round gains
+/// 15 digits.
 class Settling {
 public:
     Settling(const Mechanism& m, const Program& p, const QuadStart& start) : m_(m), p_(p), start_(start) {}
@@ -30,7 +31,8 @@ public:
         std::vector<Quad> target;
     };
 
-    void operator()(const Rows& rows, std::vector<Quad>& q, std::vector<Quad>& u, std::vector<Quad>& x, std::vector<int> free) const {
+    void operator()(const Rows& rows, std::vector<Quad>& q, std::vector<Quad>& u, std::vector<Quad>& x,
+                    std::vector<int> free) const {
         const auto m = static_cast<Eigen::Index>(rows.misfit.size());
         if (m == 0) return;
         if (free.empty())
@@ -57,7 +59,8 @@ public:
             const Eigen::VectorXd step = least_norm(J, f).x;
             if (!step.allFinite()) return;
             for (std::size_t j = 0; j < free.size(); ++j)
-                x[static_cast<std::size_t>(free[j])] -= largest * static_cast<Quad>(step[static_cast<Eigen::Index>(j)]);
+                x[static_cast<std::size_t>(free[j])] -=
+                    largest * static_cast<Quad>(step[static_cast<Eigen::Index>(j)]);
         }
     }
 
@@ -90,10 +93,13 @@ std::vector<int> places(const std::vector<bool>& flags) {
 
 }  // namespace
 
-QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start& doubles, std::optional<double> duration) {
+QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start& doubles,
+                     std::optional<double> duration) {
     QuadStart start;
     for (const Mechanism::Parameter& p : m.parameters)
-        if (p.independent) start.parameters.push_back(quad_of(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())));
+        if (p.independent)
+            start.parameters.push_back(
+                quad_of(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(p.value).to_cl_N())));
 
     Program program;
     std::vector<int> wanted;
@@ -106,19 +112,22 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     std::vector<Quad> out(wanted.size());
     Tape<Quad>(program, wanted, start.parameters)(0, nullptr, nullptr, out.data());
     const auto n = static_cast<std::ptrdiff_t>(m.size()), s = static_cast<std::ptrdiff_t>(m.speeds.size());
-    std::vector<Quad> q(out.begin(), out.begin() + n), u(out.begin() + n, out.begin() + 2 * n), speeds(out.begin() + 2 * n, out.begin() + 2 * n + s);
+    std::vector<Quad> q(out.begin(), out.begin() + n), u(out.begin() + n, out.begin() + 2 * n),
+        speeds(out.begin() + 2 * n, out.begin() + 2 * n + s);
     start.t = out[out.size() - 2];
     start.duration = duration ? quad_of_decimal(*duration) : out.back();
 
     const bool speeds_given = !doubles.speeds.empty();
     const Program constraints = lower_constraints(m);
     const std::vector<int> q_free = places(m.q_is_guess), u_free = places(m.qdot_is_guess);
-    for (const int i : q_free) q[static_cast<std::size_t>(i)] = static_cast<Quad>(doubles.q[static_cast<std::size_t>(i)]);
+    for (const int i : q_free)
+        q[static_cast<std::size_t>(i)] = static_cast<Quad>(doubles.q[static_cast<std::size_t>(i)]);
     const Settling settle(m, constraints, start);
     settle(rows_of(constraints, m, Group::position, Group::row), q, u, q, q_free);
     if (speeds_given || !u_free.empty() || !m.constraints.empty()) {
         for (std::size_t i = 0; i < u.size(); ++i)
-            if (speeds_given || (i < m.qdot_is_guess.size() && m.qdot_is_guess[i])) u[i] = static_cast<Quad>(doubles.qdot[i]);
+            if (speeds_given || (i < m.qdot_is_guess.size() && m.qdot_is_guess[i]))
+                u[i] = static_cast<Quad>(doubles.qdot[i]);
         Settling::Rows rows = rows_of(constraints, m, Group::velocity, Group::row);
         if (speeds_given) {
             const Settling::Rows forms = rows_of(constraints, m, Group::speed, Group::form_row);
@@ -145,7 +154,8 @@ QuadStart quad_start(const Mechanism& m, const Equations& equations, const Start
     return start;
 }
 
-std::optional<Reference> reference(const Program& program, const QuadStart& start, const ReferenceOptions& options) {
+std::optional<Reference> reference(const Program& program, const QuadStart& start,
+                                   const ReferenceOptions& options) {
     const std::size_t n = program.coordinates.size();
     const bool own_speeds = !program.speeds.empty();
     std::vector<int> wanted = program.nodes_of(Group::rate);
@@ -154,7 +164,8 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     Tape<Quad> tape(program, wanted, start.parameters);
     double share = 0;  // of the work, before this method
     const QuadRhs rhs = [&](Quad t, const Quad* state, Quad* rate) {
-        if (options.progress && start.duration > 0) options.progress(share + 0.5 * static_cast<double>((t - start.t) / start.duration));
+        if (options.progress && start.duration > 0)
+            options.progress(share + 0.5 * static_cast<double>((t - start.t) / start.duration));
         if (!own_speeds) std::copy_n(state + n, n, rate);
         tape(t, state, state + n, own_speeds ? rate : rate + n);
     };
@@ -180,21 +191,27 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     const Quad end = start.t + start.duration;
     for (const double tolerance : {1e-28, 1e-20}) {
         share = 0;
-        const QuadMotion first = extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
+        const QuadMotion first =
+            extrapolate(rhs, start.state, start.t, end, {.tolerance = tolerance, .budget = budget});
         if (!first.finished) continue;
         share = 0.5;
-        const QuadMotion second = collocate(rhs, rough, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
+        const QuadMotion second =
+            collocate(rhs, rough, start.state, first.mesh, {.tolerance = tolerance, .budget = 4 * budget});
         if (!second.finished) continue;
         const double apart = agreement(first.state, second.state);
-        Reference result{.coordinates = {first.state.begin(), first.state.begin() + static_cast<std::ptrdiff_t>(n)},
-                         .rates = {},
-                         .speeds = {},
-                         .digits = std::clamp(static_cast<int>(std::floor(-std::log10(std::max(apart, 1e-33)))), 0, 33),
-                         .by = fmt::format("extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128", tolerance),
-                         .evaluations = first.evaluations + second.evaluations};
+        Reference result{
+            .coordinates = {first.state.begin(), first.state.begin() + static_cast<std::ptrdiff_t>(n)},
+            .rates = {},
+            .speeds = {},
+            .digits = std::clamp(static_cast<int>(std::floor(-std::log10(std::max(apart, 1e-33)))), 0, 33),
+            .by = fmt::format(
+                "extrapolated midpoint rules (tolerance {:g}) and Gauss collocation of order 28, binary128",
+                tolerance),
+            .evaluations = first.evaluations + second.evaluations};
         rhs(end, first.state.data(), rate.data());
         result.rates.assign(rate.begin(), rate.begin() + static_cast<std::ptrdiff_t>(n));
-        if (own_speeds) result.speeds.assign(first.state.begin() + static_cast<std::ptrdiff_t>(n), first.state.end());
+        if (own_speeds)
+            result.speeds.assign(first.state.begin() + static_cast<std::ptrdiff_t>(n), first.state.end());
         return result;
     }
     return std::nullopt;

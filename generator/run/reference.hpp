@@ -7,15 +7,16 @@
 ///     const std::optional<Reference> end = reference(program, start, {.seconds = 30});
 ///     end->digits;                     // in which the two methods agree, relative to max(1, |y|)
 ///
-/// The scene's decimals are taken as what they say (0.1 is 1/10), initial values are computed anew from the scene's expressions,
-/// and guesses are moved until the constraints hold to 34 digits. Constraints need no projection on the way: what they drift by is
-/// the tolerance. Methods and tolerances: quad_motion.hpp; a looser tolerance where the time is too short for the strict one.
+/// The scene's decimals are taken as what they say (0.1 is 1/10), initial values are computed anew from the
+/// scene's expressions, and guesses are moved until the constraints hold to 34 digits. Constraints need no
+/// projection on the way: what they drift by is the tolerance. Methods and tolerances: quad_motion.hpp; a looser
+/// tolerance where the time is too short for the strict one.
 
 #include <optional>
 
-#include "run/quad_motion.hpp"
 #include "formalism/equations.hpp"
 #include "lower/start.hpp"
+#include "run/quad_motion.hpp"
 
 namespace alembert {
 
@@ -26,7 +27,8 @@ struct QuadStart {
 };
 
 /// `start`: the same in doubles, assembled. `duration`: where it is not the scene's.
-QuadStart quad_start(const Mechanism& mechanism, const Equations& equations, const Start& start, std::optional<double> duration);
+QuadStart quad_start(const Mechanism& mechanism, const Equations& equations, const Start& start,
+                     std::optional<double> duration);
 
 struct Reference {
     std::vector<Quad> coordinates, rates, speeds;  ///< at the end; speeds only where they are not the rates
@@ -36,11 +38,12 @@ struct Reference {
 };
 
 struct ReferenceOptions {
-    double seconds = 30;  ///< process time, for each of the two methods
+    double seconds = 30;                                 ///< process time, for each of the two methods
     std::function<void(double fraction)> progress = {};  ///< told often; may be empty
 };
 
 /// Nothing where the time is too short or the motion ends in a singularity.
-std::optional<Reference> reference(const Program& program, const QuadStart& start, const ReferenceOptions& options);
+std::optional<Reference> reference(const Program& program, const QuadStart& start,
+                                   const ReferenceOptions& options);
 
 }  // namespace alembert

@@ -11,13 +11,14 @@ namespace alembert {
 namespace {
 
 /// One phase's rows, without the last one if it is said again by the next.
-void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode& mode, const Derived& d, std::size_t rows, const JointReactions* reactions,
-              State<double> at) {
+void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode& mode, const Derived& d,
+              std::size_t rows, const JointReactions* reactions, State<double> at) {
     const alembert_solver_table& table = mode.module.table();
     const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size(),
                redundant = d.mechanism.redundant.size(), held = static_cast<std::size_t>(table.constraints);
-    std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)), out(static_cast<std::size_t>(table.outputs)),
-        lambda(held + redundant), all(bilateral + redundant + d.mechanism.unilateral.size());
+    std::vector<double> rate(static_cast<std::size_t>(mode.contact.rhs.dimension)),
+        out(static_cast<std::size_t>(table.outputs)), lambda(held + redundant),
+        all(bilateral + redundant + d.mechanism.unilateral.size());
     for (std::size_t row = 0; row < rows; ++row) {
         const double t = phase.motion.times[row];
         const auto state = phase.motion.state(row);
@@ -27,10 +28,13 @@ void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode&
         table.outputs_at(t, state.data(), rate.data(), mode.par.data(), out.data());
         table.multipliers_at(t, state.data(), mode.par.data(), lambda.data());
         std::copy_n(lambda.begin(), bilateral, all.begin());
-        std::copy_n(lambda.begin() + static_cast<std::ptrdiff_t>(held), redundant, all.begin() + static_cast<std::ptrdiff_t>(bilateral));
+        std::copy_n(lambda.begin() + static_cast<std::ptrdiff_t>(held), redundant,
+                    all.begin() + static_cast<std::ptrdiff_t>(bilateral));
         for (std::size_t i = 0; i < phase.closed.size(); ++i)
             all[bilateral + redundant + static_cast<std::size_t>(phase.closed[i])] = lambda[bilateral + i];
-        const auto add = [&values](const auto& list) { values.insert(values.end(), std::begin(list), std::end(list)); };
+        const auto add = [&values](const auto& list) {
+            values.insert(values.end(), std::begin(list), std::end(list));
+        };
         values.push_back(t);
         add(state.first(n));
         add(std::span(rate).first(n));
@@ -60,21 +64,23 @@ std::vector<std::string> columns_of(const Mechanism& m, const Program& program, 
     for (const Root& root : program.roots)
         if (root.group == Group::speed) columns.push_back(root.name);
     for (std::size_t k = 0; reactions != nullptr && k < reactions->joints.size(); ++k)
-        for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"}) columns.push_back(fmt::format("{}.{}", reactions->joints[k], part));
+        for (const char* part : {"fx", "fy", "fz", "mx", "my", "mz"})
+            columns.push_back(fmt::format("{}.{}", reactions->joints[k], part));
     return columns;
 }
 
 /// Does the next phase begin with the row with which this one ends?
 bool is_continued(const Trajectory& here, const Trajectory& next) {
     const auto last = here.final_state(), first = next.state(0);
-    return next.times[0] == here.times.back() && std::equal(last.begin(), last.end(), first.begin(), [](double a, double b) {
-        return std::abs(a - b) <= 1e-8 * std::max(1.0, std::abs(a));
-    });
+    return next.times[0] == here.times.back() &&
+           std::equal(last.begin(), last.end(), first.begin(),
+                      [](double a, double b) { return std::abs(a - b) <= 1e-8 * std::max(1.0, std::abs(a)); });
 }
 
 }  // namespace
 
-Table rows_of(const PhasedMotion& motion, const Derived& d, Modes& modes, const JointReactions* reactions, const State<double>& first) {
+Table rows_of(const PhasedMotion& motion, const Derived& d, Modes& modes, const JointReactions* reactions,
+              const State<double>& first) {
     Table table{.columns = columns_of(d.mechanism, modes({}).program, reactions), .values = {}};
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
         const Phase& phase = motion.phases[k];

@@ -14,16 +14,20 @@ std::optional<std::string> inseparable(const Derived& d) {
     moving.push_back(d.mechanism.t);
     for (int i = 0; i < e.size(); ++i)
         for (int j = 0; j < e.size(); ++j)
-            if (e.z->depends(e.M(i, j), moving)) return fmt::format("the inertia of {} changes with the motion", e.q[i].get_name());
+            if (e.z->depends(e.M(i, j), moving))
+                return fmt::format("the inertia of {} changes with the motion", e.q[i].get_name());
     for (int i = 0; i < e.size(); ++i)
-        if (e.z->depends(e.forcing(i), e.u)) return fmt::format("a rate occurs in the equation of {}", e.q[i].get_name());
+        if (e.z->depends(e.forcing(i), e.u))
+            return fmt::format("a rate occurs in the equation of {}", e.q[i].get_name());
     return std::nullopt;
 }
 
 void need_separable(const Derived& d, std::string_view method) {
     if (const auto why = inseparable(d))
-        throw ModelError(fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
-                                     "alone, but {}; take gauss (symplectic for any energy) or dop853", method, *why));
+        throw ModelError(
+            fmt::format("method '{}' needs kinetic energy of the rates alone and forces of the coordinates and t "
+                        "alone, but {}; take gauss (symplectic for any energy) or dop853",
+                        method, *why));
 }
 
 }  // namespace alembert

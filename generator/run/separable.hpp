@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no coordinate) occurs. What
-/// occurs only to cancel counts as there.
+/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no
+/// coordinate) occurs. What occurs only to cancel counts as there.
 ///
 ///     if (needs_separable(method)) need_separable(derived, name(method));
 

@@ -29,10 +29,12 @@ State<double> state_at(State<double> state, const Failure& failure) {
 
 /// Does E stay with the system? Not where an impact has taken some of it, or an impulse changed it.
 bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
-    return std::any_of(motion.events.begin(), motion.events.end(), [](const EventRecord& e) { return !e.impulse.empty(); }) ||
+    return std::any_of(motion.events.begin(), motion.events.end(),
+                       [](const EventRecord& e) { return !e.impulse.empty(); }) ||
            std::any_of(motion.contacts.begin(), motion.contacts.end(), [&](const ContactEvent& e) {
-        return e.kind == ContactEvent::Kind::impact && contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
-    });
+               return e.kind == ContactEvent::Kind::impact &&
+                      contacts.restitution[static_cast<std::size_t>(e.contact)] < 1;
+           });
 }
 
 /// What is watched at every step of the run that is the result, and at none of those that estimate its error.
@@ -64,14 +66,16 @@ public:
         options_ = options_of(wishes_, choice_, start_);
         prepare_contacts();
         run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
-        Watch watch{.drift = Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
+        Watch watch{.drift =
+                        Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
         Modes modes(wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
                     [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
                         if (!watch.is_over) look(watch, mode, t, state, rate);
                     });
         modes.take_free(std::move(program));
         const LoadedMode& free = modes({});
-        options_.quick_times = quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
+        options_.quick_times =
+            quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
             if (!watch.is_over) look_at_jump(watch, free, t, before, after, jump);
         };
@@ -88,18 +92,23 @@ private:
         view_.emplace(run_.mechanism);
         kicks_.emplace(run_.mechanism);
         contacts_ = contacts_of(run_, start_, *view_, *kicks_);
-        if (has_contacts_) check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
+        if (has_contacts_)
+            check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
     }
 
-    void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) const {
+    void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state,
+              std::span<const double> rate) const {
         watch.drift(mode.module.table(), mode.par, t, state, rate);
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
-        if (mode.contact.project) watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
+        if (mode.contact.project)
+            watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
         // Telling it costs more than a step of a small system.
-        if (wishes_.progress && ++watch.steps % 1000 == 0) wishes_.progress("integrating", (t - options_.start) / options_.duration);
+        if (wishes_.progress && ++watch.steps % 1000 == 0)
+            wishes_.progress("integrating", (t - options_.start) / options_.duration);
     }
 
-    void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after, double jump) const {
+    void look_at_jump(Watch& watch, const LoadedMode& free, double t, const double* before, const double* after,
+                      double jump) const {
         const int n = run_.mechanism.size();
         const std::vector<double> a = as_integrated(contacts_.kicks, t, {before, before + 2 * n}),
                                   b = as_integrated(contacts_.kicks, t, {after, after + 2 * n});
@@ -108,14 +117,18 @@ private:
 
     PhasedMotion followed(Modes& modes, const Options& options, const std::vector<double>& from) const {
         modes.forget();
-        return follow(contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; }, from, options);
+        return follow(
+            contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
+            from, options);
     }
 
     void integrate(Modes& modes) {
         initial_ = start_.q;
         initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
         if (!energy_.conserved) initial_.push_back(0);
-        const auto making = [&] { return modes.seconds().derive + modes.seconds().emit + modes.seconds().compile; };
+        const auto making = [&] {
+            return modes.seconds().derive + modes.seconds().emit + modes.seconds().compile;
+        };
         const double made_before = making(), begin = process_seconds();
         run_.motion = followed(modes, options_, initial_);
         run_.timings.integrate = process_seconds() - begin - (making() - made_before);
@@ -140,8 +153,11 @@ private:
         const double begin = process_seconds();
         const std::size_t coordinates = start_.q.size(), speeds = first_.qdot.size();
         run_.estimate = error_estimate(
-            run_.motion, [&](const Options& options, const std::vector<double>& from) { return followed(modes, options, from); }, options_,
-            initial_, components_of(free.program, coordinates, speeds));
+            run_.motion,
+            [&](const Options& options, const std::vector<double>& from) {
+                return followed(modes, options, from);
+            },
+            options_, initial_, components_of(free.program, coordinates, speeds));
         const bool fixed = has_fixed_step(options_.method) && choice_.foreign.empty();
         const bool conserved = run_.energy.conserved;
         run_.doubts = doubts(
@@ -149,7 +165,9 @@ private:
              .energy = conserved ? std::optional(watch.drift.energy_of_motion()) : std::nullopt,
              .balance = conserved ? std::nullopt : std::optional(watch.drift.balance_of_motion()),
              .jacobi = run_.energy.jacobi_conserved ? std::optional(watch.drift.jacobi_of_motion()) : std::nullopt,
-             .constraints = watch.constraint_drift > 0 ? watch.constraint_drift / size_of(run_.motion, coordinates + speeds) : 0,
+             .constraints = watch.constraint_drift > 0
+                                ? watch.constraint_drift / size_of(run_.motion, coordinates + speeds)
+                                : 0,
              .singular = most_singular(run_.motion, free, watch.poses),
              .precision = fixed ? run_.estimate->value.value_or(0) : options_.tolerance,
              .fixed_step = fixed ? options_.step : 0,
@@ -184,7 +202,8 @@ private:
     }
 
     std::string reason_of(const Failure& failure, Modes& modes) const {
-        if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks) return failure.message;
+        if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks)
+            return failure.message;
         const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
         return failure.message + (there ? "\n  there: " + *there : "");
     }
@@ -208,8 +227,10 @@ private:
 Run simulate(Scene scene, const RunOptions& wishes) {
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
-        result.warnings.push_back(fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' gives those after\n",
-                                              result.scene.file));
+        result.warnings.push_back(
+            fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
+                        "gives those after\n",
+                        result.scene.file));
     Simulating(result, wishes).run();
     return result;
 }

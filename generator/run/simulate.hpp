@@ -3,13 +3,13 @@
 
 /// The verb `simulate`: a scene's motion, with what the run measured of itself.
 ///
-///     const Run run = simulate(read_scene("scenes/textbook/double_pendulum.toml"), {.duration = 10, .tolerance = 1e-12});
-///     run.final_coordinates[0];          // in the scene's unit, at run.motion.final_time()
+///     const Run run = simulate(read_scene("scenes/textbook/double_pendulum.toml"), {.duration = 10, .tolerance =
+///     1e-12}); run.final_coordinates[0];          // in the scene's unit, at run.motion.final_time()
 ///     *run.estimate->value;              // the estimated error
 ///     run.doubts.empty();                // nothing speaks against trusting it
 ///
-/// The scene is derived, emitted, compiled (compiled solvers are kept in a cache) and integrated; contact modes are, when the motion first
-/// meets them.
+/// The scene is derived, emitted, compiled (compiled solvers are kept in a cache) and integrated; contact modes
+/// are, when the motion first meets them.
 
 #include <optional>
 
@@ -22,10 +22,10 @@ namespace alembert {
 
 /// What became of the energy.
 struct EnergyAccount {
-    bool conserved = true;         ///< E = T + V is; otherwise E − E₀ is held against the work
-    bool jacobi_conserved = false; ///< T₂ − T₀ + V is, while E is not
-    double drift = 0;              ///< max |E − E₀| / max(|E₀|, the largest kinetic energy), where it is conserved
-    double balance = 0;            ///< the same of E − E₀ − W, where it is not
+    bool conserved = true;          ///< E = T + V is; otherwise E − E₀ is held against the work
+    bool jacobi_conserved = false;  ///< T₂ − T₀ + V is, while E is not
+    double drift = 0;    ///< max |E − E₀| / max(|E₀|, the largest kinetic energy), where it is conserved
+    double balance = 0;  ///< the same of E − E₀ − W, where it is not
     double jacobi_drift = 0;
     double impact_loss = 0, impulse_work = 0;
 };
@@ -51,7 +51,7 @@ struct Run : Derived {
     std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
     EnergyAccount energy = {};
-    double constraint_drift = 0;        ///< the largest residual
+    double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};
     std::vector<std::string> doubts = {};    ///< why the result is not to be trusted
     std::vector<std::string> adjusted = {};  ///< what was moved at the start so that the constraints hold
@@ -63,8 +63,9 @@ struct Run : Derived {
     bool is_constrained() const { return !mechanism.constraints.empty() || !contacts.empty(); }
 };
 
-/// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError where there are no finite
-/// accelerations at the start; CompileError where there is no compiler. A motion that breaks off later is a Run with a `failure`.
+/// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError where
+/// there are no finite accelerations at the start; CompileError where there is no compiler. A motion that breaks
+/// off later is a Run with a `failure`.
 Run simulate(Scene scene, const RunOptions& wishes = {});
 
 }  // namespace alembert

@@ -26,15 +26,17 @@ namespace {
 /// Where the members of a sweep begin; one that cannot has its reason instead.
 struct Beginnings {
     Ensemble ensemble;
-    std::vector<std::string> refused;     ///< empty where the member runs
-    std::vector<std::size_t> position;    ///< of a member in the ensemble
+    std::vector<std::string> refused;   ///< empty where the member runs
+    std::vector<std::size_t> position;  ///< of a member in the ensemble
 };
 
 Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& grid, Module module) {
     const Starts starts(d.mechanism, grid.names(), "--vary");
     const Program constraints = lower_constraints(d.mechanism);
     const bool assembled = !d.mechanism.constraints.empty() || !d.mechanism.speeds.empty();
-    Beginnings result{.ensemble = {.module = std::move(module)}, .refused = std::vector<std::string>(grid.size()), .position = {}};
+    Beginnings result{.ensemble = {.module = std::move(module)},
+                      .refused = std::vector<std::string>(grid.size()),
+                      .position = {}};
     Ensemble& e = result.ensemble;
     for (std::size_t k = 0; k < grid.size(); ++k) {
         const std::vector<double> values = grid.point(k);
@@ -61,12 +63,14 @@ Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& gr
     return result;
 }
 
-/// Throws SceneError for the first member with a mass or a moment that no body has; warns of broken triangle inequalities, once for each
-/// body.
+/// Throws SceneError for the first member with a mass or a moment that no body has; warns of broken triangle
+/// inequalities, once for each body.
 void check_bodies_along(Sweep& s) {
     const Mechanism& m = s.mechanism;
     const std::vector<std::string> names = s.grid.names();
-    const auto is_varied = [&](const Mechanism::Parameter& p) { return std::find(names.begin(), names.end(), p.symbol.get_name()) != names.end(); };
+    const auto is_varied = [&](const Mechanism::Parameter& p) {
+        return std::find(names.begin(), names.end(), p.symbol.get_name()) != names.end();
+    };
     if (m.masses.empty() || std::none_of(m.parameters.begin(), m.parameters.end(), is_varied)) return;
     const InertiaCheck check(s.scene, m);
     const Starts starts(m, names, "--vary");
@@ -80,14 +84,16 @@ void check_bodies_along(Sweep& s) {
             continue;  // no start there, which its row tells
         }
         for (Diagnostic& one : found) {
-            for (std::size_t i = 0; i < values.size(); ++i) one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s.scene, {one});
             if (told.insert(one.place).second) s.warnings.push_back(describe(s.scene, {one}));
         }
     }
 }
 
-/// When the inputs of each member change fast; members that have their parameters in common, and their times, share one search.
+/// When the inputs of each member change fast; members that have their parameters in common, and their times,
+/// share one search.
 void find_quick_times(const Program& program, Ensemble& e, std::vector<std::string>& warnings) {
     constexpr std::size_t most_searches = 2000;  // some seconds
     const std::size_t count = e.count(), p = count > 0 ? e.parameters.size() / count : 0;
@@ -103,10 +109,12 @@ void find_quick_times(const Program& program, Ensemble& e, std::vector<std::stri
             if (used[i]) key.push_back(parameters[i]);
         const auto [at, is_new] = known.try_emplace(std::move(key));
         if (is_new && known.size() == most_searches + 1)
-            warnings.push_back(fmt::format("inputs are looked through for narrow pulses in {} of their variants, not in more; a longest step "
-                                           "(max_step) bounds the steps of all\n",
-                                           most_searches));
-        if (is_new && known.size() <= most_searches) at->second = quick_times(program, parameters, e.starts[k], e.starts[k] + e.durations[k]);
+            warnings.push_back(fmt::format(
+                "inputs are looked through for narrow pulses in {} of their variants, not in more; a longest step "
+                "(max_step) bounds the steps of all\n",
+                most_searches));
+        if (is_new && known.size() <= most_searches)
+            at->second = quick_times(program, parameters, e.starts[k], e.starts[k] + e.durations[k]);
         any = any || !at->second.empty();
         found.push_back(at->second);
     }
@@ -114,22 +122,30 @@ void find_quick_times(const Program& program, Ensemble& e, std::vector<std::stri
 }
 
 /// The rates at the end of a member, where the state may hold speeds instead.
-std::vector<double> rates_at(const Program& program, const Beginnings& begin, std::size_t at, double t, std::span<const double> state) {
+std::vector<double> rates_at(const Program& program, const Beginnings& begin, std::size_t at, double t,
+                             std::span<const double> state) {
     const alembert_solver_table& table = begin.ensemble.module.table();
     if (program.speeds.empty()) return {state.begin() + table.coordinates, state.end()};
     const auto p = static_cast<std::size_t>(table.parameters);
     const auto first = begin.ensemble.parameters.begin() + static_cast<std::ptrdiff_t>(at * p);
-    const std::vector<double> par = prepared(begin.ensemble.module, {first, first + static_cast<std::ptrdiff_t>(p)});
+    const std::vector<double> par =
+        prepared(begin.ensemble.module, {first, first + static_cast<std::ptrdiff_t>(p)});
     std::vector<double> rate(state.size());
     table.rhs(t, state.data(), par.data(), rate.data());
     rate.resize(static_cast<std::size_t>(table.coordinates));
     return rate;
 }
 
-SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, const Beginnings& begin, const Outcomes& ends) {
+SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, const Beginnings& begin,
+                      const Outcomes& ends) {
     const double nothing = std::numeric_limits<double>::quiet_NaN();
     const std::size_t n = s.coordinates.size();
-    SweptMotion m{.varied = s.grid.point(k), .final_coordinates = {}, .final_rates = {}, .final_speeds = {}, .time = nothing, .drift = nothing};
+    SweptMotion m{.varied = s.grid.point(k),
+                  .final_coordinates = {},
+                  .final_rates = {},
+                  .final_speeds = {},
+                  .time = nothing,
+                  .drift = nothing};
     if (!begin.refused[k].empty()) {
         m.final_coordinates = m.final_rates = std::vector<double>(n, nothing);
         m.final_speeds.assign(s.speeds.size(), nothing);
@@ -154,17 +170,21 @@ SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, con
 }
 
 void need_smooth_motion(const Mechanism& m) {
-    if (!m.unilateral.empty()) throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
-    if (m.has_kicks()) throw ModelError("sweep does not follow events with impulses; simulate does, for one state at a time");
+    if (!m.unilateral.empty())
+        throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
+    if (m.has_kicks())
+        throw ModelError("sweep does not follow events with impulses; simulate does, for one state at a time");
 }
 
 Options options_for(const Sweep& s, const RunOptions& wishes) {
     const Start start = start_of(s.mechanism);
     const bool steps_given = wishes.step > 0 || start.step > 0;
-    const Options options =
-        options_of(wishes, {.method = given_method(wishes, s).value_or(steps_given ? Method::rk4 : Method::dop853)}, start);
+    const Options options = options_of(
+        wishes, {.method = given_method(wishes, s).value_or(steps_given ? Method::rk4 : Method::dop853)}, start);
     if (needs_series(options.method) || needs_canonical(options.method))
-        throw ModelError(fmt::format("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss", name(options.method)));
+        throw ModelError(
+            fmt::format("sweep does not run '{}', which needs more than the right-hand side; take dop853 or gauss",
+                        name(options.method)));
     return options;
 }
 
@@ -176,8 +196,10 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     const Mechanism& m = s.mechanism;
     need_smooth_motion(m);
     if (!m.impulses.empty())
-        s.warnings.push_back(fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' gives those after\n",
-                                         s.scene.file));
+        s.warnings.push_back(
+            fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
+                        "gives those after\n",
+                        s.scene.file));
     check_bodies_along(s);
     const Energy energy = energy_of(m);
     s.conserved = energy.conserved;
@@ -196,7 +218,8 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     s.operations = source.operations.total();
     const double compile_begin = process_seconds();
     const Compiled compiled =
-        compile(source.text, program.name, {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
+        compile(source.text, program.name,
+                {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}});
     s.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
     Beginnings begin = beginnings(wishes, s, grid, load(compiled.object));
     begin.ensemble.work = energy.conserved ? Work::left_out : Work::integrated;
@@ -227,7 +250,8 @@ SweepTotals totals_of(const Sweep& sweep) {
         if (std::isfinite(m.drift)) sum.drift = std::max(sum.drift, m.drift);
         if (!m.failed || sum.failed++ > 0) continue;
         for (std::size_t i = 0; i < sweep.grid.axes.size(); ++i)
-            sum.first_failure += fmt::format("{}{} = {:.17g}", i > 0 ? ", " : "", sweep.grid.axes[i].name, m.varied[i]);
+            sum.first_failure +=
+                fmt::format("{}{} = {:.17g}", i > 0 ? ", " : "", sweep.grid.axes[i].name, m.varied[i]);
         sum.first_failure += ": " + m.status;
     }
     return sum;

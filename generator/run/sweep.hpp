@@ -14,10 +14,11 @@ namespace alembert {
 
 struct SweptMotion {
     std::vector<double> varied;  ///< as Grid::names
-    std::vector<double> final_coordinates, final_rates, final_speeds;  ///< NaN where the motion did not begin; speeds of scenes that have their own
+    std::vector<double> final_coordinates, final_rates,
+        final_speeds;            ///< NaN where the motion did not begin; speeds of scenes that have their own
     double time = 0, drift = 0;  ///< NaN likewise; the drift of the energy, or the balance of work
     long steps = 0, rejected = 0, evaluations = 0;
-    std::string status = {};     ///< "done", "stopped" (by an event), or why it failed
+    std::string status = {};  ///< "done", "stopped" (by an event), or why it failed
     bool failed = false;
 };
 
@@ -25,19 +26,20 @@ struct Sweep : Derived {
     Grid grid = {};
     std::vector<std::string> coordinates = {}, speeds = {};
     std::vector<SweptMotion> members = {};  ///< as Grid::point
-    bool conserved = true;        ///< the energy is; else `drift` is that of E − E₀ − W
+    bool conserved = true;                  ///< the energy is; else `drift` is that of E − E₀ − W
     std::string method = {}, formulation = {};
-    int operations = 0;           ///< of one right-hand side
-    bool packed = false;          ///< eight motions ran side by side
+    int operations = 0;   ///< of one right-hand side
+    bool packed = false;  ///< eight motions ran side by side
     int threads = 1;
     struct Timings {
         double compile = 0, start = 0, integrate = 0;
     };
-    Timings timings = {};         ///< processor time, s
+    Timings timings = {};  ///< processor time, s
 };
 
-/// `threads`: 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with contacts or impulses at events,
-/// and for methods that need more than the right-hand side; IntegrationError where the mass matrix is singular.
+/// `threads`: 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with contacts
+/// or impulses at events, and for methods that need more than the right-hand side; IntegrationError where the mass
+/// matrix is singular.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
 /// What the whole sweep took, and what came of it.

@@ -3,17 +3,17 @@
 
 /// Whether a run is to be trusted with two digits, from all that it measured of itself.
 ///
-///     const std::vector<std::string> reasons = doubts({.error = estimate, .energy = drift.energy_of_motion(), …});
-///     reasons.empty();         // trusted
+///     const std::vector<std::string> reasons = doubts({.error = estimate, .energy = drift.energy_of_motion(),
+///     …}); reasons.empty();         // trusted
 ///
 /// | what | doubted above | because |
 /// | --- | --- | --- |
-/// | estimated error, relative to max(1, \|y\|) and to the motion's size | 0.01 (fixed steps: 0.005) | two digits |
-/// | the tolerance, against how far any coordinate moves | 1 | nothing was resolved that is all below it |
-/// | energy, work balance, Jacobi's integral, in units of the largest kinetic energy | 0.02 | energies are quadratic: 1 % of the rates |
-/// | constraints, against the largest coordinate or rate | 0.01 | the state itself is off by that much |
-/// | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below |
-/// | a fixed step, against the time in which an input changes | 2 pieces (quick_times.hpp) | no stage need have met it |
+/// | estimated error, relative to max(1, \|y\|) and to the motion's size | 0.01 (fixed steps: 0.005) | two digits
+/// | | the tolerance, against how far any coordinate moves | 1 | nothing was resolved that is all below it | |
+/// energy, work balance, Jacobi's integral, in units of the largest kinetic energy | 0.02 | energies are
+/// quadratic: 1 % of the rates | | constraints, against the largest coordinate or rate | 0.01 | the state itself
+/// is off by that much | | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below | | a fixed
+/// step, against the time in which an input changes | 2 pieces (quick_times.hpp) | no stage need have met it |
 ///
 /// A fixed step is held against its half, which has half the error with a method of order one: the difference is
 /// half of the error.

@@ -38,9 +38,10 @@ Position read_position(const Table& table, std::string_view key, bool has_at) {
 std::optional<Rotation> read_rotation(const Reading& reading, const toml::node& node, std::string_view key) {
     const toml::array* const pair = node.as_array();
     if (!pair || pair->size() != 2) {
-        reading.complain(place_of(node),
-                         pair ? "a rotation has two parts: [axis, angle]"
-                              : fmt::format("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
+        reading.complain(
+            place_of(node),
+            pair ? "a rotation has two parts: [axis, angle]"
+                 : fmt::format("'{}' is an array of rotations, each [axis, angle]: [[\"z\", \"psi\"]]", key));
         return {};
     }
     Rotation rotation = read_axis(reading, *pair->get(0));
@@ -54,8 +55,10 @@ std::vector<Name> read_quaternion(const Table& table) {
     const toml::array* const list = node.as_array();
     const std::string expected = "expected four coordinates, scalar first: [\"e0\", \"e1\", \"e2\", \"e3\"]";
     if (!list || list->size() != 4) {
-        table.complain("quaternion", fmt::format("{} {}; {}", table.what("quaternion"),
-                                                 list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
+        table.complain(
+            "quaternion",
+            fmt::format("{} {}; {}", table.what("quaternion"),
+                        list ? fmt::format("has {} elements", list->size()) : "is " + kind_of(node), expected));
         return {};
     }
     std::vector<Name> names = table.names("quaternion");
@@ -127,8 +130,8 @@ std::vector<Rotation> read_rotations(const Table& table, std::string_view key) {
     if (!entry) return rotations;
     const toml::array* const list = entry->node->as_array();
     if (!list) {
-        table.complain(key, fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]", table.what(key),
-                                        kind_of(*entry->node)));
+        table.complain(key, fmt::format("{} is {}; expected an array of rotations: [[\"z\", \"psi\"]]",
+                                        table.what(key), kind_of(*entry->node)));
         return rotations;
     }
     for (const toml::node& node : *list)
@@ -147,7 +150,8 @@ void read_frame(Table table, Scene& scene) {
     if (auto parent = table.name("parent")) frame.parent = std::move(*parent);
     if (table.has("quaternion")) {
         if (table.has("rotate"))
-            table.complain("rotate", fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
+            table.complain("rotate",
+                           fmt::format("{} has both 'quaternion' and 'rotate'; give one", table.title()));
         frame.quaternion = read_quaternion(table);
     } else if (table.has("rotate")) {
         frame.rotations = read_rotations(table, "rotate");

@@ -82,10 +82,11 @@ private:
         if (!first) return;
         for (const Coordinate& c : scene_.coordinates)
             if (c.rate_given)
-                complain(*c.rate_given,
-                         fmt::format("the rates follow from the speeds here: {} has 'initial' (line {}); leave out "
-                                     "the rate of {}, or the initial values of the speeds",
-                                     in_quotes(first->name.text), first->name.place.line, in_quotes(c.name.text)));
+                complain(
+                    *c.rate_given,
+                    fmt::format("the rates follow from the speeds here: {} has 'initial' (line {}); leave out "
+                                "the rate of {}, or the initial values of the speeds",
+                                in_quotes(first->name.text), first->name.place.line, in_quotes(c.name.text)));
     }
 
     void check_geometry() {
@@ -120,17 +121,20 @@ private:
             if (joint.name.place.line == 0 || !check_name(joint.name)) continue;
             const auto [first, is_new] = known.emplace(joint.name.text, joint.name.place);
             if (!is_new)
-                complain(joint.name.place, fmt::format("the name {} is taken: a joint has it on line {}", in_quotes(joint.name.text),
-                                                       first->second.line));
+                complain(joint.name.place, fmt::format("the name {} is taken: a joint has it on line {}",
+                                                       in_quotes(joint.name.text), first->second.line));
         }
     }
 
-    void check_quaternion(const Name& name, const std::string& frame, std::unordered_map<std::string, std::string>& taken) {
+    void check_quaternion(const Name& name, const std::string& frame,
+                          std::unordered_map<std::string, std::string>& taken) {
         check_coordinate(name);
         const auto [first, is_new] = taken.emplace(name.text, frame);
         if (!is_new)
-            complain(name.place, fmt::format("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
-                                             in_quotes(name.text), in_quotes(first->second)));
+            complain(
+                name.place,
+                fmt::format("the coordinate {} is in the quaternion of frame {} already; each has four of its own",
+                            in_quotes(name.text), in_quotes(first->second)));
     }
 
     void check(const Position& position) {
@@ -208,8 +212,7 @@ private:
 
     void check_coordinate(const Name& name) {
         const Declared* const declared = NameSpaces::find(names_.values, name.text);
-        if (declared && declared->kind == Declared::Kind::coordinate)
-            return;
+        if (declared && declared->kind == Declared::Kind::coordinate) return;
         std::vector<std::string> coordinates;
         for (const Coordinate& c : scene_.coordinates) coordinates.push_back(c.name.text);
         complain(name.place, declared ? fmt::format("{} is {}; expected a coordinate", in_quotes(name.text),
@@ -245,23 +248,29 @@ private:
     void check_constraints() {
         std::unordered_map<std::string, Place> known;
         for (const ConstraintRule& rule : scene_.constraints) {
-            const Legal position{.subject = "a holonomic constraint", .order = 0, .input_order = 0, .time = true,
+            const Legal position{.subject = "a holonomic constraint",
+                                 .order = 0,
+                                 .input_order = 0,
+                                 .time = true,
                                  .advice = "; a relation between rates is 'nonholonomic'"};
             const Legal rates{.subject = "a constraint", .order = 1, .input_order = 1, .time = true};
             quantities_.check(rule.equation.lhs, rule.holonomic ? position : rates);
             quantities_.check(rule.equation.rhs, rule.holonomic ? position : rates);
             check_constraint_name(rule.name, known);
         }
-        for (const FrameQuaternion& quaternion : quaternions_of(scene_)) check_constraint_name(quaternion.of, known);
+        for (const FrameQuaternion& quaternion : quaternions_of(scene_))
+            check_constraint_name(quaternion.of, known);
         for (const RollingRule& rule : scene_.rolling) {
             check_body(rule.body, false);
             check_body(rule.on, true);
             if (rule.body.text == rule.on.text && rule.body.place.line > 0)
-                complain(rule.on.place, fmt::format("{} cannot roll on itself; 'on' is another body, or left out for the ground",
-                                                    in_quotes(rule.on.text)));
+                complain(rule.on.place,
+                         fmt::format("{} cannot roll on itself; 'on' is another body, or left out for the ground",
+                                     in_quotes(rule.on.text)));
             quantities_.check_frame(rule.axes);
             check(rule.contact, {.subject = "a contact", .order = 0, .input_order = 0, .time = true});
-            for (const char* axis : {"_x", "_y", "_z"}) check_constraint_name({rule.name.text + axis, rule.name.place}, known);
+            for (const char* axis : {"_x", "_y", "_z"})
+                check_constraint_name({rule.name.text + axis, rule.name.place}, known);
         }
         for (const UnilateralRule& rule : scene_.unilateral) {
             quantities_.check(rule.gap, {.subject = "a gap", .order = 0, .input_order = 0, .time = true});
@@ -276,16 +285,18 @@ private:
         if (declared && declared->kind == Declared::Kind::body) return;
         std::vector<std::string> bodies;
         for (const Body& b : scene_.bodies) bodies.push_back(b.name.text);
-        complain(name.place, declared ? fmt::format("{} is {}; expected a body", in_quotes(name.text), described(declared->kind))
-                                      : fmt::format("unknown body {}{}", in_quotes(name.text), quantities_.suggestion(name.text, bodies)));
+        complain(name.place, declared ? fmt::format("{} is {}; expected a body", in_quotes(name.text),
+                                                    described(declared->kind))
+                                      : fmt::format("unknown body {}{}", in_quotes(name.text),
+                                                    quantities_.suggestion(name.text, bodies)));
     }
 
     void check_constraint_name(const Name& name, std::unordered_map<std::string, Place>& known) {
         if (name.place.line == 0 || !check_name(name)) return;
         const auto [first, is_new] = known.emplace(name.text, name.place);
         if (!is_new)
-            complain(name.place, fmt::format("the name {} is taken: a constraint has it on line {}", in_quotes(name.text),
-                                             first->second.line));
+            complain(name.place, fmt::format("the name {} is taken: a constraint has it on line {}",
+                                             in_quotes(name.text), first->second.line));
     }
 
     void check_runs() {
@@ -309,7 +320,8 @@ private:
         }
         const Legal constant{.subject = "a setting of the simulation", .definitions = false};
         const Simulation& s = scene_.simulation;
-        for (const Expression* value : {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})
+        for (const Expression* value :
+             {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})
             quantities_.check(*value, constant);
     }
 

@@ -14,7 +14,9 @@ namespace alembert {
 
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
 
 struct Word {
     std::string text;
@@ -61,8 +63,11 @@ Scene with_claims(Scene scene, std::string text, std::string file) {
         const bool is_equation = line.find('=') != std::string::npos;
         if (!is_equation && (first == "unknowns" || first == "constants")) {
             std::vector<Name>& list = first == "unknowns" ? unknowns : constants;
-            for (std::size_t k = 1; k < words.size(); ++k) list.push_back({words[k].text, source.place(begin + words[k].offset)});
-            if (words.size() == 1) mistakes.push_back({source.place(begin), fmt::format("'{}' names nothing; expected names after it", first)});
+            for (std::size_t k = 1; k < words.size(); ++k)
+                list.push_back({words[k].text, source.place(begin + words[k].offset)});
+            if (words.size() == 1)
+                mistakes.push_back(
+                    {source.place(begin), fmt::format("'{}' names nothing; expected names after it", first)});
             continue;
         }
         if (!is_equation && words.size() == 1 && (first == "rest" || first == "impact" || first == "motion")) {

@@ -13,8 +13,8 @@
 
 namespace alembert {
 
-/// The scene with the file's claims in place of its own. Its file and text become those of the claims, for messages.
-/// Throws SceneError for what cannot be read, with its line.
+/// The scene with the file's claims in place of its own. Its file and text become those of the claims, for
+/// messages. Throws SceneError for what cannot be read, with its line.
 Scene with_claims(Scene scene, const std::string& file);
 
 /// The same from a text already in memory; `file` is only what messages call it.

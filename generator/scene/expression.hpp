@@ -64,7 +64,8 @@ struct Equality {
 /// `lhs = rhs` without needless blanks.
 std::string text_of(const Equality& equation);
 
-/// With `rates_before`, `x'(-)` (the rate before an impact) is read: a call named `(-)` of the name x with one prime.
+/// With `rates_before`, `x'(-)` (the rate before an impact) is read: a call named `(-)` of the name x with one
+/// prime.
 Equality parse_equality(const std::string& text, const std::vector<Place>& places,
                         std::vector<Diagnostic>& diagnostics, bool rates_before = false);
 

@@ -26,7 +26,8 @@ void read_type(const Table& table, Joint& joint) {
 }
 
 Joint::Side read_side(const Table& table, const std::string& which) {
-    Joint::Side side{.body = table.needed_name(which), .point = {}, .rotate = read_rotations(table, which + "_rotate")};
+    Joint::Side side{
+        .body = table.needed_name(which), .point = {}, .rotate = read_rotations(table, which + "_rotate")};
     if (auto point = table.vector(which + "_point")) {
         side.point = std::move(*point);
     } else {
@@ -41,9 +42,10 @@ void read_axis(const Table& table, Joint& joint) {
     const Entry* const entry = table.find("axis");
     if (!entry) return;
     if (!moves_of(joint.type).has_axis())
-        return table.complain("axis", fmt::format("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
-                                                  "'parent_rotate' and 'child_rotate'",
-                                                  moves_of(joint.type).name));
+        return table.complain("axis",
+                              fmt::format("a {} joint has no 'axis' of its own; turn its axes in the bodies with "
+                                          "'parent_rotate' and 'child_rotate'",
+                                          moves_of(joint.type).name));
     joint.axis = alembert::read_axis(table.reading(), *entry->node);
 }
 
@@ -59,14 +61,16 @@ void read_angles(const Table& table, Joint& joint) {
     const Entry* const entry = table.find("angles");
     if (!entry) return;
     if (!moves_of(joint.type).has(Move::Kind::turn_in_space))
-        return table.complain("angles", "'angles' belongs to a spherical or a free joint; the others have angles of their own");
+        return table.complain(
+            "angles", "'angles' belongs to a spherical or a free joint; the others have angles of their own");
     joint.angles = table.text("angles");
     if (joint.angles.empty()) return;
     const std::string& a = joint.angles;
     if (a.size() != 3 || a.find_first_not_of("xyz") != std::string::npos || a[0] == a[1] || a[1] == a[2])
-        return table.complain("angles", fmt::format("{} is no sequence of axes; expected three of x, y, z, no two neighbours "
-                                                    "the same, as in \"zxz\" or \"xyz\"",
-                                                    in_quotes(a)));
+        return table.complain(
+            "angles", fmt::format("{} is no sequence of axes; expected three of x, y, z, no two neighbours "
+                                  "the same, as in \"zxz\" or \"xyz\"",
+                                  in_quotes(a)));
 }
 
 /// Coordinates and prescribed motions; a motion takes the place of the coordinate of its name, or its own by the
@@ -77,17 +81,19 @@ void read_coordinates_of(const Table& table, Joint& joint, Scene& scene) {
         if (!entry) return {};
         if (const toml::table* const node = entry->node->as_table())
             return Table(table.reading(), *node, table.what(key), entry->place);
-        table.complain(key, fmt::format("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
-                                        key == "motion" ? "\"expression in t\"" : "{ initial = 0.1 }"));
+        table.complain(
+            key, fmt::format("{} is {}; expected a table: {{ q1 = {} }}", table.what(key), kind_of(*entry->node),
+                             key == "motion" ? "\"expression in t\"" : "{ initial = 0.1 }"));
         return {};
     };
     const std::optional<Table> coordinates = inner("coordinates"), motion = inner("motion");
     if (motion)
         for (const Entry& entry : motion->entries()) {
             joint.coordinates.push_back({entry.key, entry.place});
-            scene.definitions.push_back({{entry.key, entry.place},
-                                         read_expression(table.reading(), *entry.node, labelled("the motion of", entry.key)),
-                                         true});
+            scene.definitions.push_back(
+                {{entry.key, entry.place},
+                 read_expression(table.reading(), *entry.node, labelled("the motion of", entry.key)),
+                 true});
         }
     if (coordinates)
         for (const Entry& entry : coordinates->entries()) {

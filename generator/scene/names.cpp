@@ -83,7 +83,8 @@ NameSpaces::Space enter(std::vector<Declaration> list, std::vector<Diagnostic>& 
 
 std::array<Name, 3> multipliers_of(const RollingRule& rule) {
     const std::string stem = "lambda_" + rule.name.text;
-    return {Name{stem + "_x", rule.name.place}, Name{stem + "_y", rule.name.place}, Name{stem + "_z", rule.name.place}};
+    return {Name{stem + "_x", rule.name.place}, Name{stem + "_y", rule.name.place},
+            Name{stem + "_z", rule.name.place}};
 }
 
 std::string described(Kind kind) {
@@ -120,8 +121,10 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     add(values, scene.definitions, Kind::definition);
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
-        multipliers.push_back(rule.multiplier ? *rule.multiplier : Name{"lambda_" + rule.name.text, rule.name.place});
-    for (const FrameQuaternion& quaternion : quaternions_of(scene)) multipliers.push_back(multiplier_of(quaternion));
+        multipliers.push_back(rule.multiplier ? *rule.multiplier
+                                              : Name{"lambda_" + rule.name.text, rule.name.place});
+    for (const FrameQuaternion& quaternion : quaternions_of(scene))
+        multipliers.push_back(multiplier_of(quaternion));
     for (const RollingRule& rule : scene.rolling)
         for (Name& multiplier : multipliers_of(rule)) multipliers.push_back(std::move(multiplier));
     for (const UnilateralRule& rule : scene.unilateral)

@@ -197,8 +197,9 @@ void Quantities::meet_name(Context& context, const Tree& tree, int raised) {
         }
         case Declared::Kind::multiplier:
             if (!context.legal.multipliers)
-                complain(context, tree, fmt::format("{} may not depend on a multiplier: {}", context.legal.subject,
-                                                    in_quotes(tree.text)));
+                complain(context, tree,
+                         fmt::format("{} may not depend on a multiplier: {}", context.legal.subject,
+                                     in_quotes(tree.text)));
             return constant("is a multiplier, whose derivative mechanics does not give");
         default:
             return;
@@ -247,7 +248,8 @@ void Quantities::meet(Context& context, const Tree& tree, Contents found, int ra
 }
 
 void Quantities::meet_unknown(Context& context, const Tree& tree) {
-    if (context.legal.claim && (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_intermediate(tree.text)))
+    if (context.legal.claim &&
+        (begins_with(tree.text, "p_") || begins_with(tree.text, "lambda") || is_intermediate(tree.text)))
         return;
     if (!unknown_.insert(tree.text).second) return;
     std::string message = fmt::format("unknown name {} in this expression", in_quotes(tree.text));

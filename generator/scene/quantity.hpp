@@ -22,7 +22,7 @@ struct Legal {
     bool definitions = true;
     std::string advice = {};                                ///< what to do instead, where a rate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names (of claims)
-    bool multipliers = false;  ///< of the scene's constraints
+    bool multipliers = false;                               ///< of the scene's constraints
     bool claim = false;  ///< momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, known or not
 };
 
@@ -65,9 +65,9 @@ private:
 
     const NameSpaces& names_;
     std::vector<Diagnostic>& diagnostics_;
-    std::vector<std::string> values_, frames_, points_;  // as spelled, for "did you mean"
+    std::vector<std::string> values_, frames_, points_;      // as spelled, for "did you mean"
     std::unordered_map<std::string, Contents> definitions_;  // and speeds
-    std::unordered_set<std::string> unknown_;  // each is told once for each expression
+    std::unordered_set<std::string> unknown_;                // each is told once for each expression
     int suggestions_ = 0;
 
     enum class Rank { number, vector, wrong };  ///< wrong: a mistake was told, and nothing more follows from it

@@ -10,7 +10,8 @@ namespace alembert {
 std::vector<Name> quaternion_of(const Joint& joint) {
     const JointMoves& moves = moves_of(joint.type);
     const std::size_t first = moves.before_turn_in_space();
-    if (!moves.has(Move::Kind::turn_in_space) || !joint.angles.empty() || joint.coordinates.size() != first + 4) return {};
+    if (!moves.has(Move::Kind::turn_in_space) || !joint.angles.empty() || joint.coordinates.size() != first + 4)
+        return {};
     return {joint.coordinates.begin() + static_cast<std::ptrdiff_t>(first), joint.coordinates.end()};
 }
 
@@ -25,11 +26,15 @@ std::vector<FrameQuaternion> quaternions_of(const Scene& scene) {
             return std::any_of(scene.coordinates.begin(), scene.coordinates.end(),
                                [&](const Coordinate& c) { return c.name.text == name.text; });
         });
-        if (moves) result.push_back({{(*joint.places_child ? joint.child : joint.parent).body.text, joint.name.place}, e});
+        if (moves)
+            result.push_back(
+                {{(*joint.places_child ? joint.child : joint.parent).body.text, joint.name.place}, e});
     }
     return result;
 }
 
-Name multiplier_of(const FrameQuaternion& quaternion) { return {"lambda_" + quaternion.of.text, quaternion.of.place}; }
+Name multiplier_of(const FrameQuaternion& quaternion) {
+    return {"lambda_" + quaternion.of.text, quaternion.of.place};
+}
 
 }  // namespace alembert

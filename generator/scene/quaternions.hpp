@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The quaternions of a scene: those of its frames, and those of spherical and free joints without `angles`, which place a body
-/// and turn the frame that bears its name.
+/// The quaternions of a scene: those of its frames, and those of spherical and free joints without `angles`, which
+/// place a body and turn the frame that bears its name.
 ///
 ///     [[frame]] name = "F", quaternion = ["e0", "e1", "e2", "e3"]       // of F:   e0, e1, e2, e3
 ///     [[joint]] type = "spherical", child = "top", coordinates = {…}    // of top: its four coordinates
 ///
-/// Each has e·e = 1 as a constraint, its multiplier being lambda_<frame>; a joint's whose four values are all prescribed
+/// Each has e·e = 1 as a constraint, its multiplier being lambda_<frame>; a joint's whose four values are all
+/// prescribed
 /// ([[joint]] motion) has none, since nothing is left to be constrained: it turns by e/|e|.
 
 #include "scene/scene.hpp"

@@ -132,9 +132,10 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
     const bool is_other = coordinates && !coordinates->node->is_table();  // which has been told
     if (scene.coordinates.empty() && !has_later && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
-                         scene.joints.empty() ? "the scene has no [coordinates]; at least one is needed"
-                                              : "the scene has no coordinates, neither in [coordinates] nor in a joint; at "
-                                                "least one is needed");
+                         scene.joints.empty()
+                             ? "the scene has no [coordinates]; at least one is needed"
+                             : "the scene has no coordinates, neither in [coordinates] nor in a joint; at "
+                               "least one is needed");
     std::stable_sort(scene.coordinates.begin(), scene.coordinates.end(),
                      [](const Coordinate& a, const Coordinate& b) { return a.name.place < b.name.place; });
     scene.title = top.text("title");
@@ -183,6 +184,8 @@ Scene parse_scene(std::string text, std::string file) {
     return scene;
 }
 
-Scene read_scene(const std::string& file) { return parse_scene(text_of_file(file), file); }
+Scene read_scene(const std::string& file) {
+    return parse_scene(text_of_file(file), file);
+}
 
 }  // namespace alembert

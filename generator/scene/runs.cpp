@@ -17,10 +17,11 @@ struct Method {
 };
 
 constexpr Method methods[] = {
-    {"auto", false},   {"euler", true},    {"rk2", true},      {"rk4", true},     {"dopri5", false}, {"dop853", false}, {"verner76", false},
-    {"verner98", false}, {"abm", false},   {"bdf", false},     {"taylor", false}, {"radau", false},  {"radau5", false}, {"radau9", false},
-    {"radau13", false}, {"verlet", true},  {"kahanli8", true}, {"gauss", true},   {"rattle", true},  {"rattle8", true}, {"cvode", false},
-    {"ida", false},
+    {"auto", false},   {"euler", true},     {"rk2", true},       {"rk4", true},     {"dopri5", false},
+    {"dop853", false}, {"verner76", false}, {"verner98", false}, {"abm", false},    {"bdf", false},
+    {"taylor", false}, {"radau", false},    {"radau5", false},   {"radau9", false}, {"radau13", false},
+    {"verlet", true},  {"kahanli8", true},  {"gauss", true},     {"rattle", true},  {"rattle8", true},
+    {"cvode", false},  {"ida", false},
 };
 
 std::string with_fixed_steps() {
@@ -53,11 +54,16 @@ std::optional<Name> read_method(const Table& table) {
         return {};
     }
     if (table.has("step") && !known->takes_step)
-        table.complain("step",
-                       fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
-                                   with_fixed_steps(), known->name));
+        table.complain(
+            "step",
+            fmt::format("only methods with fixed steps ({}) take 'step'; {} chooses its own: give 'tolerance'",
+                        with_fixed_steps(), known->name));
     if (table.has("max_step") && known->takes_step)
-        table.complain("max_step", fmt::format("'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'", known->name));
+        table.complain(
+            "max_step",
+            fmt::format(
+                "'max_step' bounds the steps of methods that choose their own; {} has a fixed step: give 'step'",
+                known->name));
     return name;
 }
 
@@ -67,12 +73,9 @@ void read_simulation(const Table& table, Scene& scene) {
     table.allow("simulation");
     Simulation& simulation = scene.simulation;
     simulation.start = table.has("start") ? table.expression("start") : zero(table.place());
-    const std::pair<std::string_view, Expression*> positive[] = {{"duration", &simulation.duration},
-                                                                 {"tolerance", &simulation.tolerance},
-                                                                 {"step", &simulation.step},
-                                                                 {"max_step", &simulation.max_step},
-                                                                 {"sample", &simulation.sample},
-                                                                 {"period", &simulation.period}};
+    const std::pair<std::string_view, Expression*> positive[] = {
+        {"duration", &simulation.duration}, {"tolerance", &simulation.tolerance}, {"step", &simulation.step},
+        {"max_step", &simulation.max_step}, {"sample", &simulation.sample},       {"period", &simulation.period}};
     for (const auto& [key, value] : positive) {
         *value = table.expression(key);
         if (value->tree && is_not_positive(*value->tree))
@@ -90,7 +93,8 @@ int read_direction(const Table& table) {
     if (!word || word->text == "both") return 0;
     if (word->text == "up") return 1;
     if (word->text == "down") return -1;
-    table.reading().complain(word->place, fmt::format("the direction of an event is \"up\" (the value of 'when' grows), \"down\" (it falls) or \"both\", not {}",
+    table.reading().complain(word->place, fmt::format("the direction of an event is \"up\" (the value of 'when' "
+                                                      "grows), \"down\" (it falls) or \"both\", not {}",
                                                       in_quotes(word->text)));
     return 0;
 }
@@ -100,14 +104,16 @@ std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
     if (!entry) return {};
     const toml::table* const node = entry->node->as_table();
     if (!node || node->empty()) {
-        table.complain("impulses", fmt::format("{} is {}; expected impulses by coordinate: {{ theta = \"expression\" }}", table.what("impulses"),
-                                               node ? "empty" : kind_of(*entry->node)));
+        table.complain("impulses",
+                       fmt::format("{} is {}; expected impulses by coordinate: {{ theta = \"expression\" }}",
+                                   table.what("impulses"), node ? "empty" : kind_of(*entry->node)));
         return {};
     }
     const Table inner(table.reading(), *node, table.what("impulses"), entry->place);
     std::vector<GeneralizedForce> impulses;
     for (const Entry& one : inner.entries())
-        impulses.push_back({{one.key, one.place}, read_expression(table.reading(), *one.node, labelled("the impulse along", one.key))});
+        impulses.push_back({{one.key, one.place},
+                            read_expression(table.reading(), *one.node, labelled("the impulse along", one.key))});
     return impulses;
 }
 

@@ -46,7 +46,7 @@ struct Coordinate {
     Name name;
     Expression initial, rate;  ///< in parameters; never null after reading (missing: 0)
     bool initial_is_guess = false, rate_is_guess = false;  ///< may move so that the constraints hold at the start
-    std::optional<Place> rate_given = {};  ///< where the scene says `rate` or `rate_guess`
+    std::optional<Place> rate_given = {};                  ///< where the scene says `rate` or `rate_guess`
     std::string unit, about;
 };
 
@@ -66,8 +66,8 @@ struct Speed {
 
 /// One simple rotation about an axis of the frame reached so far.
 struct Rotation {
-    char letter = 0;   ///< 'x', 'y' or 'z'; 0 where the axis is a vector
-    Vector axis;       ///< three expressions in parameters, not normalized; empty where a letter is given
+    char letter = 0;  ///< 'x', 'y' or 'z'; 0 where the axis is a vector
+    Vector axis;      ///< three expressions in parameters, not normalized; empty where a letter is given
     Expression angle;
 };
 
@@ -100,7 +100,7 @@ struct Inertia {
     std::optional<Expression> planar;  ///< about the z axis; then the tensor is empty
     std::array<Expression, 6> tensor;  ///< xx, yy, zz, xy, yz, zx elements; missing ones are the number 0
     Place place;
-    bool is_diagonal = false;          ///< was given as [Ixx, Iyy, Izz]
+    bool is_diagonal = false;  ///< was given as [Ixx, Iyy, Izz]
 };
 
 struct Body {
@@ -114,8 +114,8 @@ struct Body {
     std::optional<std::size_t> joint;  ///< which one places it; its frame then bears its own name
 };
 
-/// Holds two bodies together. The joint's axes stand in each body as `rotate` says, and come together where all its
-/// coordinates are 0.
+/// Holds two bodies together. The joint's axes stand in each body as `rotate` says, and come together where all
+/// its coordinates are 0.
 struct Joint {
     enum class Type { fixed, revolute, prismatic, cylindrical, universal, spherical, planar, screw, free };
     struct Side {
@@ -129,7 +129,7 @@ struct Joint {
     Rotation axis;     ///< its angle is null
     Expression pitch;  ///< null but for a screw
     std::string angles;
-    std::vector<Name> coordinates;  ///< those with a prescribed motion among them, in the order of the type
+    std::vector<Name> coordinates;     ///< those with a prescribed motion among them, in the order of the type
     bool is_whole = true;              ///< nothing was wrong with its table
     std::optional<bool> places_child;  ///< or the parent; nothing where it places none
     bool closes_loop = false;
@@ -177,8 +177,8 @@ struct GeneralizedForce {
 struct ConstraintRule {
     Name name;
     bool holonomic = true;
-    Equality equation;                ///< rhs is the number 0 where there is no `=`
-    std::optional<Name> multiplier;   ///< lambda_<name> when missing
+    Equality equation;               ///< rhs is the number 0 where there is no `=`
+    std::optional<Name> multiplier;  ///< lambda_<name> when missing
 };
 
 /// gap ≥ 0
@@ -209,7 +209,7 @@ struct EventRule {
     Name name;
     Expression when;
     bool stop = false;
-    int direction = 0;  ///< +1: only where `when` grows, −1: falls, 0: both
+    int direction = 0;                            ///< +1: only where `when` grows, −1: falls, 0: both
     std::vector<GeneralizedForce> impulses = {};  ///< at each zero; of the rates before
 };
 
@@ -227,8 +227,8 @@ struct Claim {
 };
 
 struct Scene {
-    std::string file;     ///< as given by the user
-    std::string text;     ///< the whole file, for messages that show its lines
+    std::string file;  ///< as given by the user
+    std::string text;  ///< the whole file, for messages that show its lines
     std::string title, source, notes;
     std::optional<Vector> gravity;
     std::vector<Parameter> parameters;

@@ -34,7 +34,8 @@ Item read_item(const Table& table, const Entry& entry, const std::string& what, 
 
 void read_parameters(const Table& table, Scene& scene) {
     for (const Entry& entry : table.entries())
-        scene.parameters.push_back(read_item<Parameter>(table, entry, labelled("parameter", entry.key), "parameters.*"));
+        scene.parameters.push_back(
+            read_item<Parameter>(table, entry, labelled("parameter", entry.key), "parameters.*"));
 }
 
 void read_inputs(const Table& table, Scene& scene) {
@@ -44,7 +45,8 @@ void read_inputs(const Table& table, Scene& scene) {
 
 Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
     const std::string what = labelled("coordinate", entry.key);
-    Coordinate coordinate{.name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
+    Coordinate coordinate{
+        .name = {entry.key, entry.place}, .initial = {}, .rate = zero(entry.place), .unit = {}, .about = {}};
     const toml::table* const inner = entry.node->as_table();
     if (!inner) {
         coordinate.initial = read_expression(reading, *entry.node, what);
@@ -68,7 +70,8 @@ Coordinate read_coordinate(const Reading& reading, const Entry& entry) {
 }
 
 void read_coordinates(const Table& table, Scene& scene) {
-    for (const Entry& entry : table.entries()) scene.coordinates.push_back(read_coordinate(table.reading(), entry));
+    for (const Entry& entry : table.entries())
+        scene.coordinates.push_back(read_coordinate(table.reading(), entry));
 }
 
 void read_speeds(const Table& table, Scene& scene) {

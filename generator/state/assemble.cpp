@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// f(q) = 0 by q ← q − J⁺ f with J = ∂f/∂q over the guesses alone; J⁺ gives the least change (Golub & Van Loan, §5.5).
+// f(q) = 0 by q ← q − J⁺ f with J = ∂f/∂q over the guesses alone; J⁺ gives the least change (Golub & Van Loan,
+// §5.5).
 #include "state/assemble.hpp"
 
 #include <fmt/format.h>
@@ -81,26 +82,31 @@ private:
             }
             const LeastNorm change = least_norm(J, misfit);
             if (change.rank < n)
-                throw IntegrationError("the speeds do not determine the rates at the start: their forms, with the constraints, lose rank "
-                                       "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
-                                       "angles in gimbal lock)",
-                                       start_.t, start_.q);
+                throw IntegrationError(
+                    "the speeds do not determine the rates at the start: their forms, with the constraints, lose "
+                    "rank "
+                    "at these coordinates; start elsewhere, or choose other coordinates (a quaternion, for "
+                    "angles in gimbal lock)",
+                    start_.t, start_.q);
             const Eigen::VectorXd step = change.x;
             for (Eigen::Index j = 0; j < n; ++j) start_.qdot[j] -= step[j];
         }
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < speeds.size(); ++k) {
             const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
-            double row = 0, largest = 0;  // the terms may all be zero, but for what rounding leaves of the solution
+            double row = 0,
+                   largest = 0;  // the terms may all be zero, but for what rounding leaves of the solution
             for (Eigen::Index j = 0; j < n; ++j) {
                 row += std::abs(value[forms[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]]);
                 largest = std::max(largest, std::abs(start_.qdot[j]));
             }
             const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
-            if (!(misfit <= allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) + rounding))
-                throw ModelError(fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
-                                             "constraints leave it off by {:.6g} at these coordinates",
-                                             m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
+            if (!(misfit <=
+                  allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) + rounding))
+                throw ModelError(
+                    fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
+                                "constraints leave it off by {:.6g} at these coordinates",
+                                m_.speeds[k].u.get_name(), start_.speeds[k], misfit));
         }
     }
 
@@ -123,14 +129,17 @@ private:
             former = misfit;
             Eigen::VectorXd step = least_norm(J, f).x;
             // Far away a whole step may throw an angle round the circle.
-            if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1) step /= length;
+            if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1)
+                step /= length;
             if (!step.allFinite()) break;
             for (Eigen::Index j = 0; j < n; ++j) x[free[j]] -= step[j];
         }
         check(nodes, x, n > 0, n > 0);
         for (const int i : free)
-            if (std::abs(x[i] - before[i]) > 1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
-                moved_.push_back(fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
+            if (std::abs(x[i] - before[i]) >
+                1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
+                moved_.push_back(
+                    fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
     /// What rounding leaves of a step: the terms themselves may all be zero.
@@ -148,16 +157,21 @@ private:
         const std::vector<double> value = interpret(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0)) continue;
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0))
+                continue;
             if (!std::isfinite(misfit))
-                throw ModelError(fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
-                                             "a root or a logarithm of what has none; give other initial values",
-                                             m_.constraints[k].name));
-            const std::string what = fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
+                throw ModelError(
+                    fmt::format("constraint '{}' is not finite at the start: it divides by zero there, or takes "
+                                "a root or a logarithm of what has none; give other initial values",
+                                m_.constraints[k].name));
+            const std::string what =
+                fmt::format("constraint '{}' is off by {:.6g} at the start", m_.constraints[k].name, misfit);
             if (guessed)
-                throw IntegrationError(what + ": the guesses do not converge to a state that obeys it; try others, or "
-                                              "let more values move",
-                                       start_.t, start_.q);
+                throw IntegrationError(
+                    what +
+                        ": the guesses do not converge to a state that obeys it; try others, or "
+                        "let more values move",
+                    start_.t, start_.q);
             throw ModelError(what + "; give initial values that obey it, or let some move: guess, rate_guess");
         }
     }
@@ -180,7 +194,8 @@ double size_of_terms(const Program& program, int id, const std::vector<double>& 
     }
     double sum = std::abs(real_of<double>(node->number));
     for (std::size_t k = 0; k < node->args.size(); ++k)
-        sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) * std::abs(value[node->args[k]]);
+        sum += (node->op == Op::sum ? std::abs(real_of<double>(node->coefficients[k])) : 1) *
+               std::abs(value[node->args[k]]);
     return factor * sum;
 }
 

@@ -12,8 +12,8 @@ namespace alembert {
 
 namespace {
 
-/// Which of the n coordinates (or speeds) have kinetic energy, or all if the constraints do not determine the rates of those that have
-/// none from the rates of the others (their columns of A are dependent).
+/// Which of the n coordinates (or speeds) have kinetic energy, or all if the constraints do not determine the
+/// rates of those that have none from the rates of the others (their columns of A are dependent).
 std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const std::vector<double>& value) {
     const std::vector<int> mass = program.nodes_of(Group::mass), rows = program.nodes_of(Group::row);
     std::vector<Eigen::Index> heavy, massless, all;
@@ -76,9 +76,11 @@ std::optional<std::string> massless_combination(const Program& program, const St
     return text;
 }
 
-std::optional<std::string> lost_rank(const Program& program, const State<double>& state, const std::vector<int>& kept) {
+std::optional<std::string> lost_rank(const Program& program, const State<double>& state,
+                                     const std::vector<int>& kept) {
     const std::vector<int> rows = program.nodes_of(Group::row);
-    const auto n = static_cast<Eigen::Index>(program.coordinates.size()), m = static_cast<Eigen::Index>(kept.size());
+    const auto n = static_cast<Eigen::Index>(program.coordinates.size()),
+               m = static_cast<Eigen::Index>(kept.size());
     if (kept.empty() || n == 0) return std::nullopt;
     const std::vector<double> value = interpret(program, state);
     Eigen::MatrixXd A(m, n);
@@ -101,9 +103,12 @@ std::optional<std::string> lost_rank(const Program& program, const State<double>
         names += fmt::format("{}'{}'", names.empty() ? "" : ", ", constraints[kept[k]]);
         ++count;
     }
-    return fmt::format("{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
-                       "(audit lists such poses; dop853 goes through one where every coordinate has inertia)",
-                       count == 1 ? fmt::format("constraint {} has no row left", names) : fmt::format("the rows of constraints {} become dependent", names), m, left);
+    return fmt::format(
+        "{} in this pose, and the rank of the constraints drops from {} to {}; start beside it "
+        "(audit lists such poses; dop853 goes through one where every coordinate has inertia)",
+        count == 1 ? fmt::format("constraint {} has no row left", names)
+                   : fmt::format("the rows of constraints {} become dependent", names),
+        m, left);
 }
 
 std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group) {
@@ -111,7 +116,8 @@ std::optional<std::string> not_finite(const Program& program, const State<double
     for (const int id : program.needed(program.nodes_of(group))) {
         if (std::isfinite(value[id])) continue;
         const Node& node = program[id];
-        std::string what = fmt::format("{}({:.6g})", name_of(node.op), node.args.empty() ? 0.0 : value[node.args[0]]);
+        std::string what =
+            fmt::format("{}({:.6g})", name_of(node.op), node.args.empty() ? 0.0 : value[node.args[0]]);
         if (node.op == Op::variable)
             what = "a value of the state";
         else if (node.is_reciprocal())

@@ -32,8 +32,10 @@ InertiaCheck::InertiaCheck(const Scene& scene, const Mechanism& mechanism) : sce
 }
 
 Place InertiaCheck::place_of(const Origin& origin) const {
-    if (const Body* const body = body_of(scene_, origin)) return body->inertia ? body->inertia->place : body->name.place;
-    if (origin.kind == Origin::Kind::particle) return scene_.particles[static_cast<std::size_t>(origin.index)].name.place;
+    if (const Body* const body = body_of(scene_, origin))
+        return body->inertia ? body->inertia->place : body->name.place;
+    if (origin.kind == Origin::Kind::particle)
+        return scene_.particles[static_cast<std::size_t>(origin.index)].name.place;
     return {};
 }
 
@@ -45,36 +47,46 @@ std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const
     std::size_t next = 0;
     for (const MassElement& element : m_.masses) {
         if (const double mass = value[nodes_[next++]]; !(mass >= 0))
-            found.push_back({place_of(element.origin), fmt::format("the mass of {} is {}; expected zero or more", label(element.origin), mass)});
+            found.push_back({place_of(element.origin), fmt::format("the mass of {} is {}; expected zero or more",
+                                                                   label(element.origin), mass)});
         if (!element.rotation) continue;
         std::array<double, 6> I;
         for (double& entry : I) entry = value[nodes_[next++]];
         const Body* const body = body_of(scene_, element.origin);
-        if (body != nullptr && body->inertia && std::all_of(I.begin(), I.end(), [](double x) { return std::isfinite(x); }))
+        if (body != nullptr && body->inertia &&
+            std::all_of(I.begin(), I.end(), [](double x) { return std::isfinite(x); }))
             add_moments(found, *body, I);
     }
     return found;
 }
 
-void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I) const {
+void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body,
+                               const std::array<double, 6>& I) const {
     const Place place = body.inertia->place;
-    const std::string about = body.about ? fmt::format(" (about its mass centre; they are given about '{}')", body.about->text) : "";
+    const std::string about =
+        body.about ? fmt::format(" (about its mass centre; they are given about '{}')", body.about->text) : "";
     if (body.inertia->planar) {
         if (I[2] < 0)
-            found.push_back({place, fmt::format("the moment of inertia of body '{}' is {}{}; expected zero or more", body.name.text, I[2], about)});
+            found.push_back(
+                {place, fmt::format("the moment of inertia of body '{}' is {}{}; expected zero or more",
+                                    body.name.text, I[2], about)});
         return;
     }
-    const PrincipalAxes<> own = principal_axes<double>(inertia_matrix<double>({I[0], I[1], I[2], I[3], I[4], I[5]}));
-    const std::string moments = fmt::format("the principal moments of inertia of body '{}'{}, {:.6g}, {:.6g} and {:.6g},", body.name.text,
-                                            about, own.moments[0], own.moments[1], own.moments[2]);
+    const PrincipalAxes<> own =
+        principal_axes<double>(inertia_matrix<double>({I[0], I[1], I[2], I[3], I[4], I[5]}));
+    const std::string moments =
+        fmt::format("the principal moments of inertia of body '{}'{}, {:.6g}, {:.6g} and {:.6g},", body.name.text,
+                    about, own.moments[0], own.moments[1], own.moments[2]);
     if (has_negative_moment(own))
         found.push_back({place, moments + " are not all zero or more; no body has them"});
     else if (breaks_triangle_inequality(own))
-        found.push_back({place,
-                         fmt::format("{} break the triangle inequality: {:.6g} + {:.6g} is less than {:.6g}; no distribution of mass "
-                                     "has them",
-                                     moments, own.moments[0], own.moments[1], own.moments[2]),
-                         Severity::warning});
+        found.push_back(
+            {place,
+             fmt::format(
+                 "{} break the triangle inequality: {:.6g} + {:.6g} is less than {:.6g}; no distribution of mass "
+                 "has them",
+                 moments, own.moments[0], own.moments[1], own.moments[2]),
+             Severity::warning});
 }
 
 }  // namespace alembert

@@ -19,7 +19,8 @@ Prepared prepared(Scene scene, const Overrides& at) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     if (!result.scene.warnings.empty()) result.warnings.push_back(describe(result.scene, result.scene.warnings));
     result.mechanism = build(result.scene);
-    for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warnings.push_back(std::move(warning));
+    for (std::string& warning : check_bodies(result.scene, result.mechanism, at))
+        result.warnings.push_back(std::move(warning));
     return result;
 }
 

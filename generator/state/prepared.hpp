@@ -7,7 +7,8 @@
 ///     p.mechanism.constraints.size();
 ///     for (const std::string& warning : p.warnings) std::cerr << warning;
 ///
-/// Every verb begins with one. Nothing is printed: what a person should be told stands in `warnings`, with its place in the scene.
+/// Every verb begins with one. Nothing is printed: what a person should be told stands in `warnings`, with its
+/// place in the scene.
 
 #include <string>
 #include <vector>
@@ -24,9 +25,10 @@ struct Prepared {
     std::vector<std::string> warnings;  ///< lines for a person, each ending with a line break
 };
 
-/// Builds the mechanism and checks the bodies at the scene's values with those of `at` in their place. A moment of inertia that breaks
-/// the triangle inequality is a warning. Throws SceneError for a mistake in the scene, and for a mass or a principal moment that is
-/// negative at these values; ModelError for a name in `at` that the scene does not have.
+/// Builds the mechanism and checks the bodies at the scene's values with those of `at` in their place. A moment of
+/// inertia that breaks the triangle inequality is a warning. Throws SceneError for a mistake in the scene, and for
+/// a mass or a principal moment that is negative at these values; ModelError for a name in `at` that the scene
+/// does not have.
 Prepared prepared(Scene scene, const Overrides& at = {});
 
 /// The check of the bodies alone, at other values. Gives the warnings; throws as `prepared`.

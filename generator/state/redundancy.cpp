@@ -8,8 +8,8 @@
 #include <random>
 
 #include "alembert/dense.hpp"
-#include "state/assemble.hpp"
 #include "lower/lower.hpp"
+#include "state/assemble.hpp"
 
 namespace alembert {
 
@@ -36,10 +36,12 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
 }  // namespace
 
 std::vector<int> redundant_constraints(const Mechanism& mechanism) {
-    if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size()) return {};
+    if (mechanism.constraints.size() < 2 && static_cast<int>(mechanism.constraints.size()) < mechanism.size())
+        return {};
     const Program program = lower_constraints(mechanism);
     const std::vector<int> rows = program.nodes_of(Group::row);
-    const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()), n = static_cast<Eigen::Index>(mechanism.size());
+    const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()),
+               n = static_cast<Eigen::Index>(mechanism.size());
     // A velocity constraint that follows from a position is the one to drop: it does not say where.
     std::vector<int> order;
     for (const bool holonomic : {true, false})
@@ -99,7 +101,8 @@ std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vect
         for (std::size_t c = 0; c < kept.size(); ++c) basis.col(static_cast<Eigen::Index>(c)) = row(kept[c]);
         const Eigen::VectorXd target = row(k), share = least_norm(basis, target).x;
         for (Eigen::Index c = 0; c < share.size(); ++c)
-            if (std::abs(share[c]) * basis.col(c).norm() > 1e-7 * target.norm()) used[static_cast<std::size_t>(c)] = true;
+            if (std::abs(share[c]) * basis.col(c).norm() > 1e-7 * target.norm())
+                used[static_cast<std::size_t>(c)] = true;
     }
     std::vector<int> result;
     for (std::size_t c = 0; c < kept.size(); ++c)
@@ -137,10 +140,11 @@ void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant
         for (const int r : redundant) {
             const double misfit = std::abs(value[velocity[r]]);
             if (std::isfinite(misfit) && misfit > 1e-6 * (1 + size_of_terms(program, velocity[r], value)))
-                throw ModelError(fmt::format("constraint '{0}' has a row that follows from the others', and asks for other rates than "
-                                             "they do: together they hold only where a relation between the coordinates does; "
-                                             "write that relation as a holonomic constraint in place of '{0}'",
-                                             mechanism.constraints[r].name));
+                throw ModelError(fmt::format(
+                    "constraint '{0}' has a row that follows from the others', and asks for other rates than "
+                    "they do: together they hold only where a relation between the coordinates does; "
+                    "write that relation as a holonomic constraint in place of '{0}'",
+                    mechanism.constraints[r].name));
         }
     }
 }

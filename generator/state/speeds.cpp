@@ -43,9 +43,10 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
             numbers += fmt::format("{}{}", k == 0 ? "" : k + 1 == allowed.size() ? " or " : ", ", allowed[k]);
         const int rows = static_cast<int>(m.constraints.size());
         return Diagnostic{m.speeds.back().place,
-                          fmt::format("there {} {} generalized speed{}, and {} coordinate{} with {} independent constraint{}; expected {}",
-                                      count == 1 ? "is" : "are", count, count == 1 ? "" : "s", n, n == 1 ? "" : "s",
-                                      rows, rows == 1 ? "" : "s", numbers)};
+                          fmt::format("there {} {} generalized speed{}, and {} coordinate{} with {} independent "
+                                      "constraint{}; expected {}",
+                                      count == 1 ? "is" : "are", count, count == 1 ? "" : "s", n,
+                                      n == 1 ? "" : "s", rows, rows == 1 ? "" : "s", numbers)};
     }
     std::vector<int> left_out;
     const bool all = count == n - static_cast<int>(m.constraints.size());
@@ -73,14 +74,17 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
     }
     if (!dependent) return std::nullopt;  // no state without a pole: the run will tell
     if (*dependent < count)
-        return Diagnostic{m.speeds[*dependent].place,
-                          fmt::format("speed '{}' is a combination of the speeds before it; expected independent forms",
-                                      m.speeds[*dependent].u.get_name())};
+        return Diagnostic{
+            m.speeds[*dependent].place,
+            fmt::format("speed '{}' is a combination of the speeds before it; expected independent forms",
+                        m.speeds[*dependent].u.get_name())};
     const std::string& constraint = m.constraints[left_out[*dependent - count]].name;
-    return Diagnostic{m.speeds.back().place,
-                      fmt::format("the speeds and the constraints do not determine the rates: constraint '{}' fixes a combination "
-                                  "of the speeds; expected forms that it leaves free",
-                                  constraint)};
+    return Diagnostic{
+        m.speeds.back().place,
+        fmt::format(
+            "the speeds and the constraints do not determine the rates: constraint '{}' fixes a combination "
+            "of the speeds; expected forms that it leaves free",
+            constraint)};
 }
 
 }  // namespace alembert

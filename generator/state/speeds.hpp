@@ -11,9 +11,10 @@
 
 namespace alembert {
 
-/// What is wrong with [speeds], at its place: too many or too few of them (n, n − m with m all constraints, n − m with m the
-/// nonholonomic ones), forms that depend on each other, forms that the constraints already fix. Ranks are those at the
-/// start and at eight random states, in floating point. The mechanism must be without redundant constraints.
+/// What is wrong with [speeds], at its place: too many or too few of them (n, n − m with m all constraints, n − m
+/// with m the nonholonomic ones), forms that depend on each other, forms that the constraints already fix. Ranks
+/// are those at the start and at eight random states, in floating point. The mechanism must be without redundant
+/// constraints.
 std::optional<Diagnostic> mistake_in_speeds(const Mechanism& mechanism);
 
 }  // namespace alembert

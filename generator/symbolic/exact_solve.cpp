@@ -20,7 +20,8 @@ int nodes(const ex& e, int limit = most_nodes + 1) {
 /// sin²ᵏ⁺ʳ as (1 − cos²)ᵏ sinʳ, in an expanded polynomial.
 struct NoSquaresOfSines : GiNaC::map_function {
     ex operator()(const ex& e) override {
-        if (GiNaC::is_a<GiNaC::power>(e) && GiNaC::is_the_function<GiNaC::sin_SERIAL>(e.op(0)) && e.op(1).info(GiNaC::info_flags::posint)) {
+        if (GiNaC::is_a<GiNaC::power>(e) && GiNaC::is_the_function<GiNaC::sin_SERIAL>(e.op(0)) &&
+            e.op(1).info(GiNaC::info_flags::posint)) {
             const int exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_int();
             return pow(1 - pow(cos(e.op(0).op(0)), 2), exponent / 2) * pow(e.op(0), exponent % 2);
         }
@@ -56,7 +57,8 @@ std::pair<ex, ex> wave(const ex& angle) {
 
 struct SingleAngles : GiNaC::map_function {
     ex operator()(const ex& e) override {
-        const bool is_sine = GiNaC::is_the_function<GiNaC::sin_SERIAL>(e), is_tangent = GiNaC::is_the_function<GiNaC::tan_SERIAL>(e);
+        const bool is_sine = GiNaC::is_the_function<GiNaC::sin_SERIAL>(e),
+                   is_tangent = GiNaC::is_the_function<GiNaC::tan_SERIAL>(e);
         if (!is_sine && !is_tangent && !GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) return e.map(*this);
         const auto [s, c] = wave(e.op(0).expand());
         return is_sine ? s : is_tangent ? s / c : c;
@@ -81,7 +83,8 @@ ex lowest_terms(const ex& e) {
     return (above / below).normal();
 }
 
-std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b, const std::function<double(const ex&)>& number) {
+std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b,
+                                             const std::function<double(const ex&)>& number) {
     const std::size_t n = b.size();
     double scale = 0;
     for (GiNaC::exvector& row : K)
@@ -98,7 +101,8 @@ std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b, con
             for (std::size_t j = 0; j < n && used[i] == 0; ++j) {
                 if (taken[j] != 0 || K[i][j].is_zero() || !(std::abs(number(K[i][j])) > 1e-12 * scale)) continue;
                 int others = 0;  // an entry that few others stand beside makes few new ones
-                for (std::size_t k = 0; k < n; ++k) others += (used[k] == 0 && !K[k][j].is_zero()) + (taken[k] == 0 && !K[i][k].is_zero());
+                for (std::size_t k = 0; k < n; ++k)
+                    others += (used[k] == 0 && !K[k][j].is_zero()) + (taken[k] == 0 && !K[i][k].is_zero());
                 const int price = nodes(K[i][j]) * others;
                 if (row < n && price >= least) continue;
                 row = i;

@@ -18,10 +18,11 @@ namespace alembert {
 
 using ExactRows = std::vector<GiNaC::exvector>;
 
-/// `number` gives the value of an expression where the system stands; pivots are chosen by it, the simplest expression
-/// among those that are not small. Nothing where no pivot is left (a singular system), or where an expression grows
-/// beyond what anybody reads.
-std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b, const std::function<double(const GiNaC::ex&)>& number);
+/// `number` gives the value of an expression where the system stands; pivots are chosen by it, the simplest
+/// expression among those that are not small. Nothing where no pivot is left (a singular system), or where an
+/// expression grows beyond what anybody reads.
+std::optional<GiNaC::exvector> solve_exactly(ExactRows K, GiNaC::exvector b,
+                                             const std::function<double(const GiNaC::ex&)>& number);
 
 /// Sines and cosines of sums and multiples as polynomials in those of single angles: cos(a − b), sin 2a, tan a.
 GiNaC::ex in_single_angles(const GiNaC::ex& e);

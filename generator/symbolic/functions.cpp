@@ -22,8 +22,8 @@ REGISTER_FUNCTION(absolute, eval_func(absolute_eval))
 namespace {
 
 struct Unary {
-    const char* name;         // in the scene language
-    const char* ginac;        // as GiNaC calls it
+    const char* name;   // in the scene language
+    const char* ginac;  // as GiNaC calls it
     ex (*apply)(const ex& x);
     ex (*derivative)(const ex& x, const ex& call);
 };
@@ -32,19 +32,24 @@ struct Unary {
 const std::array<Unary, 13> unary{{
     {"sin", "sin", [](const ex& x) -> ex { return sin(x); }, [](const ex& x, const ex&) -> ex { return cos(x); }},
     {"cos", "cos", [](const ex& x) -> ex { return cos(x); }, [](const ex& x, const ex&) -> ex { return -sin(x); }},
-    {"tan", "tan", [](const ex& x) -> ex { return tan(x); }, [](const ex&, const ex& y) -> ex { return 1 + y * y; }},
+    {"tan", "tan", [](const ex& x) -> ex { return tan(x); },
+     [](const ex&, const ex& y) -> ex { return 1 + y * y; }},
     {"asin", "asin", [](const ex& x) -> ex { return asin(x); },
      [](const ex& x, const ex&) -> ex { return 1 / sqrt(1 - x * x); }},
     {"acos", "acos", [](const ex& x) -> ex { return acos(x); },
      [](const ex& x, const ex&) -> ex { return -1 / sqrt(1 - x * x); }},
     {"atan", "atan", [](const ex& x) -> ex { return atan(x); },
      [](const ex& x, const ex&) -> ex { return 1 / (1 + x * x); }},
-    {"sinh", "sinh", [](const ex& x) -> ex { return sinh(x); }, [](const ex& x, const ex&) -> ex { return cosh(x); }},
-    {"cosh", "cosh", [](const ex& x) -> ex { return cosh(x); }, [](const ex& x, const ex&) -> ex { return sinh(x); }},
-    {"tanh", "tanh", [](const ex& x) -> ex { return tanh(x); }, [](const ex&, const ex& y) -> ex { return 1 - y * y; }},
+    {"sinh", "sinh", [](const ex& x) -> ex { return sinh(x); },
+     [](const ex& x, const ex&) -> ex { return cosh(x); }},
+    {"cosh", "cosh", [](const ex& x) -> ex { return cosh(x); },
+     [](const ex& x, const ex&) -> ex { return sinh(x); }},
+    {"tanh", "tanh", [](const ex& x) -> ex { return tanh(x); },
+     [](const ex&, const ex& y) -> ex { return 1 - y * y; }},
     {"exp", "exp", [](const ex& x) -> ex { return exp(x); }, [](const ex&, const ex& y) -> ex { return y; }},
     {"log", "log", [](const ex& x) -> ex { return log(x); }, [](const ex& x, const ex&) -> ex { return 1 / x; }},
-    {"abs", "absolute", [](const ex& x) -> ex { return absolute(x); }, [](const ex& x, const ex&) -> ex { return csgn(x); }},
+    {"abs", "absolute", [](const ex& x) -> ex { return absolute(x); },
+     [](const ex& x, const ex&) -> ex { return csgn(x); }},
     {"sign", "csgn", [](const ex& x) -> ex { return csgn(x); }, [](const ex&, const ex&) -> ex { return 0; }},
 }};
 

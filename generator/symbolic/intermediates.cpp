@@ -16,16 +16,21 @@ using GiNaC::symbol;
 
 namespace {
 
-bool is_number(const ex& e) { return is_a<numeric>(e) || is_a<GiNaC::constant>(e); }
+bool is_number(const ex& e) {
+    return is_a<numeric>(e) || is_a<GiNaC::constant>(e);
+}
 
 bool is_atom(const ex& e) {
     if (is_number(e) || is_a<symbol>(e)) return true;
     return is_a<GiNaC::mul>(e) && e.nops() == 2 &&
-           ((is_a<numeric>(e.op(0)) && is_a<symbol>(e.op(1))) || (is_a<numeric>(e.op(1)) && is_a<symbol>(e.op(0))));
+           ((is_a<numeric>(e.op(0)) && is_a<symbol>(e.op(1))) ||
+            (is_a<numeric>(e.op(1)) && is_a<symbol>(e.op(0))));
 }
 
 /// A power that a polynomial may contain.
-bool is_whole_power(const ex& e) { return is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer); }
+bool is_whole_power(const ex& e) {
+    return is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::integer);
+}
 
 /// Sum kept flat: GiNaC adds n terms at once faster than one by one.
 ex sum_of(GiNaC::exvector terms) {
@@ -97,7 +102,8 @@ ex Intermediates::name_whole(const ex& e) {
     std::set<int> sources{current_source_};
     // What several share keeps its own sources; a sum over bodies has them all, up to a readable number.
     for (const symbol& s : entry.uses)
-        if (const Entry* used = find(s); used && current_source_ == 0) sources.insert(used->sources.begin(), used->sources.end());
+        if (const Entry* used = find(s); used && current_source_ == 0)
+            sources.insert(used->sources.begin(), used->sources.end());
     if (sources.size() > 1) sources.erase(0);
     entry.sources.assign(sources.begin(), sources.end());
     if (entry.sources.size() > 4) entry.sources.resize(4);
@@ -174,7 +180,8 @@ bool Intermediates::depends(const ex& e, const std::vector<symbol>& on) const {
     std::set<unsigned> wanted;
     for (const symbol& s : on) wanted.insert(s.gethash());
     const auto any = [&](const std::vector<symbol>& uses) {
-        return std::any_of(uses.begin(), uses.end(), [&](const symbol& s) { return wanted.contains(s.gethash()); });
+        return std::any_of(uses.begin(), uses.end(),
+                           [&](const symbol& s) { return wanted.contains(s.gethash()); });
     };
     if (any(symbols_in(e))) return true;
     for (const std::size_t k : reachable({e}))
@@ -221,8 +228,12 @@ std::vector<ex> Intermediates::pull_back(const std::vector<std::pair<ex, ex>>& t
 }
 
 Intermediates::Flow& Intermediates::flow_along(const Direction& direction) {
-    const auto same = [](const auto& a, const auto& b) { return a.first.is_equal(b.first) && a.second.is_equal(b.second); };
-    if (last_flow_.direction.size() == direction.size() && std::equal(direction.begin(), direction.end(), last_flow_.direction.begin(), same)) return last_flow_;
+    const auto same = [](const auto& a, const auto& b) {
+        return a.first.is_equal(b.first) && a.second.is_equal(b.second);
+    };
+    if (last_flow_.direction.size() == direction.size() &&
+        std::equal(direction.begin(), direction.end(), last_flow_.direction.begin(), same))
+        return last_flow_;
     last_flow_ = {.direction = direction, .dot = {}, .done = {}};
     for (const auto& [s, rate] : direction)
         if (!rate.is_zero()) last_flow_.dot.emplace(s.gethash(), rate);

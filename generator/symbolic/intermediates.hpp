@@ -71,7 +71,8 @@ public:
     const Symbols& symbols() const { return *symbols_; }
 
 private:
-    /// What a direction has been followed through already: scenes of hundreds of points are differentiated point by point.
+    /// What a direction has been followed through already: scenes of hundreds of points are differentiated point
+    /// by point.
     struct Flow {
         Direction direction = {};
         std::map<unsigned, GiNaC::ex> dot = {};  // symbol hash → its derivative, where that is not 0
@@ -86,8 +87,8 @@ private:
 
     Symbols* symbols_;
     std::vector<Entry> entries_;
-    std::map<unsigned, std::size_t> position_;               // symbol hash → entry
-    std::map<GiNaC::ex, GiNaC::ex, GiNaC::ex_is_less> known_;  // definition → symbol
+    std::map<unsigned, std::size_t> position_;                   // symbol hash → entry
+    std::map<GiNaC::ex, GiNaC::ex, GiNaC::ex_is_less> known_;    // definition → symbol
     std::map<std::pair<std::size_t, int>, GiNaC::ex> partials_;  // (entry, rank) → ∂definition/∂symbol
     std::vector<std::string> labels_{"the scene"};
     Flow last_flow_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bounds in units of the roundoff: of a sum Σ b + |s|, of a product |p| (Σ b/|x| + count), of f(x) |f'(x)| b + |f(x)|.
+// Bounds in units of the roundoff: of a sum Σ b + |s|, of a product |p| (Σ b/|x| + count), of f(x) |f'(x)| b +
+// |f(x)|.
 #include "symbolic/nonzero.hpp"
 
 #include <cmath>
@@ -30,7 +31,8 @@ public:
             stack.pop_back();
             if (!is_a<GiNaC::symbol>(top)) {
                 for (const ex& part : top) stack.push_back(part);
-            } else if (const auto* entry = z_.find(GiNaC::ex_to<GiNaC::symbol>(top)); entry && needed.insert(entry).second) {
+            } else if (const auto* entry = z_.find(GiNaC::ex_to<GiNaC::symbol>(top));
+                       entry && needed.insert(entry).second) {
                 stack.insert(stack.end(), entry->uses.begin(), entry->uses.end());
             }
         }
@@ -45,7 +47,8 @@ private:
         if (is_a<GiNaC::symbol>(e)) return symbol(GiNaC::ex_to<GiNaC::symbol>(e));
         if (is_a<GiNaC::numeric>(e) || is_a<GiNaC::constant>(e)) {
             const ex number = e.evalf();
-            const double value = number.info(GiNaC::info_flags::real) ? GiNaC::ex_to<GiNaC::numeric>(number).to_double() : nan;
+            const double value =
+                number.info(GiNaC::info_flags::real) ? GiNaC::ex_to<GiNaC::numeric>(number).to_double() : nan;
             return {value, std::abs(value)};
         }
         if (is_a<GiNaC::add>(e)) {
@@ -60,8 +63,9 @@ private:
             Rounded product{1, 0};
             for (const ex& factor : e) {
                 const Rounded x = at(factor);
-                product = {product.value * x.value,
-                           std::abs(product.value) * x.bound + product.bound * std::abs(x.value) + std::abs(product.value * x.value)};
+                product = {product.value * x.value, std::abs(product.value) * x.bound +
+                                                        product.bound * std::abs(x.value) +
+                                                        std::abs(product.value * x.value)};
             }
             return product;
         }
@@ -73,7 +77,8 @@ private:
         if (GiNaC::is_the_function<GiNaC::sin_SERIAL>(e) || GiNaC::is_the_function<GiNaC::cos_SERIAL>(e)) {
             const Rounded x = at(e.op(0));
             const double s = std::sin(x.value), c = std::cos(x.value);
-            return GiNaC::is_the_function<GiNaC::sin_SERIAL>(e) ? Rounded{s, std::abs(c) * x.bound + 1} : Rounded{c, std::abs(s) * x.bound + 1};
+            return GiNaC::is_the_function<GiNaC::sin_SERIAL>(e) ? Rounded{s, std::abs(c) * x.bound + 1}
+                                                                : Rounded{c, std::abs(s) * x.bound + 1};
         }
         return {nan, nan};
     }
@@ -81,7 +86,8 @@ private:
     Rounded symbol(const GiNaC::symbol& s) const {
         if (const auto found = known_.find(s.gethash()); found != known_.end()) return found->second;
         // Multiples of the golden ratio, modulo 1: no two alike, none near 0.
-        const double turn = 0.6180339887498949 * (z_.symbols().info(s).rank + 1), value = 0.4 + turn - std::floor(turn);
+        const double turn = 0.6180339887498949 * (z_.symbols().info(s).rank + 1),
+                     value = 0.4 + turn - std::floor(turn);
         return {value, value};
     }
 

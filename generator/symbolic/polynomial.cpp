@@ -111,9 +111,9 @@ Atom compound_atom(AtomNode::Kind kind, std::vector<Polynomial> args, std::strin
     // Equal atoms are mostly one object, which makes their comparison short.
     constexpr std::size_t most = 4096;
     static auto& known = *new std::set<Atom, decltype([](const Atom& a, const Atom& b) {
-        const int order = compare(a, b);
-        return order != 0 ? order < 0 : compare_owners(*a, *b) < 0;
-    })>;
+                                           const int order = compare(a, b);
+                                           return order != 0 ? order < 0 : compare_owners(*a, *b) < 0;
+                                       })>;
     if (known.size() >= most) known.clear();
     return *known.insert(std::move(node)).first;
 }
@@ -138,7 +138,8 @@ int compare(const Monomial& a, const Monomial& b) {
     for (std::size_t i = 0; i < common; ++i) {
         if (a[i].atom != b[i].atom)
             if (const int order = compare(*a[i].atom, *b[i].atom); order != 0) return order;
-        if (a[i].exponent.pointer == b[i].exponent.pointer) continue;  // small whole numbers are their own pointers
+        if (a[i].exponent.pointer == b[i].exponent.pointer)
+            continue;  // small whole numbers are their own pointers
         if (const int order = sign(static_cast<int>(cln::compare(b[i].exponent, a[i].exponent))); order != 0)
             return order;
     }

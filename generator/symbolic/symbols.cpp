@@ -23,7 +23,8 @@ GiNaC::symbol Symbols::declare_rate_before(const GiNaC::symbol& coordinate) {
 
 const SymbolInfo& Symbols::info(const GiNaC::symbol& symbol) const {
     const auto found = position_.find(symbol.gethash());
-    if (found == position_.end()) throw std::out_of_range("symbol '" + symbol.get_name() + "' is not of this scene");
+    if (found == position_.end())
+        throw std::out_of_range("symbol '" + symbol.get_name() + "' is not of this scene");
     return infos_[found->second];
 }
 

@@ -26,13 +26,15 @@ struct SymbolInfo {
     };
     std::string name;  ///< as the user wrote it, without primes
     Kind kind = Kind::other;
-    int index = 0;     ///< position among its kind
-    int order = 0;     ///< number of primes
-    int rank = 0;      ///< position among all symbols of the scene
+    int index = 0;        ///< position among its kind
+    int order = 0;        ///< number of primes
+    int rank = 0;         ///< position among all symbols of the scene
     bool before = false;  ///< x'(-), a rate before an impact; of kind `other`
 
     /// name and primes, as a user would type it.
-    std::string text() const { return name + std::string(static_cast<std::size_t>(order), '\'') + (before ? "(-)" : ""); }
+    std::string text() const {
+        return name + std::string(static_cast<std::size_t>(order), '\'') + (before ? "(-)" : "");
+    }
 };
 
 class Symbols {
@@ -51,7 +53,8 @@ public:
 private:
     std::vector<GiNaC::symbol> by_rank_;
     std::vector<SymbolInfo> infos_;
-    std::unordered_map<unsigned, std::size_t> position_;  // keyed by gethash(), one-to-one in a symbol's serial number
+    std::unordered_map<unsigned, std::size_t>
+        position_;  // keyed by gethash(), one-to-one in a symbol's serial number
 };
 
 }  // namespace alembert

@@ -39,14 +39,21 @@ public:
         check_depth();
         document_.Parse(text_.c_str(), nullptr, TIXML_ENCODING_UTF8);
         if (document_.Error())
-            refuse({document_.ErrorRow(), document_.ErrorCol()}, fmt::format("this is no XML: {}; expected a robot description, <robot name=…>", document_.ErrorDesc()));
+            refuse({document_.ErrorRow(), document_.ErrorCol()},
+                   fmt::format("this is no XML: {}; expected a robot description, <robot name=…>",
+                               document_.ErrorDesc()));
         const TiXmlElement* root = document_.RootElement();
         if (root == nullptr || root->ValueStr() != "robot")
-            refuse(root != nullptr ? place_of(*root) : Place{}, fmt::format("the outermost element is {}; expected <robot>", root != nullptr ? shown(*root) : "missing"));
+            refuse(root != nullptr ? place_of(*root) : Place{},
+                   fmt::format("the outermost element is {}; expected <robot>",
+                               root != nullptr ? shown(*root) : "missing"));
         refuse_macros(*root);
         Complaints complaints;
         model_ = urdf::parseURDF(text_);
-        if (!model_) refuse({}, fmt::format("urdfdom refuses it: {}", complaints.said.empty() ? "no reason given" : escaped(complaints.said.front(), 300)));
+        if (!model_)
+            refuse({}, fmt::format("urdfdom refuses it: {}", complaints.said.empty()
+                                                                 ? "no reason given"
+                                                                 : escaped(complaints.said.front(), 300)));
         robot_.name = model_->getName();
         for (const TiXmlElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
             const std::string& tag = e->ValueStr();
@@ -55,8 +62,12 @@ public:
             else if (tag != "joint")
                 drop(fmt::format("<{}>", tag), named(*e));
         }
-        for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) add_joint(*e);
-        for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint")) add_mimic(*e);
+        for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr;
+             e = e->NextSiblingElement("joint"))
+            add_joint(*e);
+        for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr;
+             e = e->NextSiblingElement("joint"))
+            add_mimic(*e);
         check_tree();
         for (Robot::Joint& joint : robot_.joints) resolve(joint);
         return std::move(robot_);
@@ -75,7 +86,8 @@ private:
         return "";
     }
     void drop(const std::string& what, const std::string& of) {
-        auto found = std::find_if(robot_.dropped.begin(), robot_.dropped.end(), [&](const Robot::Dropped& d) { return d.what == what; });
+        auto found = std::find_if(robot_.dropped.begin(), robot_.dropped.end(),
+                                  [&](const Robot::Dropped& d) { return d.what == what; });
         if (found == robot_.dropped.end()) found = robot_.dropped.insert(found, {what, {}});
         if (!of.empty() && (found->of.empty() || found->of.back() != of)) found->of.push_back(of);
     }
@@ -91,22 +103,31 @@ private:
                 skip_to("]]>");
             } else if (i + 1 < text_.size() && text_[i + 1] == '/') {
                 --depth;
-            } else if (i + 1 < text_.size() && (std::isalpha(static_cast<unsigned char>(text_[i + 1])) != 0 || text_[i + 1] == '_')) {
+            } else if (i + 1 < text_.size() &&
+                       (std::isalpha(static_cast<unsigned char>(text_[i + 1])) != 0 || text_[i + 1] == '_')) {
                 const std::size_t end = text_.find('>', i);
                 if (end == std::string::npos || text_[end - 1] != '/') ++depth;
             }
-            if (depth > deepest) refuse({}, fmt::format("more than {} elements stand inside each other; a robot description has five or so", deepest));
+            if (depth > deepest)
+                refuse({}, fmt::format(
+                               "more than {} elements stand inside each other; a robot description has five or so",
+                               deepest));
         }
     }
 
     void refuse_macros(const TiXmlElement& e) const {
         if (e.ValueStr().starts_with("xacro:"))
-            refuse(place_of(e), fmt::format("{} is a macro of xacro; expected plain URDF: expand it first, as in xacro robot.urdf.xacro > robot.urdf", shown(e)));
-        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) refuse_macros(*child);
+            refuse(place_of(e), fmt::format("{} is a macro of xacro; expected plain URDF: expand it first, as in "
+                                            "xacro robot.urdf.xacro > robot.urdf",
+                                            shown(e)));
+        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement())
+            refuse_macros(*child);
     }
 
     double finite(double value, const TiXmlElement& e, const char* what) const {
-        if (!std::isfinite(value)) refuse(place_of(e), fmt::format("{} of {} is not finite", what, in_quotes(named(e))));
+        if (!std::isfinite(value))
+            refuse(place_of(e), fmt::format("{} of {} is not finite", what, in_quotes(named(e))));
         return value;
     }
     Real3 finite(const urdf::Vector3& v, const TiXmlElement& e, const char* what) const {
@@ -122,7 +143,8 @@ private:
             try {
                 rpy.init(angles);
             } catch (const urdf::ParseError&) {
-                refuse(place_of(*origin), fmt::format("rpy=\"{}\"; expected three numbers, roll, pitch and yaw", escaped(angles)));
+                refuse(place_of(*origin),
+                       fmt::format("rpy=\"{}\"; expected three numbers, roll, pitch and yaw", escaped(angles)));
             }
             result.rpy = finite(rpy, owner, "the origin's rpy");
         }
@@ -133,19 +155,26 @@ private:
         Robot::Link link;
         link.name = named(e);
         link.place = place_of(e);
-        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement())
             if (child->ValueStr() != "inertial") drop(fmt::format("<{}>", child->ValueStr()), link.name);
         if (const auto inertial = model_->getLink(link.name)->inertial) {
             const RobotPose at = pose(inertial->origin, e.FirstChildElement("inertial"), e);
             link.mass = finite(inertial->mass, e, "the mass");
-            if (link.mass < 0) refuse(link.place, fmt::format("the mass of link {} is {}; expected zero or more", in_quotes(link.name), link.mass));
+            if (link.mass < 0)
+                refuse(link.place, fmt::format("the mass of link {} is {}; expected zero or more",
+                                               in_quotes(link.name), link.mass));
             link.centre = at.shift;
-            const Real33 own = inertia_matrix<double>({finite(inertial->ixx, e, "ixx"), finite(inertial->iyy, e, "iyy"), finite(inertial->izz, e, "izz"),
-                                                       finite(inertial->ixy, e, "ixy"), finite(inertial->iyz, e, "iyz"), finite(inertial->ixz, e, "ixz")});
+            const Real33 own =
+                inertia_matrix<double>({finite(inertial->ixx, e, "ixx"), finite(inertial->iyy, e, "iyy"),
+                                        finite(inertial->izz, e, "izz"), finite(inertial->ixy, e, "ixy"),
+                                        finite(inertial->iyz, e, "iyz"), finite(inertial->ixz, e, "ixz")});
             link.inertia = turned<double>(own, at.rotation());
             if (const PrincipalAxes<> principal = principal_axes<double>(own); has_negative_moment(principal))
-                refuse(link.place, fmt::format("the principal moments of inertia of link {}, {:.6g}, {:.6g} and {:.6g}, are not all zero or more", in_quotes(link.name),
-                                               principal.moments[0], principal.moments[1], principal.moments[2]));
+                refuse(link.place, fmt::format("the principal moments of inertia of link {}, {:.6g}, {:.6g} and "
+                                               "{:.6g}, are not all zero or more",
+                                               in_quotes(link.name), principal.moments[0], principal.moments[1],
+                                               principal.moments[2]));
         }
         link_of_[link.name] = static_cast<int>(robot_.links.size());
         robot_.links.push_back(std::move(link));
@@ -154,9 +183,10 @@ private:
     void add_joint(const TiXmlElement& e) {
         const urdf::JointConstSharedPtr known = model_->getJoint(named(e));
         using Known = urdf::Joint;
-        const std::map<int, Robot::Type> types{{Known::REVOLUTE, Robot::Type::revolute}, {Known::CONTINUOUS, Robot::Type::continuous},
-                                               {Known::PRISMATIC, Robot::Type::prismatic}, {Known::FLOATING, Robot::Type::floating},
-                                               {Known::PLANAR, Robot::Type::planar}, {Known::FIXED, Robot::Type::fixed}};
+        const std::map<int, Robot::Type> types{
+            {Known::REVOLUTE, Robot::Type::revolute},   {Known::CONTINUOUS, Robot::Type::continuous},
+            {Known::PRISMATIC, Robot::Type::prismatic}, {Known::FLOATING, Robot::Type::floating},
+            {Known::PLANAR, Robot::Type::planar},       {Known::FIXED, Robot::Type::fixed}};
         Robot::Joint joint{.name = known->name,
                            .place = place_of(e),
                            .type = types.at(known->type),
@@ -167,25 +197,32 @@ private:
         if (joint.type == Robot::Type::fixed || joint.type == Robot::Type::floating)
             joint.axis = Real3::UnitX();
         else if (joint.axis.norm() == 0)
-            refuse(joint.place, fmt::format("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
+            refuse(joint.place,
+                   fmt::format("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
         if (known->dynamics) {
             joint.damping = finite(known->dynamics->damping, e, "the damping");
-            if (joint.damping < 0) refuse(joint.place, fmt::format("the damping of joint {} is {}; expected zero or more", in_quotes(joint.name), joint.damping));
+            if (joint.damping < 0)
+                refuse(joint.place, fmt::format("the damping of joint {} is {}; expected zero or more",
+                                                in_quotes(joint.name), joint.damping));
             if (known->dynamics->friction != 0) drop("Coulomb friction, <dynamics friction=…>", joint.name);
-            if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar || joint.type == Robot::Type::fixed))
+            if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
+                                       joint.type == Robot::Type::fixed))
                 drop("damping of a floating, planar or fixed joint", joint.name);
         }
         if (known->limits && (joint.type == Robot::Type::revolute || joint.type == Robot::Type::prismatic))
             joint.limits = {known->limits->lower, known->limits->upper};
-        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement()) {
             const std::string& tag = child->ValueStr();
             const std::array kept{"parent", "child", "origin", "axis", "mimic", "dynamics"};
             if (std::find(kept.begin(), kept.end(), tag) == kept.end()) drop(fmt::format("<{}>", tag), joint.name);
         }
         int& above = robot_.links[static_cast<std::size_t>(joint.child)].joint;
         if (above >= 0)
-            refuse(joint.place, fmt::format("joint {} holds link {}, which joint {} holds already; a robot description is a tree, loops are added to the scene as joints",
-                                            in_quotes(joint.name), in_quotes(known->child_link_name), in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
+            refuse(joint.place, fmt::format("joint {} holds link {}, which joint {} holds already; a robot "
+                                            "description is a tree, loops are added to the scene as joints",
+                                            in_quotes(joint.name), in_quotes(known->child_link_name),
+                                            in_quotes(robot_.joints[static_cast<std::size_t>(above)].name)));
         above = static_cast<int>(robot_.joints.size());
         joint_of_[joint.name] = above;
         robot_.joints.push_back(std::move(joint));
@@ -197,12 +234,18 @@ private:
         if (!mimic || joint.type == Robot::Type::fixed) return;
         const auto found = joint_of_.find(mimic->joint_name);
         if (found == joint_of_.end())
-            refuse(joint.place, fmt::format("joint {} mimics {}, which is no joint of this robot", in_quotes(joint.name), in_quotes(mimic->joint_name)));
-        for (const Robot::Joint* both : {static_cast<const Robot::Joint*>(&joint), static_cast<const Robot::Joint*>(&robot_.joints[static_cast<std::size_t>(found->second)])})
+            refuse(joint.place, fmt::format("joint {} mimics {}, which is no joint of this robot",
+                                            in_quotes(joint.name), in_quotes(mimic->joint_name)));
+        for (const Robot::Joint* both :
+             {static_cast<const Robot::Joint*>(&joint),
+              static_cast<const Robot::Joint*>(&robot_.joints[static_cast<std::size_t>(found->second)])})
             if (both->type == Robot::Type::planar || both->type == Robot::Type::floating)
-                refuse(joint.place, fmt::format("joint {} mimics {}: joint {} has more than one coordinate; expected revolute, continuous or prismatic joints",
-                                                in_quotes(joint.name), in_quotes(mimic->joint_name), in_quotes(both->name)));
-        joint.mimic = Robot::Mimic{found->second, finite(mimic->multiplier, e, "the multiplier of <mimic>"), finite(mimic->offset, e, "the offset of <mimic>")};
+                refuse(joint.place,
+                       fmt::format("joint {} mimics {}: joint {} has more than one coordinate; expected revolute, "
+                                   "continuous or prismatic joints",
+                                   in_quotes(joint.name), in_quotes(mimic->joint_name), in_quotes(both->name)));
+        joint.mimic = Robot::Mimic{found->second, finite(mimic->multiplier, e, "the multiplier of <mimic>"),
+                                   finite(mimic->offset, e, "the offset of <mimic>")};
     }
 
     /// Who mimics a follower follows its leader; who mimics a fixed joint stands still.
@@ -210,8 +253,10 @@ private:
         for (std::size_t steps = 0; joint.mimic; ++steps) {
             const Robot::Joint& leader = robot_.joints[static_cast<std::size_t>(joint.mimic->joint)];
             if (!leader.mimic) return;
-            if (steps > robot_.joints.size()) refuse(joint.place, fmt::format("joint {} mimics itself in a circle", in_quotes(joint.name)));
-            joint.mimic = Robot::Mimic{leader.mimic->joint, joint.mimic->factor * leader.mimic->factor, joint.mimic->factor * leader.mimic->offset + joint.mimic->offset};
+            if (steps > robot_.joints.size())
+                refuse(joint.place, fmt::format("joint {} mimics itself in a circle", in_quotes(joint.name)));
+            joint.mimic = Robot::Mimic{leader.mimic->joint, joint.mimic->factor * leader.mimic->factor,
+                                       joint.mimic->factor * leader.mimic->offset + joint.mimic->offset};
         }
     }
 
@@ -220,8 +265,13 @@ private:
         for (const Robot::Link& link : robot_.links) {
             const Robot::Link* at = &link;
             for (std::size_t steps = 0; at->joint >= 0; ++steps) {
-                if (steps > robot_.links.size()) refuse(link.place, fmt::format("link {} hangs on itself in a circle of joints; expected a tree from one root", in_quotes(link.name)));
-                at = &robot_.links[static_cast<std::size_t>(robot_.joints[static_cast<std::size_t>(at->joint)].parent)];
+                if (steps > robot_.links.size())
+                    refuse(
+                        link.place,
+                        fmt::format("link {} hangs on itself in a circle of joints; expected a tree from one root",
+                                    in_quotes(link.name)));
+                at = &robot_.links[static_cast<std::size_t>(
+                    robot_.joints[static_cast<std::size_t>(at->joint)].parent)];
             }
         }
     }
@@ -260,7 +310,11 @@ Real33 RobotPose::rotation() const {
     return about(2, rpy[2]) * about(1, rpy[1]) * about(0, rpy[0]);
 }
 
-Robot parse_robot(const std::string& text, const std::string& file) { return Reader(text, file).read(); }
-Robot read_robot(const std::string& file) { return parse_robot(text_of_file(file), file); }
+Robot parse_robot(const std::string& text, const std::string& file) {
+    return Reader(text, file).read();
+}
+Robot read_robot(const std::string& file) {
+    return parse_robot(text_of_file(file), file);
+}
 
 }  // namespace alembert

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A robot description (URDF) as plain values: links and joints in the order of the file, and what of it is no dynamics.
+/// A robot description (URDF) as plain values: links and joints in the order of the file, and what of it is no
+/// dynamics.
 ///
 ///     const Robot robot = read_robot("arm.urdf");
 ///     robot.links[robot.joints[0].child].mass
 ///
-/// A link's frame is that of the joint above it. A joint's frame stands in its parent link by `at`; its axis is in its own frame. Roll,
-/// pitch and yaw turn about the parent's fixed axes x, y, z: R = R_z(yaw) R_y(pitch) R_x(roll). Inertias are turned into the link's
-/// frame, about the mass centre. Metres, kilograms, radians. (urdfdom checks and reads; the file's order, the angles as they are written
-/// and the elements that it does not know are read beside it.)
+/// A link's frame is that of the joint above it. A joint's frame stands in its parent link by `at`; its axis is in
+/// its own frame. Roll, pitch and yaw turn about the parent's fixed axes x, y, z: R = R_z(yaw) R_y(pitch)
+/// R_x(roll). Inertias are turned into the link's frame, about the mass centre. Metres, kilograms, radians.
+/// (urdfdom checks and reads; the file's order, the angles as they are written and the elements that it does not
+/// know are read beside it.)
 
 #include <array>
 #include <optional>
@@ -46,28 +48,28 @@ struct Robot {
     enum class Type { fixed, revolute, continuous, prismatic, planar, floating };
     struct Mimic {
         int joint;
-        double factor = 1, offset = 0;    ///< position = factor · position of `joint` + offset
+        double factor = 1, offset = 0;  ///< position = factor · position of `joint` + offset
     };
     struct Joint {
         std::string name;
         Place place;
         Type type;
-        int parent, child;                ///< in `links`
+        int parent, child;  ///< in `links`
         RobotPose at;
-        Real3 axis;                       ///< not normalized
+        Real3 axis;  ///< not normalized
         double damping = 0;
         std::optional<std::array<double, 2>> limits = {};
-        std::optional<Mimic> mimic = {};       ///< of a joint that moves by itself
+        std::optional<Mimic> mimic = {};  ///< of a joint that moves by itself
     };
     struct Dropped {
-        std::string what;                 ///< "<visual>", "Coulomb friction"
-        std::vector<std::string> of;      ///< names of links or joints, or its own; may be empty
+        std::string what;             ///< "<visual>", "Coulomb friction"
+        std::vector<std::string> of;  ///< names of links or joints, or its own; may be empty
     };
 
     std::string name;
     std::vector<Link> links;
     std::vector<Joint> joints;
-    int root = 0;                         ///< in `links`
+    int root = 0;  ///< in `links`
     std::vector<Dropped> dropped;
 };
 

@@ -5,13 +5,13 @@
 ///
 ///     y_p = y + h Σ_{j<k} g_j ∇^j f,     y₁ = y_p + h g_{k−1} ∇^k f_p,     error = (g_k/g_{k−1} − 1)(y₁ − y_p)
 ///
-/// with g = 1, 1/2, 5/12, 3/8, 251/720 and f_p = f(t + h, y_p): for k = 4 the error is 19/270 of the correction. The
-/// first steps have k = 1, 2, 3. A step of another length takes the polynomial of the rates at other places
-/// (differences.hpp), at most once in five steps. Two evaluations for each step. Dense output: the integral of that
-/// polynomial, order 4. Stable for −1.28 < hλ < 0.
+/// with g = 1, 1/2, 5/12, 3/8, 251/720 and f_p = f(t + h, y_p): for k = 4 the error is 19/270 of the correction.
+/// The first steps have k = 1, 2, 3. A step of another length takes the polynomial of the rates at other places
+/// (differences.hpp), at most once in five steps. Two evaluations for each step. Dense output: the integral of
+/// that polynomial, order 4. Stable for −1.28 < hλ < 0.
 ///
-/// Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §III.1 (the formulas) and
-/// §III.7; Milne 1926.
+/// Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, §III.1 (the formulas)
+/// and §III.7; Milne 1926.
 
 #include "alembert/differences.hpp"
 #include "alembert/stepper.hpp"

@@ -6,16 +6,18 @@
 ///     Σ_{j=1…k} 1/j ∇^j y₁ = h f(t + h, y₁),   or with y₁ = Σ_{j≤k} ∇^j y + d and γ_j = 1 + 1/2 + … + 1/j:
 ///     d = h/γ_k f(t + h, y₁) − Σ_{j=1…k} γ_j/γ_k ∇^j y
 ///
-/// by simplified Newton with ∂f/∂y from differences. Error: d/(k + 1). The length is quasi-constant: after k + 1 equal
-/// steps the order among k − 1, k, k + 1 that allows the longest step is taken, and the differences are stretched
-/// (differences.hpp). Dense output: the polynomial of degree k. Orders 1 and 2 are A-stable; 3, 4 and 5 are stable in
-/// the sectors of 86°, 73° and 51° to either side of the negative axis, so that stiff oscillations are not for 3 to 5.
+/// by simplified Newton with ∂f/∂y from differences. Error: d/(k + 1). The length is quasi-constant: after k + 1
+/// equal steps the order among k − 1, k, k + 1 that allows the longest step is taken, and the differences are
+/// stretched (differences.hpp). Dense output: the polynomial of degree k. Orders 1 and 2 are A-stable; 3, 4 and 5
+/// are stable in the sectors of 86°, 73° and 51° to either side of the negative axis, so that stiff oscillations
+/// are not for 3 to 5.
 ///
-/// Weak where a very stiff spring holds a coordinate (its stiffness 1e8 in units of mass and second): a change of the
-/// length then disturbs the rate, many changes are rejected and steps stay some ten times too short. Take radau.
+/// Weak where a very stiff spring holds a coordinate (its stiffness 1e8 in units of mass and second): a change of
+/// the length then disturbs the rate, many changes are rejected and steps stay some ten times too short. Take
+/// radau.
 ///
-/// Sources: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, §III.1; Shampine & Reichelt, SIAM J.
-/// Sci. Comput. 18 (1997) 1-22, §2, with κ = 0; Hairer & Wanner II, §V.2, table 2.1 (the angles).
+/// Sources: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, §III.1; Shampine & Reichelt, SIAM
+/// J. Sci. Comput. 18 (1997) 1-22, §2, with κ = 0; Hairer & Wanner II, §V.2, table 2.1 (the angles).
 
 #include "alembert/dense.hpp"
 #include "alembert/differences.hpp"
@@ -80,8 +82,8 @@ public:
 
     void finished(const Ends& ends) {
         for (std::size_t i = 0; i < size_; ++i) {
-            const double d =
-                (ends.next[i] - ends.y[i]) + (ends.next_rest[i] - ends.rest[i]) - predicted_[i];  // projected or not
+            const double d = (ends.next[i] - ends.y[i]) + (ends.next_rest[i] - ends.rest[i]) -
+                             predicted_[i];  // projected or not
             new_.row(order_ + 2)[i] = d - old_.row(order_ + 1)[i];
             new_.row(order_ + 1)[i] = d;
             for (std::size_t j = order_; j >= 1; --j) new_.row(j)[i] = old_.row(j)[i] + new_.row(j + 1)[i];
@@ -143,8 +145,7 @@ private:
         std::fill(d_.begin(), d_.end(), 0.0);
         Contraction contraction(enough_, most_rounds);
         for (;;) {
-            for (std::size_t i = 0; i < size_; ++i)
-                state_[i] = ends.y[i] + (predicted_[i] + d_[i] + ends.rest[i]);
+            for (std::size_t i = 0; i < size_; ++i) state_[i] = ends.y[i] + (predicted_[i] + d_[i] + ends.rest[i]);
             ends.evaluate(ends.t + h, state_.data(), rate_.data());
             for (std::size_t i = 0; i < size_; ++i)
                 side_[static_cast<Eigen::Index>(i)] = c * rate_[i] - known_[i] - d_[i];

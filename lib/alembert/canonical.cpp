@@ -7,16 +7,20 @@
 
 namespace alembert {
 
-std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form, const std::vector<double>& values) {
+std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form,
+                                                const std::vector<double>& values) {
     const alembert_solver_table& table = module.table();
     Canonical result{.coordinates = table.coordinates, .constraints = table.constraints};
-    if (table.speed_names != nullptr || form.table().coordinates != table.coordinates || form.table().outputs != result.form_size())
-        throw std::invalid_argument(fmt::format("{}: momenta need a system in its rates and a file with {} outputs, this one has {}", table.scene,
-                                                result.form_size(), form.table().outputs));
+    if (table.speed_names != nullptr || form.table().coordinates != table.coordinates ||
+        form.table().outputs != result.form_size())
+        throw std::invalid_argument(
+            fmt::format("{}: momenta need a system in its rates and a file with {} outputs, this one has {}",
+                        table.scene, result.form_size(), form.table().outputs));
     result.form = [form, par = prepared(form, values)](double t, const double* state, double* out) {
         form.table().outputs_at(t, state, nullptr, par.data(), out);
     };
-    result.held = [module, par = prepared(module, values)](double t, const double* state, double* position, double* velocity, double* rows) {
+    result.held = [module, par = prepared(module, values)](double t, const double* state, double* position,
+                                                           double* velocity, double* rows) {
         module.table().constraints_at(t, state, par.data(), position, velocity, rows);
     };
     return std::make_shared<const Canonical>(std::move(result));

@@ -5,14 +5,14 @@
 ///
 ///     p = ∂L/∂q' = M(q,t) q' + p₀(q,t),   p' = F + Aᵀλ,   F = ∂L/∂q + Q,   f(q,t) = 0,   A = ∂f/∂q
 ///
-/// with Q the loads that are in no potential; where there are none and L is free of t, H = p·q' − L is conserved. M is positive
-/// definite. States are (q, q'), n each.
+/// with Q the loads that are in no potential; where there are none and L is free of t, H = p·q' − L is conserved.
+/// M is positive definite. States are (q, q'), n each.
 ///
 ///     rhs.canonical = make_canonical(module, form, parameters);
 ///
-/// The pair of emitted files: `module` with the equations of motion, `form` with M (lower triangle, row by row), p and F as outputs,
-/// one after the other. Quaternions have e·e = 1 and no inertia along e: the form has ½ (row·q')² of that constraint in L, which
-/// is zero in every motion and makes M regular.
+/// The pair of emitted files: `module` with the equations of motion, `form` with M (lower triangle, row by row), p
+/// and F as outputs, one after the other. Quaternions have e·e = 1 and no inertia along e: the form has ½
+/// (row·q')² of that constraint in L, which is zero in every motion and makes M regular.
 
 #include <functional>
 #include <memory>
@@ -34,6 +34,7 @@ struct Canonical {
 };
 
 /// Throws std::invalid_argument where the two files do not fit together.
-std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form, const std::vector<double>& values = {});
+std::shared_ptr<const Canonical> make_canonical(const Module& module, const Module& form,
+                                                const std::vector<double>& values = {});
 
 }  // namespace alembert

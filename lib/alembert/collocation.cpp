@@ -81,7 +81,8 @@ T value(const Polynomial& p, const T& x) {
 /// Σ_j s! (2s−1−j)! / ((2s−1)! j! (s−j)!) (−z)^j.
 Polynomial pade_denominator(int s) {
     Polynomial q{1};
-    for (int j = 0; j < s; ++j) q.push_back(-q.back() * static_cast<Real>(s - j) / static_cast<Real>((j + 1) * (2 * s - 1 - j)));
+    for (int j = 0; j < s; ++j)
+        q.push_back(-q.back() * static_cast<Real>(s - j) / static_cast<Real>((j + 1) * (2 * s - 1 - j)));
     return q;
 }
 
@@ -161,7 +162,9 @@ RadauTable made(int s) {
     for (int j = 1; j <= s; ++j) derivatives.push_back(derivative(derivatives.back()));
     Square<Complex> V{s};
     for (int k = 0; k < s; ++k) {
-        const Complex pole = k == 0 ? mu[0] : k % 2 == 1 ? mu[static_cast<std::size_t>((k + 1) / 2)] : std::conj(mu[static_cast<std::size_t>(k / 2)]);
+        const Complex pole = k == 0       ? mu[0]
+                             : k % 2 == 1 ? mu[static_cast<std::size_t>((k + 1) / 2)]
+                                          : std::conj(mu[static_cast<std::size_t>(k / 2)]);
         for (int i = 0; i < s; ++i) {
             Complex weight = 1;
             for (int j = 1; j <= s; ++j) {
@@ -205,7 +208,9 @@ RadauTable made(int s) {
     for (int i = 0; i < s; ++i) {
         Real sum = i == s - 1 ? -1 : 0;
         for (int j = 0; j < s; ++j)
-            for (int k = 0; k < s; ++k) sum += inverse(j, i) * weights(k, j) * (1 / static_cast<Real>(k + 1) - (k == 0 ? 1 / mu[0].real() : 0));
+            for (int k = 0; k < s; ++k)
+                sum += inverse(j, i) * weights(k, j) *
+                       (1 / static_cast<Real>(k + 1) - (k == 0 ? 1 / mu[0].real() : 0));
         table.e[i] = static_cast<double>(sum);
     }
     return table;

@@ -29,9 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Straight-line code of the second size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster than the
-/// size; straight-line code has no loops that -O2 would transform. From the first size on, passes are left out that take a third of
-/// the time where a function has thousands of statements, and leave the code as it is.
+/// Straight-line code of the second size takes g++ 12 about 1.6 s at -O2 and 1.0 s at -O1, and both grow faster
+/// than the size; straight-line code has no loops that -O2 would transform. From the first size on, passes are
+/// left out that take a third of the time where a function has thousands of statements, and leave the code as it
+/// is.
 constexpr std::size_t long_source = 60'000, large_source = 200'000;
 
 constexpr std::size_t digits = 32;  ///< of a fingerprint, at the end of every object in the cache
@@ -103,14 +104,18 @@ std::vector<std::string> compiler_flags(std::size_t source_size, bool is_clang, 
                                       "-march=native",   "-ffp-contract=fast",
                                       "-fno-math-errno", "-fno-trapping-math",
                                       "-nostdlib",       "-pipe"};
-    // g++ 12 permutes lanes wrongly where it vectorizes copies between arrays with AVX-512; straight-line code gains nothing by it.
+    // g++ 12 permutes lanes wrongly where it vectorizes copies between arrays with AVX-512; straight-line code
+    // gains nothing by it.
     flags.emplace_back("-fno-tree-slp-vectorize");
     // At -O1 g++ leaves out vzeroupper: the host's own SSE code would then run many times slower after a call.
     if (source_size > large_source) flags.emplace_back("-fexpensive-optimizations");
     if (source_size > long_source && !is_clang)
-        for (const char* flag : {"-fno-tree-dse", "-fno-dse", "-fno-gcse", "--param=lra-max-considered-reload-pseudos=10"}) flags.emplace_back(flag);
+        for (const char* flag :
+             {"-fno-tree-dse", "-fno-dse", "-fno-gcse", "--param=lra-max-considered-reload-pseudos=10"})
+            flags.emplace_back(flag);
     if (options.fast_math)
-        for (const char* flag : {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math", "-DALEMBERT_REASSOCIATES"})
+        for (const char* flag :
+             {"-fassociative-math", "-fno-signed-zeros", "-freciprocal-math", "-DALEMBERT_REASSOCIATES"})
             flags.emplace_back(flag);
     flags.insert(flags.end(), options.extra_flags.begin(), options.extra_flags.end());
     return flags;
@@ -262,7 +267,9 @@ Compiled compile(const std::string& source_text, const std::string& name, const 
     Fingerprint key;
     key.add(source_text);
     key.add(identity(command));
-    const bool is_clang = std::any_of(command.begin(), command.end(), [](const std::string& word) { return word.find("clang") != std::string::npos; });
+    const bool is_clang = std::any_of(command.begin(), command.end(), [](const std::string& word) {
+        return word.find("clang") != std::string::npos;
+    });
     const std::vector<std::string> flags = compiler_flags(source_text.size(), is_clang, options);
     for (const std::string& flag : flags) key.add(flag);
     key.add(std::to_string(abi_version));

@@ -14,31 +14,45 @@ LeastNorm least_norm(const MatrixXd& A, const MatrixXd& b) {
     return {solver.solve(b), solver.rank()};
 }
 
-MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& b) { return M.ldlt().solve(b); }
+MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& b) {
+    return M.ldlt().solve(b);
+}
 
 Orthogonal::Orthogonal(const MatrixXd& A, double threshold) {
     factors_.setThreshold(threshold);
     factors_.compute(A);
 }
 
-VectorXd Orthogonal::solve(const VectorXd& b) const { return factors_.solve(b); }
+VectorXd Orthogonal::solve(const VectorXd& b) const {
+    return factors_.solve(b);
+}
 
 Cholesky::Cholesky(const MatrixXd& M) : factors_(M) {}
 
-bool Cholesky::exists() const { return factors_.info() == Eigen::Success; }
+bool Cholesky::exists() const {
+    return factors_.info() == Eigen::Success;
+}
 
 MatrixXd Cholesky::solve_lower(const MatrixXd& b) const {
     if (b.size() == 0) return b;  // Eigen would solve with a null pointer
     return factors_.matrixL().solve(b);
 }
 
-VectorXd Cholesky::solve_upper(const VectorXd& b) const { return factors_.matrixU().solve(b); }
+VectorXd Cholesky::solve_upper(const VectorXd& b) const {
+    return factors_.matrixU().solve(b);
+}
 
-VectorXd Cholesky::upper(const VectorXd& x) const { return factors_.matrixU() * x; }
+VectorXd Cholesky::upper(const VectorXd& x) const {
+    return factors_.matrixU() * x;
+}
 
-void Elimination::factor(const MatrixXd& A) { factors_.compute(A); }
+void Elimination::factor(const MatrixXd& A) {
+    factors_.compute(A);
+}
 
-void Elimination::solve(const VectorXd& b, VectorXd& x) const { x = factors_.solve(b); }
+void Elimination::solve(const VectorXd& b, VectorXd& x) const {
+    x = factors_.solve(b);
+}
 
 Eigenpairs eigenpairs(const MatrixXd& M) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(M);

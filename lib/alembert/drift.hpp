@@ -8,8 +8,8 @@
 ///     drift.add({.kinetic = T, .total = E, .jacobi = h}, work);        // the same with the energies in hand
 ///     drift.balance();
 ///
-/// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that a moving frame takes
-/// (energy.hpp); both count as work.
+/// Where rates jump, E changes by the work of the impulses, and by the jump of T₁ + 2T₀ = E − h that a moving
+/// frame takes (energy.hpp); both count as work.
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ public:
     /// n coordinates, s speeds; with work, the state has ∫ power dt after these.
     Drift(int n, int s, bool with_work) : size_(n + s), with_work_(with_work) {}
 
-    void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t, std::span<const double> state,
-                    std::span<const double> rate) {
+    void operator()(const alembert_solver_table& table, const std::vector<double>& par, double t,
+                    std::span<const double> state, std::span<const double> rate) {
         add(energies(table, par, t, state.data(), rate.data()), with_work_ ? state[size_] : 0);
     }
 
@@ -52,8 +52,10 @@ public:
     /// Rates have jumped.
     void jump(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* before,
               const double* after, double work) {
-        const std::vector<double> still(static_cast<std::size_t>(size_), 0.0);  // the rate matters to the power alone
-        const Energies a = energies(table, par, t, before, still.data()), b = energies(table, par, t, after, still.data());
+        const std::vector<double> still(static_cast<std::size_t>(size_),
+                                        0.0);  // the rate matters to the power alone
+        const Energies a = energies(table, par, t, before, still.data()),
+                       b = energies(table, par, t, after, still.data());
         if (first_) {
             energy_start_ = a.total;
             jacobi_start_ = a.jacobi;
@@ -63,19 +65,22 @@ public:
         jumps_ += work + (b.total - b.jacobi) - (a.total - a.jacobi);
     }
 
-    /// These in units of the energy that moves, for a motion so small that E is nearly all at rest: of the largest kinetic energy, as
-    /// far as E is known to so many digits (1e-10), and for the balance as far as the work is (1e-4).
+    /// These in units of the energy that moves, for a motion so small that E is nearly all at rest: of the largest
+    /// kinetic energy, as far as E is known to so many digits (1e-10), and for the balance as far as the work is
+    /// (1e-4).
     double energy_of_motion() const { return of_motion(energy_, largest_energy_, 0); }
     double balance_of_motion() const { return of_motion(balance_, largest_energy_, largest_work_); }
-    double jacobi_of_motion() const { return of_motion(jacobi_, std::max(largest_energy_, std::abs(jacobi_start_)), 0); }
+    double jacobi_of_motion() const {
+        return of_motion(jacobi_, std::max(largest_energy_, std::abs(jacobi_start_)), 0);
+    }
 
     double energy() const { return energy_ / scale(energy_start_); }
     double balance() const { return balance_ / scale(energy_start_); }
     double jacobi() const { return jacobi_ / scale(jacobi_start_); }
 
 private:
-    static Energies energies(const alembert_solver_table& table, const std::vector<double>& par, double t, const double* state,
-                             const double* rate) {
+    static Energies energies(const alembert_solver_table& table, const std::vector<double>& par, double t,
+                             const double* state, const double* rate) {
         double energy[4], jacobi = 0;
         table.energy(t, state, rate, par.data(), energy, &jacobi);
         return {energy[0], energy[2], jacobi};

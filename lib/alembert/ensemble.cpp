@@ -29,42 +29,58 @@ void run_packed(const Ensemble& ensemble, const Options& options, const MemberSo
 /// Null for methods that are no explicit Runge-Kutta methods.
 Packed packed_method(Method method) {
     switch (method) {
-        case Method::euler: return run_packed<euler_tableau>;
-        case Method::rk2: return run_packed<rk2_tableau>;
-        case Method::rk4: return run_packed<rk4_tableau>;
-        case Method::dopri5: return run_packed<dopri5_tableau>;
-        case Method::dop853: return run_packed<dop853_tableau>;
-        case Method::verner76: return run_packed<verner76_tableau>;
-        case Method::verner98: return run_packed<verner98_tableau>;
-        default: return nullptr;
+        case Method::euler:
+            return run_packed<euler_tableau>;
+        case Method::rk2:
+            return run_packed<rk2_tableau>;
+        case Method::rk4:
+            return run_packed<rk4_tableau>;
+        case Method::dopri5:
+            return run_packed<dopri5_tableau>;
+        case Method::dop853:
+            return run_packed<dop853_tableau>;
+        case Method::verner76:
+            return run_packed<verner76_tableau>;
+        case Method::verner98:
+            return run_packed<verner98_tableau>;
+        default:
+            return nullptr;
     }
 }
 
 void check(const Ensemble& e, const Options& options) {
     const alembert_solver_table& table = e.module.table();
-    const std::size_t count = e.count(), width = static_cast<std::size_t>(table.coordinates + table.speeds), p = static_cast<std::size_t>(table.parameters);
+    const std::size_t count = e.count(), width = static_cast<std::size_t>(table.coordinates + table.speeds),
+                      p = static_cast<std::size_t>(table.parameters);
     const auto need = [](bool good, const std::string& message) {
         if (!good) throw std::invalid_argument(message);
     };
-    need(width > 0 && e.states.size() == count * width, fmt::format("{} numbers are no states of {} components", e.states.size(), width));
+    need(width > 0 && e.states.size() == count * width,
+         fmt::format("{} numbers are no states of {} components", e.states.size(), width));
     need(e.parameters.empty() || e.parameters.size() == p || e.parameters.size() == count * p,
          fmt::format("{} numbers are no sets of {} parameters for {} members", e.parameters.size(), p, count));
-    need(e.starts.empty() || e.starts.size() == count, fmt::format("{} starts for {} members", e.starts.size(), count));
-    need(e.durations.empty() || e.durations.size() == count, fmt::format("{} durations for {} members", e.durations.size(), count));
-    need(e.quick_times.empty() || e.quick_times.size() == count, fmt::format("{} lists of quick times for {} members", e.quick_times.size(), count));
+    need(e.starts.empty() || e.starts.size() == count,
+         fmt::format("{} starts for {} members", e.starts.size(), count));
+    need(e.durations.empty() || e.durations.size() == count,
+         fmt::format("{} durations for {} members", e.durations.size(), count));
+    need(e.quick_times.empty() || e.quick_times.size() == count,
+         fmt::format("{} lists of quick times for {} members", e.quick_times.size(), count));
     need(e.stops.empty() || e.stops.size() == static_cast<std::size_t>(table.events),
          fmt::format("{} flags for {} events", e.stops.size(), table.events));
     need(e.directions.empty() || e.directions.size() == e.stops.size(),
          fmt::format("{} directions for {} events", e.directions.size(), e.stops.size()));
     need(e.threads >= 0, fmt::format("threads = {}: zero or more are needed", e.threads));
     if (count == 0) return;
-    for (const double start : e.starts) need(std::isfinite(start), fmt::format("start = {}: a finite number is needed", start));
+    for (const double start : e.starts)
+        need(std::isfinite(start), fmt::format("start = {}: a finite number is needed", start));
     Options longest = options;
     for (const double duration : e.durations) {
-        need(std::isfinite(duration) && duration >= 0, fmt::format("duration = {}: a finite number, zero or more, is needed", duration));
+        need(std::isfinite(duration) && duration >= 0,
+             fmt::format("duration = {}: a finite number, zero or more, is needed", duration));
         longest.duration = std::max(longest.duration, duration);
     }
-    check_options(make_rhs(e.module, {}), {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}, longest);
+    check_options(make_rhs(e.module, {}),
+                  {e.states.begin(), e.states.begin() + static_cast<std::ptrdiff_t>(width)}, longest);
 }
 
 /// One ensemble being worked on, by several threads.
@@ -78,7 +94,8 @@ public:
             packed_ = packed_method(options.method);
         outcomes_.packed = packed_ != nullptr;
         const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-        threads_ = static_cast<int>(std::clamp<std::size_t>(e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1, std::max<std::size_t>(1, count_)));
+        threads_ = static_cast<int>(std::clamp<std::size_t>(
+            e_.threads > 0 ? static_cast<std::size_t>(e_.threads) : cores, 1, std::max<std::size_t>(1, count_)));
         outcomes_.threads = threads_;
     }
 
@@ -94,12 +111,14 @@ private:
     /// One thread's share. What is thrown ends the work of all.
     void work(bool tells) {
         try {
-            const MemberSource source{.next = [this] { return next(); },
-                                      .done = [this](const Member& m, const Outcome& o, const std::vector<double>& y) { keep(m, o, y); },
-                                      .again = [this](const Member& m) { alone(m); },
-                                      .breathe = [this, tells] { tell(tells); }};
+            const MemberSource source{
+                .next = [this] { return next(); },
+                .done = [this](const Member& m, const Outcome& o, const std::vector<double>& y) { keep(m, o, y); },
+                .again = [this](const Member& m) { alone(m); },
+                .breathe = [this, tells] { tell(tells); }};
             if (packed_ != nullptr) {
-                const std::size_t fair = (count_ + static_cast<std::size_t>(threads_) - 1) / static_cast<std::size_t>(threads_);
+                const std::size_t fair =
+                    (count_ + static_cast<std::size_t>(threads_) - 1) / static_cast<std::size_t>(threads_);
                 packed_(e_, options_, source, static_cast<int>(std::min<std::size_t>(fair, lanes)));
             } else {
                 while (const std::optional<Member> member = next()) {
@@ -115,7 +134,8 @@ private:
     }
 
     void tell(bool tells) const {
-        if (tells && e_.progress) e_.progress(static_cast<double>(done_.load(std::memory_order_relaxed)) / static_cast<double>(count_));
+        if (tells && e_.progress)
+            e_.progress(static_cast<double>(done_.load(std::memory_order_relaxed)) / static_cast<double>(count_));
     }
 
     std::optional<Member> next() {
@@ -129,13 +149,15 @@ private:
         const bool own = e_.parameters.size() != static_cast<std::size_t>(table.parameters);
         return Member{.index = k,
                       .state = part(e_.states, k, table.coordinates + table.speeds),
-                      .parameters = e_.parameters.empty() ? std::vector<double>() : part(e_.parameters, own ? k : 0, table.parameters),
+                      .parameters = e_.parameters.empty() ? std::vector<double>()
+                                                          : part(e_.parameters, own ? k : 0, table.parameters),
                       .start = e_.starts.empty() ? options_.start : e_.starts[k],
                       .duration = e_.durations.empty() ? options_.duration : e_.durations[k]};
     }
 
     void keep(const Member& member, const Outcome& outcome, const std::vector<double>& state) {
-        std::copy_n(state.begin(), outcomes_.dimension, outcomes_.states.begin() + static_cast<std::ptrdiff_t>(member.index) * outcomes_.dimension);
+        std::copy_n(state.begin(), outcomes_.dimension,
+                    outcomes_.states.begin() + static_cast<std::ptrdiff_t>(member.index) * outcomes_.dimension);
         outcomes_.members[member.index] = outcome;
         done_.fetch_add(1, std::memory_order_relaxed);
     }
@@ -154,10 +176,15 @@ private:
         options.duration = member.duration;
         if (!e_.quick_times.empty()) options.quick_times = e_.quick_times[member.index];
         options.sample = member.duration;  // the end alone
-        options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) { drift(table, par, t, y, rate); };
+        options.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
+            drift(table, par, t, y, rate);
+        };
         std::optional<Projection> projection;
-        if (table.constraints > 0) options.project = projection.emplace(e_.module, member.parameters).after_steps();
-        const Trajectory motion = integrate(rhs, state, options, e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));
+        if (table.constraints > 0)
+            options.project = projection.emplace(e_.module, member.parameters).after_steps();
+        const Trajectory motion = integrate(
+            rhs, state, options,
+            e_.stops.empty() ? Events() : make_events(e_.module, member.parameters, e_.stops, e_.directions));
         const std::span<const double> end = motion.final_state();
         keep(member,
              {.time = motion.times.back(),
@@ -192,7 +219,10 @@ std::size_t Ensemble::count() const {
 Outcomes integrate(const Ensemble& ensemble, const Options& options) {
     check(ensemble, options);
     const alembert_solver_table& table = ensemble.module.table();
-    Outcomes outcomes{.dimension = table.coordinates + table.speeds, .states = {}, .members = {}, .method = std::string(name(options.method))};
+    Outcomes outcomes{.dimension = table.coordinates + table.speeds,
+                      .states = {},
+                      .members = {},
+                      .method = std::string(name(options.method))};
     outcomes.states.resize(ensemble.states.size());
     outcomes.members.resize(ensemble.count());
     if (ensemble.count() > 0) Crew(ensemble, options, outcomes).go();

@@ -8,15 +8,16 @@
 ///     const Outcomes ends = integrate(ensemble, {.duration = 10, .tolerance = 1e-12});
 ///     ends.state(3)[0]; ends.members[3].steps;
 ///
-/// Explicit Runge-Kutta methods take eight members side by side (pack_run.hpp), each with its own time, step and end; who is
-/// done makes room for the next. Everything else goes through `integrate` one member at a time: other methods, a module
-/// emitted without `batch`, systems with constraints (each step is projected) or with events that stop. All cores work.
-/// A member's result depends on nothing but the member: not on its neighbours, nor on the number of threads, by any bit.
+/// Explicit Runge-Kutta methods take eight members side by side (pack_run.hpp), each with its own time, step and
+/// end; who is done makes room for the next. Everything else goes through `integrate` one member at a time: other
+/// methods, a module emitted without `batch`, systems with constraints (each step is projected) or with events
+/// that stop. All cores work. A member's result depends on nothing but the member: not on its neighbours, nor on
+/// the number of threads, by any bit.
 ///
-/// The step control is that of `integrate`, so that a member and a run by itself differ by what rounding differs. A member
-/// that fails says why in its own Outcome and disturbs no other; its state is the last good one. Events that do not stop,
-/// rows and Options::on_step have no place here. Throws std::invalid_argument for sizes that do not fit and for options that
-/// make no sense.
+/// The step control is that of `integrate`, so that a member and a run by itself differ by what rounding differs.
+/// A member that fails says why in its own Outcome and disturbs no other; its state is the last good one. Events
+/// that do not stop, rows and Options::on_step have no place here. Throws std::invalid_argument for sizes that do
+/// not fit and for options that make no sense.
 
 #include <cstddef>
 #include <functional>
@@ -38,9 +39,10 @@ struct Ensemble {
     Work work = Work::left_out;           ///< integrated: for the work balance, where energy is not conserved
     std::vector<bool> stops = {};         ///< which of the module's events end a motion; empty: none
     std::vector<std::vector<QuickTime>> quick_times = {};  ///< for each; empty: Options::quick_times
-    std::vector<int> directions = {};     ///< in which their zeros count (Event); empty: both
-    int threads = 0;                      ///< 0: as many as there are cores
-    std::function<void(double fraction)> progress = {};  ///< told now and then how much is done, on the calling thread
+    std::vector<int> directions = {};                      ///< in which their zeros count (Event); empty: both
+    int threads = 0;                                       ///< 0: as many as there are cores
+    std::function<void(double fraction)> progress =
+        {};  ///< told now and then how much is done, on the calling thread
 
     std::size_t count() const;
 };

@@ -15,7 +15,7 @@ namespace {
 constexpr int points = 5;       ///< where a step is looked at, ends included
 constexpr int most_rounds = 8;  ///< of looking again before an event that stops
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
-constexpr double bend = 2;      ///< a function that heads for zero may fall this many times as steeply further on
+constexpr double bend = 2;  ///< a function that heads for zero may fall this many times as steeply further on
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
@@ -49,7 +49,8 @@ double simultaneous(double start, double end) {
     return 1e-12 * std::max(std::abs(end), end - start);
 }
 
-Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop, const std::vector<int>& direction) {
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop,
+                   const std::vector<int>& direction) {
     const alembert_solver_table& table = module.table();
     const auto count = static_cast<std::size_t>(table.events);
     if (!stop.empty() && stop.size() != count)
@@ -60,7 +61,9 @@ Events make_events(const Module& module, const std::vector<double>& values, cons
             fmt::format("{} has {} events, {} directions were given", table.scene, count, direction.size()));
     Events events;
     for (std::size_t k = 0; k < count; ++k)
-        events.list.push_back({.name = table.event_names[k], .stop = !stop.empty() && stop[k], .direction = direction.empty() ? 0 : direction[k]});
+        events.list.push_back({.name = table.event_names[k],
+                               .stop = !stop.empty() && stop[k],
+                               .direction = direction.empty() ? 0 : direction[k]});
     events.context = std::make_shared<const EmittedEvents>(EmittedEvents{module, prepared(module, values)});
     events.call = [](const void* context, double t, const double* state, const double* rate, double* out) {
         const auto& emitted = *static_cast<const EmittedEvents*>(context);
@@ -91,9 +94,10 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
     std::fill(slope_.begin(), slope_.end(), no_place);  // until the length of the first step is known
 }
 
-/// By a difference along the tangent of the motion, y' as it is there: the price of one look at the events. An event that contains
-/// accelerations has the part of its slope that these leave.
-void EventWatch::slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values, double length) {
+/// By a difference along the tangent of the motion, y' as it is there: the price of one look at the events. An
+/// event that contains accelerations has the part of its slope that these leave.
+void EventWatch::slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values,
+                           double length) {
     const double ahead = std::max(1e-6 * length, 64 * epsilon * std::abs(t));
     for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = state[i] + ahead * rate[i];
     events_(t + ahead, ahead_.data(), rate, ahead_values_.data());
@@ -160,8 +164,10 @@ std::vector<Crossing> EventWatch::scan(const Stretch& step) {
     }
     events_(step.end, step.end_state, step.end_rate, last_.data());
     std::copy(last_.begin(), last_.end(), grid_.end() - static_cast<std::ptrdiff_t>(count));
-    const double* const before = grid_.data() + (points - 2) * count;  // who moves away from zero has nothing to hide here
-    if (std::equal(last_.begin(), last_.end(), before, [](double now, double then) { return std::abs(now) > std::abs(then); }))
+    const double* const before =
+        grid_.data() + (points - 2) * count;  // who moves away from zero has nothing to hide here
+    if (std::equal(last_.begin(), last_.end(), before,
+                   [](double now, double then) { return std::abs(now) > std::abs(then); }))
         std::fill(slope_.begin(), slope_.end(), 0.0);
     else
         slopes_at(step.end, step.end_state, step.end_rate, last_, step.end - step.start);
@@ -205,12 +211,17 @@ void EventWatch::look_at_one(const Stretch& step, int index, std::vector<Crossin
     }
 }
 
-void EventWatch::record(const Stretch& step, int index, double theta, int direction, std::vector<Crossing>& found) const {
+void EventWatch::record(const Stretch& step, int index, double theta, int direction,
+                        std::vector<Crossing>& found) const {
     if (std::isnan(theta)) return;
     const double time = theta == 1 ? step.end : step.start + theta * (step.end - step.start);
     const Event& event = events_.list[static_cast<std::size_t>(index)];
     if (event.at_once || time - run_start_ > simultaneous(step))
-        found.push_back({.index = index, .time = time, .theta = theta, .direction = direction, .counts = event.direction == 0 || event.direction == direction});
+        found.push_back({.index = index,
+                         .time = time,
+                         .theta = theta,
+                         .direction = direction,
+                         .counts = event.direction == 0 || event.direction == direction});
 }
 
 /// Where g has the other sign between points that have the same.
@@ -221,13 +232,17 @@ std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
     const auto add = [&](double theta) {
         if (!std::isnan(theta)) found.push_back(theta);
     };
-    // Between the two ends of a quarter, `from` being an end of the step: does g leave it towards zero, steeply enough, and come back?
+    // Between the two ends of a quarter, `from` being an end of the step: does g leave it towards zero, steeply
+    // enough, and come back?
     const auto at_the_end = [&](std::size_t from, std::size_t to, double slope) {
         const int side = sign(g_[from]);
         const double width = (theta_[to] - theta_[from]) * length;
-        if (side == 0 || sign(g_[to]) != side || side * g_[from] + bend * side * slope * width >= 0 || side * g_[to] < side * g_[from]) return;
+        if (side == 0 || sign(g_[to]) != side || side * g_[from] + bend * side * slope * width >= 0 ||
+            side * g_[to] < side * g_[from])
+            return;
         const double a = theta_[from], b = theta_[to];
-        add(from < to ? lowest(step, index, a, g_[from], (a + b) / 2, b, g_[to]) : lowest(step, index, b, g_[to], (a + b) / 2, a, g_[from]));
+        add(from < to ? lowest(step, index, a, g_[from], (a + b) / 2, b, g_[to])
+                      : lowest(step, index, b, g_[to], (a + b) / 2, a, g_[from]));
     };
     at_the_end(0, 1, first_slope_[k]);
     for (std::size_t i = 0; i + 2 < points; ++i) {
@@ -239,8 +254,9 @@ std::vector<double> EventWatch::turning_points(const Stretch& step, int index) {
     return found;
 }
 
-/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at all, or a line
-/// through two of them meets zero before the third, and the search then finds the other sign. Not a number otherwise.
+/// Three neighbours of one sign: where g is nearest to zero between them, if a parabola says that it comes near at
+/// all, or a line through two of them meets zero before the third, and the search then finds the other sign. Not a
+/// number otherwise.
 double EventWatch::between(const Stretch& step, int index, const double* theta, const double* g) {
     const int side = sign(g[1]);
     if (side == 0 || sign(g[0]) * side < 0 || sign(g[2]) != side) return no_place;
@@ -250,15 +266,18 @@ double EventWatch::between(const Stretch& step, int index, const double* theta, 
     const double vertex = theta[1] - slope / curvature;
     if (!(curvature * side > 0) || vertex <= theta[0] || vertex >= theta[2]) return no_place;
     const double parabola = side * (g[1] - slope * slope / (2 * curvature));
-    const double nearest = std::min({side * g[0], side * g[1], side * g[2]}), farthest = std::max(side * g[0], side * g[2]);
-    const bool turns_back = side * g[1] < side * g[0] && side * g[1] < side * g[2] && side * g[1] < bend * (farthest - side * g[1]);
+    const double nearest = std::min({side * g[0], side * g[1], side * g[2]}),
+                 farthest = std::max(side * g[0], side * g[2]);
+    const bool turns_back =
+        side * g[1] < side * g[0] && side * g[1] < side * g[2] && side * g[1] < bend * (farthest - side * g[1]);
     if (parabola > nearest / 2 && !turns_back) return no_place;
     return lowest(step, index, theta[0], g[0], vertex, theta[2], g[2]);
 }
 
-/// Golden section for the place where g is nearest to zero, until it has the other sign; not a number where it has not, or where no
-/// function convex towards zero with the values found can have it.
-double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right, double g_right) {
+/// Golden section for the place where g is nearest to zero, until it has the other sign; not a number where it has
+/// not, or where no function convex towards zero with the values found can have it.
+double EventWatch::lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
+                          double g_right) {
     constexpr double golden = 0.6180339887498949;
     constexpr int enough = 4, most = 40;
     const int side = sign(g_right);

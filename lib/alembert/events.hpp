@@ -9,18 +9,20 @@
 ///
 /// What counts: g changes its sign, other than through a pole, or is exactly zero after it was not. A zero at the
 /// very start (closer than 1e-12 of the step, or of the time) is none. Every step is looked at in its interior
-/// too, so that two zeros in one step are found: at three points; at the turning point of a parabola through three neighbours if
-/// that comes near zero; and wherever g turns back between two points, by their values or by its slopes at the ends of the step,
-/// after having headed for zero steeply enough to reach it. A g that is convex towards zero (a smooth minimum, or a kink like that
-/// of |x - a| - b) is so searched to the end. What goes unseen: two zeros in a dip that is narrower than a quarter of the step and
-/// has flat shoulders, so that neither values nor slopes tell of it, and a touch that rounding keeps off zero. Steps that are shorter
-/// (Options::longest_step, max_step of a scene) see these too. Before an event that stops the run the step is looked at again, up to
-/// that event: a long step may have passed over an earlier one.
+/// too, so that two zeros in one step are found: at three points; at the turning point of a parabola through three
+/// neighbours if that comes near zero; and wherever g turns back between two points, by their values or by its
+/// slopes at the ends of the step, after having headed for zero steeply enough to reach it. A g that is convex
+/// towards zero (a smooth minimum, or a kink like that of |x - a| - b) is so searched to the end. What goes
+/// unseen: two zeros in a dip that is narrower than a quarter of the step and has flat shoulders, so that neither
+/// values nor slopes tell of it, and a touch that rounding keeps off zero. Steps that are shorter
+/// (Options::longest_step, max_step of a scene) see these too. Before an event that stops the run the step is
+/// looked at again, up to that event: a long step may have passed over an earlier one.
 ///
 /// A zero is located on the dense output to a few units in the last place of t by Chandrupatla's method (Adv. Eng.
 /// Software 28 (1997) 145-149: bisection and inverse quadratic interpolation), y' being the right-hand side there.
-/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. All that are simultaneous with
-/// one that stops the run are told. `direction` makes zeros count where the value grows, or falls; a touch from below grows.
+/// Events of one step come in the order of time; simultaneous ones (to 1e-12) in the order of declaration. All
+/// that are simultaneous with one that stops the run are told. `direction` makes zeros count where the value
+/// grows, or falls; a touch from below grows.
 
 #include <concepts>
 #include <functional>
@@ -51,8 +53,10 @@ struct Events {
     }
 };
 
-/// The emitted events. `stop` and `direction` have one flag for each, or are empty; throws std::invalid_argument otherwise.
-Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop, const std::vector<int>& direction = {});
+/// The emitted events. `stop` and `direction` have one flag for each, or are empty; throws std::invalid_argument
+/// otherwise.
+Events make_events(const Module& module, const std::vector<double>& values, const std::vector<bool>& stop,
+                   const std::vector<int>& direction = {});
 
 /// Any function (t, state, rate, out), `out` having a place for each of the list.
 template <std::invocable<double, const double*, const double*, double*> Function>
@@ -76,8 +80,8 @@ struct Stretch {
 struct Crossing {
     int index = 0;
     double time = 0;
-    double theta = 0;  ///< (time − start) / (end − start) of the stretch
-    int direction = 0;  ///< +1: the value grows through it, −1: falls
+    double theta = 0;    ///< (time − start) / (end − start) of the stretch
+    int direction = 0;   ///< +1: the value grows through it, −1: falls
     bool counts = true;  ///< in its event's direction
 };
 
@@ -99,11 +103,15 @@ private:
     double value(const Stretch& step, int index, double theta);
     void look_at_one(const Stretch& step, int index, std::vector<Crossing>& found);
     void record(const Stretch& step, int index, double theta, int direction, std::vector<Crossing>& found) const;
-    bool stops(const Crossing& crossing) const { return crossing.counts && events_.list[static_cast<std::size_t>(crossing.index)].stop; }
-    void slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values, double length);
+    bool stops(const Crossing& crossing) const {
+        return crossing.counts && events_.list[static_cast<std::size_t>(crossing.index)].stop;
+    }
+    void slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values,
+                   double length);
     std::vector<double> turning_points(const Stretch& step, int index);
     double between(const Stretch& step, int index, const double* theta, const double* g);
-    double lowest(const Stretch& step, int index, double left, double g_left, double middle, double right, double g_right);
+    double lowest(const Stretch& step, int index, double left, double g_left, double middle, double right,
+                  double g_right);
     double locate(const Stretch& step, int index, double left, double g_left, double right, double g_right);
 
     const Events& events_;
@@ -111,8 +119,8 @@ private:
     double run_start_ = 0;
     long evaluations_ = 0;
     std::vector<double> state_, rate_, out_;
-    std::vector<double> last_;  ///< values at the start of the step
-    std::vector<double> slope_, first_slope_;  ///< dg/dt there; at both ends of the step that is looked at
+    std::vector<double> last_;                  ///< values at the start of the step
+    std::vector<double> slope_, first_slope_;   ///< dg/dt there; at both ends of the step that is looked at
     std::vector<double> ahead_, ahead_values_;  ///< a state a little later, and the values there
     std::vector<int> sign_;     ///< the last sign that was not 0; 0: none, or an event has just been exactly 0
     std::vector<double> grid_;  ///< values at the points of the step, by point

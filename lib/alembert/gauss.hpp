@@ -6,10 +6,10 @@
 ///     Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),   y₁ = y + h Σ_j b_j f(t + c_j h, y + Z_j)
 ///
 /// by fixed-point iteration until the changes no longer shrink, which is at rounding: a tolerance left in the
-/// equations would be a drift of the energy (Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.6). The
-/// iteration contracts for h‖∂f/∂y‖ below about 2. Where it contracts by less than a half, or not at all, simplified Newton
-/// takes its place for good, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z with J = ∂f/∂y at the start of the step (newton.hpp), as one dense
-/// system of 3n. It starts from the polynomial of the step before (§VIII.6.1).
+/// equations would be a drift of the energy (Hairer, Lubich, Wanner, Geometric Numerical Integration, §VIII.6).
+/// The iteration contracts for h‖∂f/∂y‖ below about 2. Where it contracts by less than a half, or not at all,
+/// simplified Newton takes its place for good, (I − h A ⊗ J) ΔZ = h (A ⊗ I) F − Z with J = ∂f/∂y at the start of
+/// the step (newton.hpp), as one dense system of 3n. It starts from the polynomial of the step before (§VIII.6.1).
 ///
 /// Source: Hairer, Lubich, Wanner, §II.1.3, table 1.2 (Kuntzmann & Butcher, order 6).
 
@@ -29,7 +29,13 @@ public:
     static constexpr int stages = 3;
 
     Gauss(const Ends& ends, double /*tolerance*/)
-        : size_(ends.y.size()), rates_(stages * size_), kept_(rates_), last_(rates_), state_(size_), z_(rates_), start_(rates_) {}
+        : size_(ends.y.size()),
+          rates_(stages * size_),
+          kept_(rates_),
+          last_(rates_),
+          state_(size_),
+          z_(rates_),
+          start_(rates_) {}
 
     int most_evaluations() const { return stages * (most_rounds + most_newton_rounds) + static_cast<int>(size_); }
 
@@ -56,7 +62,7 @@ public:
 
 private:
     static constexpr int most_rounds = 60, most_newton_rounds = 60;
-    static constexpr double rounding = 1e-12;  ///< changes below this that no longer shrink are rounding
+    static constexpr double rounding = 1e-12;          ///< changes below this that no longer shrink are rounding
     static constexpr double root = 3.872983346207417;  // √15
     static constexpr std::array<double, 3> c = {0.5 - root / 10, 0.5, 0.5 + root / 10};
     static constexpr std::array<double, 3> b = {5. / 18, 4. / 9, 5. / 18};
@@ -122,7 +128,8 @@ private:
                     side[static_cast<Eigen::Index>(i * size_ + k)] = wanted(h, i, k) - z_[i * size_ + k];
             lu.solve(side, delta);
             double largest = 0;
-            for (std::size_t i = 0; i < stages; ++i) largest = std::max(largest, ends.norm(delta.data() + i * size_));
+            for (std::size_t i = 0; i < stages; ++i)
+                largest = std::max(largest, ends.norm(delta.data() + i * size_));
             if (!(largest < HUGE_VAL)) return false;
             for (std::size_t k = 0; k < z_.size(); ++k) z_[k] += delta[static_cast<Eigen::Index>(k)];
             if (largest == 0 || (largest >= before && largest < rounding)) {
@@ -130,7 +137,8 @@ private:
                 const Eigen::Matrix3d inverse = matrix_of_a().inverse();
                 for (std::size_t k = 0; k < size_; ++k) {
                     const Eigen::Vector3d z(z_[k], z_[size_ + k], z_[2 * size_ + k]), rates = inverse * z / h;
-                    for (std::size_t i = 0; i < stages; ++i) rates_[i * size_ + k] = rates[static_cast<Eigen::Index>(i)];
+                    for (std::size_t i = 0; i < stages; ++i)
+                        rates_[i * size_ + k] = rates[static_cast<Eigen::Index>(i)];
                 }
                 return true;
             }
@@ -147,7 +155,8 @@ private:
         return A;
     }
 
-    /// Z from the rates that the polynomial of the last step has there; from the rate at the start in the first step.
+    /// Z from the rates that the polynomial of the last step has there; from the rate at the start in the first
+    /// step.
     void forecast(const Ends& ends, double h) {
         for (std::size_t i = 0; i < stages; ++i)
             for (std::size_t k = 0; k < size_; ++k) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// With M = L Lᵀ and x = Lᵀ q' the metric is the plain one; Â and Ĝ are the rows in it. Bilateral rows: the nearest x with
-// Â x = −b. Contacts: x moves by y with Â y = 0 and the least |y| such that Ĝ y ≥ h, a least-distance problem, solved through
-// non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ (Lawson & Hanson, Solving Least Squares
-// Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder vanishes if and only if no y exists.
+// With M = L Lᵀ and x = Lᵀ q' the metric is the plain one; Â and Ĝ are the rows in it. Bilateral rows: the nearest
+// x with Â x = −b. Contacts: x moves by y with Â y = 0 and the least |y| such that Ĝ y ≥ h, a least-distance
+// problem, solved through non-negative least squares: min |E u − f|, u ≥ 0, E = [Ĝᵀ; hᵀ], f = (0 … 0 1)ᵀ (Lawson &
+// Hanson, Solving Least Squares Problems (1974), ch. 23, algorithms NNLS and LDP). Its remainder vanishes if and
+// only if no y exists.
 #include "alembert/impact.hpp"
 
 #include <algorithm>
@@ -27,7 +28,9 @@ constexpr double slow = rest / rounding;  // approaches that do not bounce, in g
 constexpr int most_elastic = 1000;        // collisions in one instant; a thin wedge takes π over its angle
 constexpr int most_collisions = 2 * most_elastic;
 
-Orthogonal decomposed(const MatrixXd& matrix) { return {matrix, rank_threshold}; }
+Orthogonal decomposed(const MatrixXd& matrix) {
+    return {matrix, rank_threshold};
+}
 
 bool is_definite(const MatrixXd& mass) {
     const VectorXd diagonal = mass.diagonal();
@@ -37,8 +40,8 @@ bool is_definite(const MatrixXd& mass) {
     return values.minCoeff() > 1e-13 * values.maxCoeff();
 }
 
-/// M + s AᵀA where M alone is not definite: it moves only what the constraints fix anyhow. Λ changes by s A (q'⁺ − q'⁻), the
-/// rates do not.
+/// M + s AᵀA where M alone is not definite: it moves only what the constraints fix anyhow. Λ changes by s A (q'⁺ −
+/// q'⁻), the rates do not.
 struct Stiffened {
     MatrixXd M;
     double stiffening = 0;
@@ -63,8 +66,8 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
         const VectorXd slope = E.transpose() * (f - E * u);
         Index best = -1;
         for (Index j = 0; j < E.cols(); ++j)
-            if (std::find(passive.begin(), passive.end(), j) == passive.end() && slope[j] > rounding * E.col(j).norm() &&
-                (best < 0 || slope[j] > slope[best]))
+            if (std::find(passive.begin(), passive.end(), j) == passive.end() &&
+                slope[j] > rounding * E.col(j).norm() && (best < 0 || slope[j] > slope[best]))
                 best = j;
         if (best < 0) break;
         passive.push_back(best);
@@ -90,7 +93,8 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
     return u;
 }
 
-/// The least |Gᵀ u| such that G Gᵀ u ≥ h, u ≥ 0, complementary; nothing where there is none. Rows of G have length 1 or 0.
+/// The least |Gᵀ u| such that G Gᵀ u ≥ h, u ≥ 0, complementary; nothing where there is none. Rows of G have length
+/// 1 or 0.
 struct Push {
     bool exists = false;
     VectorXd u;
@@ -116,9 +120,11 @@ Push least_push(const MatrixXd& G, const VectorXd& h) {
     for (std::size_t i = 0; i < touching.size(); ++i) bounds[static_cast<Index>(i)] = h[touching[i]];
     const VectorXd exact = decomposed(active.transpose()).solve(bounds);
     const VectorXd shared = decomposed(active).solve(exact);
-    if ((active * shared - y).norm() > rest * y.norm() || shared.minCoeff() < -rounding * shared.norm()) return push;
+    if ((active * shared - y).norm() > rest * y.norm() || shared.minCoeff() < -rounding * shared.norm())
+        return push;
     push.u.setZero();
-    for (std::size_t i = 0; i < touching.size(); ++i) push.u[touching[i]] = std::max(0.0, shared[static_cast<Index>(i)]);
+    for (std::size_t i = 0; i < touching.size(); ++i)
+        push.u[touching[i]] = std::max(0.0, shared[static_cast<Index>(i)]);
     return push;
 }
 
@@ -131,7 +137,9 @@ struct Setting {
     VectorXd length;  ///< of the rows of G_free before they were given length 1
 
     Setting(const MatrixXd& M, const MatrixXd& rows, const MatrixXd& contacts) : mass(M) {
-        const auto in_metric = [this](const MatrixXd& list) -> MatrixXd { return mass.solve_lower(list.transpose()).transpose(); };
+        const auto in_metric = [this](const MatrixXd& list) -> MatrixXd {
+            return mass.solve_lower(list.transpose()).transpose();
+        };
         A = in_metric(rows);
         G = in_metric(contacts);
         bilateral_size = A.rowwise().norm();
@@ -166,17 +174,21 @@ struct Setting {
 
 }  // namespace
 
-ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd& impulse, const MatrixXd& bilateral_rows,
-                    const VectorXd& bilateral_drift, const MatrixXd& contact_rows, const VectorXd& contact_drift,
-                    const VectorXd& restitution) {
+ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd& impulse,
+                    const MatrixXd& bilateral_rows, const VectorXd& bilateral_drift, const MatrixXd& contact_rows,
+                    const VectorXd& contact_drift, const VectorXd& restitution) {
     const Index n = before.size(), m = bilateral_drift.size(), k = contact_drift.size();
     assert(mass.rows() == n && mass.cols() == n && impulse.size() == n && restitution.size() == k);
     assert(bilateral_rows.rows() == m && contact_rows.rows() == k);
-    const auto failed = [](const char* why) { return ImpactResult{.failure = why, .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}}; };
+    const auto failed = [](const char* why) {
+        return ImpactResult{.failure = why, .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+    };
     if (!mass.allFinite() || !before.allFinite() || !impulse.allFinite() || !bilateral_rows.allFinite() ||
-        !bilateral_drift.allFinite() || !contact_rows.allFinite() || !contact_drift.allFinite() || !restitution.allFinite())
+        !bilateral_drift.allFinite() || !contact_rows.allFinite() || !contact_drift.allFinite() ||
+        !restitution.allFinite())
         return failed("a value is not finite");
-    const MatrixXd rows = m > 0 ? bilateral_rows : MatrixXd(0, n), contacts = k > 0 ? contact_rows : MatrixXd(0, n);
+    const MatrixXd rows = m > 0 ? bilateral_rows : MatrixXd(0, n),
+                   contacts = k > 0 ? contact_rows : MatrixXd(0, n);
 
     const auto [M, stiffening] = stiffened(mass, rows);
     if (!is_definite(M)) return failed("the mass matrix is singular");
@@ -202,7 +214,9 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     // The bilateral part of G x is the same for all x from here on; where b = 0 it is zero without rounding.
     VectorXd drift = contact_drift;
     if (m > 0) drift += s.G * s.bilateral.solve(s.unit_misfit(-bilateral_drift));
-    const auto speed = [&](Index i, const VectorXd& at) { return s.length[i] * s.G_free.row(i).dot(at) + drift[i]; };
+    const auto speed = [&](Index i, const VectorXd& at) {
+        return s.length[i] * s.G_free.row(i).dot(at) + drift[i];
+    };
     const VectorXd x_imposed = x;
     VectorXd next = x + push - s.bilateral_part(push);
     const double largest = std::max(x.norm(), next.norm());
@@ -215,7 +229,8 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
         VectorXd h(k), approach(k), e(k);
         for (Index i = 0; i < k; ++i) {
             approach[i] = speed(i, x);
-            e[i] = result.collisions < most_elastic && approach[i] < -slow * grain * s.length[i] ? restitution[i] : 0;
+            e[i] =
+                result.collisions < most_elastic && approach[i] < -slow * grain * s.length[i] ? restitution[i] : 0;
             if (approach[i] > grain * s.length[i]) continue;
             h[i] = -speed(i, next) - e[i] * approach[i];
             if (s.length[i] > 0) {
@@ -244,7 +259,8 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
         again = false;
         for (Index i = 0; i < k; ++i) again = again || (s.length[i] > 0 && speed(i, x) < -4 * grain * s.length[i]);
         result.collisions += k > 0;
-        if (again && result.collisions == most_collisions) return failed("the collisions of one instant have no end");
+        if (again && result.collisions == most_collisions)
+            return failed("the collisions of one instant have no end");
     }
     result.after = back(x);
 
@@ -259,11 +275,12 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     return result;
 }
 
-ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& bilateral_rows, const VectorXd& bilateral_drift,
-                   const MatrixXd& contact_rows, const VectorXd& contact_drift) {
+ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& bilateral_rows,
+                   const VectorXd& bilateral_drift, const MatrixXd& contact_rows, const VectorXd& contact_drift) {
     const Index k = contact_drift.size();
     const VectorXd none = VectorXd::Zero(force.size());
-    ImpactResult result = strike(mass, none, force, bilateral_rows, bilateral_drift, MatrixXd(0, force.size()), VectorXd(0), VectorXd(0));
+    ImpactResult result = strike(mass, none, force, bilateral_rows, bilateral_drift, MatrixXd(0, force.size()),
+                                 VectorXd(0), VectorXd(0));
     if (!result || k == 0) return result;
     const auto [M, stiffening] = stiffened(mass, bilateral_rows);
     const Setting s(M, bilateral_rows, contact_rows);
@@ -274,22 +291,34 @@ ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& 
         if (s.length[i] > 0)
             h[i] /= s.length[i];
         else if (h[i] > rest * size[i])
-            return {.failure = "the constraints prescribe that a contact closes", .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+            return {.failure = "the constraints prescribe that a contact closes",
+                    .after = {},
+                    .bilateral = {},
+                    .contact = {},
+                    .stays_closed = {}};
         else
             h[i] = 0;
     }
     Push given = least_push(s.G_free, h);
-    if (!given.exists) given = least_push(s.G_free, h - rounding * size.cwiseQuotient(s.length.cwiseMax(rank_threshold)));
-    if (!given.exists) return {.failure = "no accelerations keep all contacts apart", .after = {}, .bilateral = {}, .contact = {}, .stays_closed = {}};
+    if (!given.exists)
+        given = least_push(s.G_free, h - rounding * size.cwiseQuotient(s.length.cwiseMax(rank_threshold)));
+    if (!given.exists)
+        return {.failure = "no accelerations keep all contacts apart",
+                .after = {},
+                .bilateral = {},
+                .contact = {},
+                .stays_closed = {}};
     result.contact = given.u.cwiseQuotient(s.length.cwiseMax(rank_threshold));
     const VectorXd y = s.G_free.transpose() * given.u, lacking = y - s.G.transpose() * result.contact;
     const VectorXd gained = s.mass.solve_upper(y);
     result.after += gained;
     if (bilateral_drift.size() > 0)
-        result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) - stiffening * (bilateral_rows * gained);
+        result.bilateral += s.unit_misfit(decomposed(s.A_unit.transpose()).solve(lacking)) -
+                            stiffening * (bilateral_rows * gained);
     result.stays_closed.resize(static_cast<std::size_t>(k));
     const VectorXd left = contact_rows * result.after + contact_drift;
-    for (Index i = 0; i < k; ++i) result.stays_closed[static_cast<std::size_t>(i)] = std::abs(left[i]) <= rest * size[i];
+    for (Index i = 0; i < k; ++i)
+        result.stays_closed[static_cast<std::size_t>(i)] = std::abs(left[i]) <= rest * size[i];
     return result;
 }
 

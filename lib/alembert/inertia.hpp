@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The inertia of a rigid body as values (Zhang & Qin, chapter 3; Goldstein, Classical Mechanics (1980), chapter 5).
+/// The inertia of a rigid body as values (Zhang & Qin, chapter 3; Goldstein, Classical Mechanics (1980), chapter
+/// 5).
 ///
 ///     const Matrix3<> I_C = inertia_matrix({.xx = 1, .yy = 2, .zz = 2.5, .xy = -0.1});
 ///     const Matrix3<> I_P = moved_from_centre(I_C, m, d);          // Steiner

@@ -58,10 +58,12 @@ void check_options(const Rhs& rhs, const std::vector<double>& initial, const Opt
            "a finite number, zero or more, is needed");
     number("sample", options.sample, options.sample >= 0, "a finite number, zero or more, is needed");
     check(!needs_series(options.method) || rhs.series.width == rhs.dimension,
-          fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand side has not got",
+          fmt::format("{} needs the Taylor series of the system (emit_taylor, make_series), which this right-hand "
+                      "side has not got",
                       name(options.method)));
     check(!needs_canonical(options.method) || (rhs.canonical && 2 * rhs.canonical->coordinates <= rhs.dimension),
-          fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand side has not got",
+          fmt::format("{} needs the momenta and constraints of the system (canonical.hpp), which this right-hand "
+                      "side has not got",
                       name(options.method)));
     check(options.budget > 0, fmt::format("budget = {}: at least one right-hand side is needed", options.budget));
     check(!has_fixed_step(options.method) || options.step > 0 || options.duration == 0,
@@ -111,7 +113,8 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     first.failure = std::move(second.failure);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)
         first.failure->message = fmt::format(
-            "{} right-hand sides were not enough to come further than t = {}; raise the budget (--budget), loosen the "
+            "{} right-hand sides were not enough to come further than t = {}; raise the budget (--budget), loosen "
+            "the "
             "tolerance or shorten the duration",
             options.budget, first.failure->time);
 }
@@ -173,12 +176,17 @@ std::vector<Method> all_methods() {
 std::string method_names() {
     std::string names;
     for (const MethodEntry& one : methods)
-        names += fmt::format("{}{}", &one == std::begin(methods) ? "" : &one + 1 == std::end(methods) ? " or " : ", ", one.name);
+        names += fmt::format("{}{}",
+                             &one == std::begin(methods)     ? ""
+                             : &one + 1 == std::end(methods) ? " or "
+                                                             : ", ",
+                             one.name);
     return names;
 }
 
 bool uses_jacobian(Method method) {
-    return (method >= Method::radau && method <= Method::radau13) || method == Method::bdf || method == Method::gauss;
+    return (method >= Method::radau && method <= Method::radau13) || method == Method::bdf ||
+           method == Method::gauss;
 }
 
 bool needs_series(Method method) {
@@ -197,8 +205,10 @@ Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const O
                      const Events& events) {
     check_options(rhs, initial, options);
     const double start = thread_seconds();
-    if (options.by && !events.list.empty()) throw std::invalid_argument("an integrator from elsewhere does not look for events");
-    Trajectory result = options.by ? options.by(rhs, initial, options) : entry(options.method).run(rhs, initial, options, events);
+    if (options.by && !events.list.empty())
+        throw std::invalid_argument("an integrator from elsewhere does not look for events");
+    Trajectory result =
+        options.by ? options.by(rhs, initial, options) : entry(options.method).run(rhs, initial, options, events);
     if (result.statistics.switched && result.ending == Ending::completed) go_on(result, rhs, options, events);
     result.statistics.seconds = thread_seconds() - start;
     return result;

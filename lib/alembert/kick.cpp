@@ -40,32 +40,41 @@ std::vector<double> as_integrated(const Kicks& kicks, double t, const std::vecto
     return state;
 }
 
-Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vector<PassedZero> passed, double start) {
-    return make_events(std::move(list), [events, passed = std::move(passed), start](double t, const double* y, const double* rates, double* out) {
+Events with_zeros_passed(const Events& events, std::vector<Event> list, std::vector<PassedZero> passed,
+                         double start) {
+    return make_events(std::move(list), [events, passed = std::move(passed), start](
+                                            double t, const double* y, const double* rates, double* out) {
         events(t, y, rates, out);
         for (std::size_t k = 0; k < passed.size(); ++k) {
             const PassedZero& zero = passed[k];
-            if (zero.side != 0 && t <= start + zero.hold) out[k] = zero.side * std::max(zero.side * out[k], std::numeric_limits<double>::min());
+            if (zero.side != 0 && t <= start + zero.hold)
+                out[k] = zero.side * std::max(zero.side * out[k], std::numeric_limits<double>::min());
             if (std::abs(out[k]) <= zero.band) out[k] = 0;
         }
     });
 }
 
-std::optional<std::string> KickSeries::add(const std::string& name, double t, const LastZero& zero, const PassedZero& passed, double tolerance, double duration) {
+std::optional<std::string> KickSeries::add(const std::string& name, double t, const LastZero& zero,
+                                           const PassedZero& passed, double tolerance, double duration) {
     times_.push_back(t);
     if (times_.size() < 2) return std::nullopt;
     const double flight = t - times_[times_.size() - 2], way = std::clamp(tolerance, finest_way, coarsest_way);
     longest_ = std::max(longest_, flight);
-    const bool is_lost = flight < short_flight * longest_ &&
-                         (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t));
+    const bool is_lost =
+        flight < short_flight * longest_ &&
+        (std::abs(passed.slope) * flight < way * passed.size || flight < lost_in_time * std::abs(t));
     lost_ = is_lost ? lost_ + 1 : 0;
     const bool is_wrong = is_lost && passed.slope * zero.direction < 0;  // rounding has the word
-    const bool is_crowd = times_.size() > most_at_once && t - times_[times_.size() - 1 - most_at_once] <= moment * duration;
+    const bool is_crowd =
+        times_.size() > most_at_once && t - times_[times_.size() - 1 - most_at_once] <= moment * duration;
     if (!is_wrong && !is_crowd && lost_ < 2) return std::nullopt;
     const std::size_t shown = std::min(times_.size(), most_shown);
-    return fmt::format("the impulses of event '{}' follow each other without end before t = {:.10g}: the last {} came within {:.3g} s; what bounces and comes "
-                       "to rest is a [[unilateral]] with its restitution; an impulse that is not to follow itself needs a 'direction' or another 'when'",
-                       name, t, shown, t - times_[times_.size() - shown]);
+    return fmt::format(
+        "the impulses of event '{}' follow each other without end before t = {:.10g}: the last {} came within "
+        "{:.3g} s; what bounces and comes "
+        "to rest is a [[unilateral]] with its restitution; an impulse that is not to follow itself needs a "
+        "'direction' or another 'when'",
+        name, t, shown, t - times_[times_.size() - shown]);
 }
 
 }  // namespace alembert

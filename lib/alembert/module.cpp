@@ -49,7 +49,8 @@ Module load(const std::filesystem::path& object) {
     further("alembert_derivatives", derivatives);
     further("alembert_projection", projection);
     further("alembert_pack", pack);
-    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection, pack);
+    return Module(std::shared_ptr<const alembert_solver_table>(file.handle(), table), derivatives, projection,
+                  pack);
 }
 
 std::vector<double> prepared(const Module& module, const std::vector<double>& values) {

@@ -41,8 +41,8 @@ public:
 
 private:
     friend Module load(const std::filesystem::path& object);
-    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives, const alembert_projection_table* projection,
-           const alembert_pack_table* pack)
+    Module(std::shared_ptr<const alembert_solver_table> table, const alembert_derivative_table* derivatives,
+           const alembert_projection_table* projection, const alembert_pack_table* pack)
         : table_(std::move(table)), derivatives_(derivatives), projection_(projection), pack_(pack) {}
     std::shared_ptr<const alembert_solver_table> table_;  ///< owns the loaded file
     const alembert_derivative_table* derivatives_;        ///< in it

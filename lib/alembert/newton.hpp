@@ -8,10 +8,11 @@
 ///     Contraction contraction(tolerance);
 ///     for (...) if (contraction.after(ends.norm(delta)) != Contraction::more) break;
 ///
-/// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation), else by differences, n
-/// evaluations. Differences are of √ε max(|y_i|, |h f_i|, 1e-3): half the digits, which costs a simplified Newton method some speed
-/// of convergence and no accuracy. The forecast is that of Hairer & Wanner, Solving Ordinary Differential Equations II,
-/// 2nd ed. 1996, §IV.8: with Θ the ratio of two changes, Θ/(1−Θ) of the last one is left.
+/// ∂f/∂y is the right-hand side's own where it has one (Rhs::jacobian; it counts as one evaluation), else by
+/// differences, n evaluations. Differences are of √ε max(|y_i|, |h f_i|, 1e-3): half the digits, which costs a
+/// simplified Newton method some speed of convergence and no accuracy. The forecast is that of Hairer & Wanner,
+/// Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8: with Θ the ratio of two changes, Θ/(1−Θ) of
+/// the last one is left.
 
 #include <Eigen/Dense>
 

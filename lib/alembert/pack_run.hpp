@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Eight members of an ensemble side by side, from their starts to their ends; who is done makes room for the next. This is
-/// the inside of `integrate` for ensembles (ensemble.hpp): call that.
+/// Eight members of an ensemble side by side, from their starts to their ends; who is done makes room for the
+/// next. This is the inside of `integrate` for ensembles (ensemble.hpp): call that.
 ///
 ///     PackRun<dop853_tableau>(ensemble, options, source).go();
 ///
-/// Each lane has the step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that is not
-/// finite, a step that underflows, the budget) is given back with `again`: run by itself, it will say what it was.
+/// Each lane has the step control of run.hpp and step_size.hpp. A lane in which something goes wrong (a rate that
+/// is not finite, a step that underflows, the budget) is given back with `again`: run by itself, it will say what
+/// it was.
 
 #include <algorithm>
 #include <cmath>
@@ -103,7 +104,8 @@ private:
             step_.end[i] = k == lane.count ? lane.end : lane.member.start + static_cast<double>(k) * options_.step;
         } else {
             lane.h = std::min(lane.h, longest(lane.member));
-            if (lane.h < 16 * std::numeric_limits<double>::epsilon() * std::abs(t) || t + lane.h == t) return false;
+            if (lane.h < 16 * std::numeric_limits<double>::epsilon() * std::abs(t) || t + lane.h == t)
+                return false;
             const double h = within_quick_times(lane, t);
             const double reach = t + std::min(1.01 * h, longest(lane.member) * (1 + 1e-9));
             step_.end[i] = reach < lane.end ? t + h : lane.end;
@@ -118,10 +120,13 @@ private:
     double within_quick_times(const Lane& lane, double t) const {
         const std::vector<QuickTime>& quick = quick_times(lane.member);
         if (quick.empty()) return lane.h;
-        return std::min(lane.h, std::max(latest_end(quick, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
+        return std::min(
+            lane.h, std::max(latest_end(quick, t) - t, 64 * std::numeric_limits<double>::epsilon() * std::abs(t)));
     }
 
-    double longest(const Member& member) const { return options_.longest_step > 0 ? options_.longest_step : member.duration; }
+    double longest(const Member& member) const {
+        return options_.longest_step > 0 ? options_.longest_step : member.duration;
+    }
 
     /// What was learnt from an attempted step, lane by lane.
     void settle(unsigned good) {
@@ -143,7 +148,8 @@ private:
             }
             if constexpr (!Step::has_fixed_step) {
                 const double ratio = step_.misfit[i] / options_.tolerance;
-                const double wish = quick_times(lane.member).empty() ? 0 : lane.h;  // what was held short is no forecast
+                const double wish =
+                    quick_times(lane.member).empty() ? 0 : lane.h;  // what was held short is no forecast
                 if (is_good)
                     lane.h = std::max(lane.control.after_accepted(length[i], ratio), length[i] < wish ? wish : 0);
                 else
@@ -163,7 +169,8 @@ private:
     }
 
     void note_energy(int i) {
-        lane_[i].drift.add({energy_[0][i], energy_[2][i], energy_[4][i]}, extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
+        lane_[i].drift.add({energy_[0][i], energy_[2][i], energy_[4][i]},
+                           extra_ == 1 ? step_.state(dimension_ - 1, i) : 0);
     }
 
     void complete(int i) {
@@ -188,7 +195,10 @@ private:
         step_.end[i] = step_.time[i];
         while (std::optional<Member> member = source_.next()) {
             Lane& lane = lane_[i];
-            lane = {.member = *std::move(member), .control = StepSize(std::max(1, Step::estimate_order)), .drift = Drift(0, 0, false), .outcome = {}};
+            lane = {.member = *std::move(member),
+                    .control = StepSize(std::max(1, Step::estimate_order)),
+                    .drift = Drift(0, 0, false),
+                    .outcome = {}};
             if (!begin(i, lane)) {
                 source_.again(lane.member);
                 continue;
@@ -215,7 +225,8 @@ private:
         } else {
             lane.h = options_.step;
             if (lane.h == 0) {
-                lane.h = starting_step(rhs, member.start, state.data(), rate_.data(), options_.tolerance, Step::estimate_order, longest(member));
+                lane.h = starting_step(rhs, member.start, state.data(), rate_.data(), options_.tolerance,
+                                       Step::estimate_order, longest(member));
                 ++lane.outcome.evaluations;
             }
         }

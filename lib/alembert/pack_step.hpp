@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// One step of an explicit Runge-Kutta method for eight systems side by side: step.hpp with a lane for each system, which has
-/// its own time, step and parameters.
+/// One step of an explicit Runge-Kutta method for eight systems side by side: step.hpp with a lane for each
+/// system, which has its own time, step and parameters.
 ///
 ///     PackStep<dop853_tableau> step(module, dimension, extra);
 ///     step.put(lane, t, state, rate, par);     // for each lane
 ///     step.end = ...;                          // a time in each lane; where it is the lane's own t nothing moves
 ///     step.attempt();
 ///     step.misfit[lane];                       // the largest error; infinite if something is not finite
-///     step.finish();                           // rates at the ends; step.misfit becomes infinite where they are not finite
-///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
+///     step.finish();                           // rates at the ends; step.misfit becomes infinite where they are
+///     not finite step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///
-/// The arithmetic and its order are those of step.hpp, sums of two doubles included. It is compiled for AVX-512, for AVX2 and
-/// for any x86-64, and what the processor can do is chosen when a PackStep is made.
+/// The arithmetic and its order are those of step.hpp, sums of two doubles included. It is compiled for AVX-512,
+/// for AVX2 and for any x86-64, and what the processor can do is chosen when a PackStep is made.
 
 #include <algorithm>
 #include <cmath>
@@ -61,15 +61,24 @@ public:
         for (std::size_t i = 0; i < par.size(); ++i) par_[i][lane] = par[i];
     }
 
-    void attempt() { kernel_.attempt(*this); }
-    void finish() { kernel_.finish(*this); }
-    void advance(unsigned accepted) { kernel_.advance(*this, accepted); }
+    void attempt() {
+        kernel_.attempt(*this);
+    }
+    void finish() {
+        kernel_.finish(*this);
+    }
+    void advance(unsigned accepted) {
+        kernel_.advance(*this, accepted);
+    }
 
-    double state(int component, int lane) const { return array(y_)[component][lane]; }
+    double state(int component, int lane) const {
+        return array(y_)[component][lane];
+    }
 
     /// T, V, E and power, then Jacobi's integral, at the start of every lane.
     void energies(Lanes (&energy)[5]) const {
-        pack_.energy(reals(&time), reals(array(y_)), reals(stage(0)), reals(par_.data()), reals(energy), reals(&energy[4]));
+        pack_.energy(reals(&time), reals(array(y_)), reals(stage(0)), reals(par_.data()), reals(energy),
+                     reals(&energy[4]));
     }
 
     Lanes time, end, misfit;
@@ -89,24 +98,38 @@ private:
 
     static constexpr int arrays = 5;
     static constexpr int y_ = 0, rest_ = 1, next_ = 2, next_rest_ = 3, trial_ = 4;
-    Lanes* array(int which) { return memory_.data() + which * dimension_; }
-    const Lanes* array(int which) const { return memory_.data() + which * dimension_; }
-    Lanes* stage(int i) { return array(arrays + i); }
-    const Lanes* stage(int i) const { return array(arrays + i); }
-    Wide* wide(int which) { return reinterpret_cast<Wide*>(array(which)); }
-    static Wide& wide(Lanes& one) { return reinterpret_cast<Wide&>(one); }
+    Lanes* array(int which) {
+        return memory_.data() + which * dimension_;
+    }
+    const Lanes* array(int which) const {
+        return memory_.data() + which * dimension_;
+    }
+    Lanes* stage(int i) {
+        return array(arrays + i);
+    }
+    const Lanes* stage(int i) const {
+        return array(arrays + i);
+    }
+    Wide* wide(int which) {
+        return reinterpret_cast<Wide*>(array(which));
+    }
+    static Wide& wide(Lanes& one) {
+        return reinterpret_cast<Wide&>(one);
+    }
 
     void rate_into(int i, const Lanes& t, int state) {
         pack_.rhs(reals(&t), reals(array(state)), reals(par_.data()), reals(stage(i)));
         if (dimension_ == controlled_) return;
         Lanes energy[5];  // the quadrature is the work of the power
-        pack_.energy(reals(&t), reals(array(state)), reals(stage(i)), reals(par_.data()), reals(energy), reals(&energy[4]));
+        pack_.energy(reals(&t), reals(array(state)), reals(stage(i)), reals(par_.data()), reals(energy),
+                     reals(&energy[4]));
         stage(i)[controlled_] = energy[3];
     }
 
     /// Σ_j row_j k_j of component b, over the weights that are not zero.
     template <const auto& row, int... j>
-    [[gnu::always_inline]] static void weighted_sum(const Wide* k, int dimension, int b, Wide& sum, std::integer_sequence<int, j...>) {
+    [[gnu::always_inline]] static void weighted_sum(const Wide* k, int dimension, int b, Wide& sum,
+                                                    std::integer_sequence<int, j...>) {
         sum = Wide{};
         ((row[j] != 0 ? void(sum += row[j] * k[j * dimension + b]) : void()), ...);
     }
@@ -195,7 +218,8 @@ private:
         Bits take;
         for (int lane = 0; lane < lanes; ++lane) take[lane] = -static_cast<long long>(accepted >> lane & 1U);
         Wide *const y = wide(y_), *const rest = wide(rest_), *const first = wide(arrays);
-        const Wide *const next = wide(next_), *const next_rest = wide(next_rest_), *const last = wide(arrays + stages);
+        const Wide *const next = wide(next_), *const next_rest = wide(next_rest_),
+                          *const last = wide(arrays + stages);
         for (int b = 0; b < dimension_; ++b) {
             y[b] = take ? next[b] : y[b];
             rest[b] = take ? next_rest[b] : rest[b];
@@ -204,16 +228,34 @@ private:
         wide(time) = take ? wide(end) : wide(time);
     }
 
-    static void attempt_any(PackStep& step) { step.attempt_here(); }
-    static void finish_any(PackStep& step) { step.finish_here(); }
-    static void advance_any(PackStep& step, unsigned accepted) { step.advance_here(accepted); }
+    static void attempt_any(PackStep& step) {
+        step.attempt_here();
+    }
+    static void finish_any(PackStep& step) {
+        step.finish_here();
+    }
+    static void advance_any(PackStep& step, unsigned accepted) {
+        step.advance_here(accepted);
+    }
 #if defined(__x86_64__)
-    [[gnu::target("avx2,fma")]] static void attempt_256(PackStep& step) { step.attempt_here(); }
-    [[gnu::target("avx2,fma")]] static void finish_256(PackStep& step) { step.finish_here(); }
-    [[gnu::target("avx2,fma")]] static void advance_256(PackStep& step, unsigned accepted) { step.advance_here(accepted); }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void attempt_512(PackStep& step) { step.attempt_here(); }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void finish_512(PackStep& step) { step.finish_here(); }
-    [[gnu::target("avx512f,avx512dq,fma")]] static void advance_512(PackStep& step, unsigned accepted) { step.advance_here(accepted); }
+    [[gnu::target("avx2,fma")]] static void attempt_256(PackStep& step) {
+        step.attempt_here();
+    }
+    [[gnu::target("avx2,fma")]] static void finish_256(PackStep& step) {
+        step.finish_here();
+    }
+    [[gnu::target("avx2,fma")]] static void advance_256(PackStep& step, unsigned accepted) {
+        step.advance_here(accepted);
+    }
+    [[gnu::target("avx512f,avx512dq,fma")]] static void attempt_512(PackStep& step) {
+        step.attempt_here();
+    }
+    [[gnu::target("avx512f,avx512dq,fma")]] static void finish_512(PackStep& step) {
+        step.finish_here();
+    }
+    [[gnu::target("avx512f,avx512dq,fma")]] static void advance_512(PackStep& step, unsigned accepted) {
+        step.advance_here(accepted);
+    }
 #endif
 
     const alembert_pack_table& pack_;

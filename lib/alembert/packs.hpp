@@ -25,8 +25,12 @@ struct alignas(lanes * sizeof(double)) Lanes {
 };
 
 /// The numbers of consecutive Lanes; null for null, which an empty list of them gives.
-inline double* reals(Lanes* first) { return first != nullptr ? first->value : nullptr; }
-inline const double* reals(const Lanes* first) { return first != nullptr ? first->value : nullptr; }
+inline double* reals(Lanes* first) {
+    return first != nullptr ? first->value : nullptr;
+}
+inline const double* reals(const Lanes* first) {
+    return first != nullptr ? first->value : nullptr;
+}
 
 /// `prepared` (module.hpp) in every lane.
 inline std::vector<Lanes> prepared_packs(const Module& module, const std::vector<double>& values = {}) {

@@ -109,19 +109,24 @@ private:
         const Eigen::Map<const VectorXd> u(before.data() + struck.size(), struck.size());
         for (const int k : kicks)
             if (EventRecord* const record = last_record(k))
-                record->energy_gain = Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 + 0.0;  // no −0
+                record->energy_gain =
+                    Eigen::Map<const VectorXd>(record->impulse.data(), struck.size()).dot(u + struck) / 2 +
+                    0.0;  // no −0
     }
 
     EventRecord* last_record(int event) {
-        const auto found = std::find_if(result_.events.rbegin(), result_.events.rend(), [&](const EventRecord& e) { return e.index == event; });
+        const auto found = std::find_if(result_.events.rbegin(), result_.events.rend(),
+                                        [&](const EventRecord& e) { return e.index == event; });
         return found == result_.events.rend() ? nullptr : &*found;
     }
 
     /// Zeros that have just been passed are followed from the side to which they go.
-    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after, const VectorXd& acceleration) {
+    void go_from(const Halt& halt, const std::vector<double>& before, const std::vector<double>& after,
+                 const VectorXd& acceleration) {
         passed_.clear();
         if (!contacts_.kicks.passed) return;
-        const std::vector<PassedZero> zeros = contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
+        const std::vector<PassedZero> zeros =
+            contacts_.kicks.passed(t_, before.data(), after.data(), acceleration);
         for (const PassedZero& zero : zeros) passed_.push_back(zero.is_zero ? zero : PassedZero());
         for (const LastZero& zero : halt.passed) {
             const PassedZero& passed = zeros[static_cast<std::size_t>(zero.event)];
@@ -129,7 +134,9 @@ private:
             if (!contains(halt.kicks, zero.event)) continue;
             ++kicks_;
             const std::string& name = mode_->events.list[static_cast<std::size_t>(zero.event)].name;
-            if (const auto endless = series_[zero.event].add(name, t_, zero, passed, tolerance_, options_.duration)) return fail(FailureKind::endless_kicks, *endless);
+            if (const auto endless =
+                    series_[zero.event].add(name, t_, zero, passed, tolerance_, options_.duration))
+                return fail(FailureKind::endless_kicks, *endless);
         }
     }
 
@@ -157,7 +164,9 @@ private:
         }
         closed_ = std::move(settled.closed);
         resting_ = std::move(settled.resting);
-        if (!settled.failure.empty()) return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks, settled.failure);
+        if (!settled.failure.empty())
+            return fail(halt.kicks.empty() ? FailureKind::no_contact_mode : FailureKind::endless_kicks,
+                        settled.failure);
         tell_gains(halt.kicks, before, settled.struck);
         go_from(halt, before, rates, settled.acceleration);
     }
@@ -176,7 +185,8 @@ private:
             here.grid = options_.start;
             if (count_ > 0) {  // so that no short contact is passed over
                 const double short_enough = options_.duration / 200;
-                here.longest_step = here.longest_step > 0 ? std::min(here.longest_step, short_enough) : short_enough;
+                here.longest_step =
+                    here.longest_step > 0 ? std::min(here.longest_step, short_enough) : short_enough;
             }
             here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         }
@@ -222,7 +232,8 @@ private:
                 if (halt.contact < 0) halt.contact = zero.event - of_scene;
                 continue;
             }
-            const auto known = std::find_if(halt.passed.begin(), halt.passed.end(), [&](const LastZero& z) { return z.event == zero.event; });
+            const auto known = std::find_if(halt.passed.begin(), halt.passed.end(),
+                                            [&](const LastZero& z) { return z.event == zero.event; });
             if (known == halt.passed.end())
                 halt.passed.push_back(zero);
             else if (zero.counts)
@@ -246,7 +257,8 @@ private:
         if (!sum.switched) sum.switched = s.switched;
     }
 
-    /// The mode's events, those of the contacts held against their bounds and stopping the phase, as do those that kick.
+    /// The mode's events, those of the contacts held against their bounds and stopping the phase, as do those that
+    /// kick.
     Events watched(const ContactMode& mode) const {
         const std::size_t scene = mode.events.list.size() - contacts_.names.size();
         std::vector<Event> list = mode.events.list;
@@ -303,12 +315,11 @@ private:
         events_at_once_ = t_ - last_event_ > 1e-12 * std::abs(t_) ? 0 : events_at_once_ + 1;
         last_event_ = t_;
         if (events_at_once_ < most_events_at_once * (1 + count_)) return false;
-        fail(
-            FailureKind::no_contact_mode,
-            fmt::format("no contact mode is consistent at t = {}: contact '{}' and others open and close "
-                        "without the time "
-                        "moving on; loosen the tolerance, or look at the gaps there",
-                        t_, contacts_.names[k]));
+        fail(FailureKind::no_contact_mode,
+             fmt::format("no contact mode is consistent at t = {}: contact '{}' and others open and close "
+                         "without the time "
+                         "moving on; loosen the tolerance, or look at the gaps there",
+                         t_, contacts_.names[k]));
         return true;
     }
 
@@ -333,9 +344,9 @@ private:
     double t_;
     std::vector<double> state_;
     std::vector<int> closed_, resting_;
-    const ContactMode* mode_ = nullptr;         ///< of the last phase
-    std::vector<PassedZero> passed_;  ///< of the scene's events, at the start of the next phase
-    std::map<int, KickSeries> series_;  ///< by event
+    const ContactMode* mode_ = nullptr;  ///< of the last phase
+    std::vector<PassedZero> passed_;     ///< of the scene's events, at the start of the next phase
+    std::map<int, KickSeries> series_;   ///< by event
     long kicks_ = 0;
     int events_at_once_ = 0;
     double last_event_ = -HUGE_VAL;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A motion with unilateral contacts and kicks: smooth phases, strung together by impacts, releases, the coming to rest, and impulses.
+/// A motion with unilateral contacts and kicks: smooth phases, strung together by impacts, releases, the coming to
+/// rest, and impulses.
 ///
 ///     const PhasedMotion motion = follow(contacts, mode_of, {1.0, 0.0}, {.duration = 3});
 ///     motion.contacts[0].time;                 // the first impact
@@ -13,10 +14,11 @@
 /// it at once: a gap that has just been struck open after the time in which it rises above rounding, one without
 /// speed, or a reaction without size, against a bound as far below zero as it may be uncertain.
 ///
-/// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are zero at the instant are
-/// added and make one impact, in which closed contacts take part; then the motion goes on, or ends where one of them stops it. The zero
-/// has been passed: until it rises above rounding, the event's value is on the side to which it goes by its rate after the kick. So no
-/// rounding brings the event back, and a return through zero is seen however soon it comes. Kicks that come without end are a failure.
+/// An event of the scene with impulses (Contacts::kicks) ends a phase too. The impulses of all events that are
+/// zero at the instant are added and make one impact, in which closed contacts take part; then the motion goes on,
+/// or ends where one of them stops it. The zero has been passed: until it rises above rounding, the event's value
+/// is on the side to which it goes by its rate after the kick. So no rounding brings the event back, and a return
+/// through zero is seen however soon it comes. Kicks that come without end are a failure.
 
 #include "alembert/integrate.hpp"
 #include "alembert/settle.hpp"
@@ -27,7 +29,7 @@ namespace alembert {
 struct ContactMode {
     Rhs rhs = {};
     Events events = {};  ///< the scene's; then one for each contact: its reaction where closed, its gap where open
-    std::function<Rhs()> rhs_when_stiff = {};  ///< with the Jacobian (Options); may be empty
+    std::function<Rhs()> rhs_when_stiff = {};                   ///< with the Jacobian (Options); may be empty
     std::function<void(double t, double* state)> project = {};  ///< to the constraints of the mode; may be empty
     OnStep on_step = {};                                        ///< may be empty
     Integrator by = {};                                         ///< Options::by; may be empty

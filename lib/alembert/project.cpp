@@ -10,9 +10,9 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_rounds = 8;  // Newton's method from the end of an accepted step needs one or two
+constexpr int most_rounds = 8;         // Newton's method from the end of an accepted step needs one or two
 constexpr double small_change = 1e-8;  // its square is rounding
-constexpr double rounding = 0x1p-53;  // of a number of size 1
+constexpr double rounding = 0x1p-53;   // of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
@@ -66,8 +66,8 @@ bool Projection::pivots_are_small() {
     return small;
 }
 
-/// x of least norm with B x = r; near a singular pose x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), rows measured with the largest that they
-/// have been: with a direction held by σ it changes by σ²/(σ² + τ²), smoothly.
+/// x of least norm with B x = r; near a singular pose x = Bᵀ (B Bᵀ + τ²)⁻¹ r (Tikhonov), rows measured with the
+/// largest that they have been: with a direction held by σ it changes by σ²/(σ² + τ²), smoothly.
 Eigen::VectorXd Projection::least(Eigen::MatrixXd B, Eigen::VectorXd r) const {
     if (!is_near_singular_) return least_norm(B, r).x;
     for (Eigen::Index k = 0; k < B.rows(); ++k) {
@@ -121,7 +121,8 @@ Eigen::VectorXd Projection::along_speeds(const Eigen::VectorXd& misfit) const {
     return factors.solve_upper(least(factors.solve_lower(B.transpose()).transpose(), misfit));
 }
 
-/// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, S from differences of the file's q', which is linear in u; Aₑ⁺ f where the speeds leave B no row.
+/// S M⁻¹Bᵀ (B M⁻¹Bᵀ)⁺ f, S from differences of the file's q', which is linear in u; Aₑ⁺ f where the speeds leave B
+/// no row.
 Eigen::VectorXd Projection::in_positions(double t, const double* state) const {
     if (!own_speeds()) return along_speeds(position_);
     if (in_speeds().isZero(0)) {
@@ -133,7 +134,9 @@ Eigen::VectorXd Projection::in_positions(double t, const double* state) const {
     const Eigen::VectorXd along = along_speeds(position_);
     Eigen::VectorXd change = Eigen::VectorXd::Zero(n_);
     std::vector<double> here(state, state + n_ + s_), rate(here.size()), rate_at_rest(here.size());
-    const auto evaluate = [&](std::vector<double>& out) { module_.table().rhs(t, here.data(), par_.data(), out.data()); };
+    const auto evaluate = [&](std::vector<double>& out) {
+        module_.table().rhs(t, here.data(), par_.data(), out.data());
+    };
     std::fill(here.begin() + n_, here.end(), 0);
     evaluate(rate_at_rest);
     for (int k = 0; k < s_; ++k) {
@@ -141,7 +144,9 @@ Eigen::VectorXd Projection::in_positions(double t, const double* state) const {
         u = 1;
         evaluate(rate);
         u = 0;
-        for (int i = 0; i < n_; ++i) change[i] += (rate[static_cast<std::size_t>(i)] - rate_at_rest[static_cast<std::size_t>(i)]) * along[k];
+        for (int i = 0; i < n_; ++i)
+            change[i] +=
+                (rate[static_cast<std::size_t>(i)] - rate_at_rest[static_cast<std::size_t>(i)]) * along[k];
     }
     return change;
 }
@@ -181,7 +186,8 @@ bool Projection::accelerations(double t, const double* state, double* accelerati
     if (!factors.exists()) return false;
     const Eigen::MatrixXd across = factors.solve_lower(Rows(in_speeds()).transpose());
     const Eigen::VectorXd free = factors.solve_lower(forcing_);
-    const Eigen::VectorXd found = factors.solve_upper(free + least(across.transpose(), gamma_ - across.transpose() * free));
+    const Eigen::VectorXd found =
+        factors.solve_upper(free + least(across.transpose(), gamma_ - across.transpose() * free));
     std::copy_n(found.data(), s_, acceleration);
     return true;
 }

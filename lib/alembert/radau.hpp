@@ -5,19 +5,21 @@
 ///
 ///     Z_i = h Σ_j a_ij f(t + c_j h, y + Z_j),   y₁ = y + Z_s
 ///
-/// Simplified Newton with one ∂f/∂y, the emitted one where there is one (newton.hpp): with the eigenvectors of A⁻¹ the s n equations
-/// fall apart into one real and (s − 1)/2 complex systems of n, (λ_k/h − J) ΔW_k = … (collocation.hpp).
+/// Simplified Newton with one ∂f/∂y, the emitted one where there is one (newton.hpp): with the eigenvectors of A⁻¹
+/// the s n equations fall apart into one real and (s − 1)/2 complex systems of n, (λ_k/h − J) ΔW_k = …
+/// (collocation.hpp).
 ///
-/// Error: (I − hγ₀J)⁻¹ (γ₀ h f(t, y) + Σ e_i Z_i), of order h^{s+1}; after a first step or a rejection filtered once more. Dense
-/// output is the collocation polynomial, whose error is of order h^{s+1} too, so that the tolerance holds within a step as it does at
-/// the ends, where the error is smaller. The factorizations serve again while h grows by less than a fifth and ∂f/∂y while the
-/// iteration contracts well.
+/// Error: (I − hγ₀J)⁻¹ (γ₀ h f(t, y) + Σ e_i Z_i), of order h^{s+1}; after a first step or a rejection filtered
+/// once more. Dense output is the collocation polynomial, whose error is of order h^{s+1} too, so that the
+/// tolerance holds within a step as it does at the ends, where the error is smaller. The factorizations serve
+/// again while h grows by less than a fifth and ∂f/∂y while the iteration contracts well.
 ///
-/// `Radau<3, 7>` changes between 3, 5 and 7 stages: up where Newton's iteration contracts so well (Θ < 0.002) that steps are short for
-/// it and the length is steady, down where it hardly does (Θ > 0.8) or has failed; ten steps at least with each.
+/// `Radau<3, 7>` changes between 3, 5 and 7 stages: up where Newton's iteration contracts so well (Θ < 0.002) that
+/// steps are short for it and the length is steady, down where it hardly does (Θ > 0.8) or has failed; ten steps
+/// at least with each.
 ///
-/// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8; the same, Stiff differential
-/// equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
+/// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, §IV.8; the same, Stiff
+/// differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111, §4.
 
 #include "alembert/collocation.hpp"
 #include "alembert/newton.hpp"
@@ -108,7 +110,8 @@ public:
             return control_.after_rejected(h, ratio);
         }
         const double next = control_.after_accepted(h, ratio);
-        if (steps_of_order_ >= 10 && ratio_ < 0.002 && s_ < most && next > 0.8 * h && next < 1.2 * h) wanted_ = s_ + 2;
+        if (steps_of_order_ >= 10 && ratio_ < 0.002 && s_ < most && next > 0.8 * h && next < 1.2 * h)
+            wanted_ = s_ + 2;
         if (steps_of_order_ >= 10 && ratio_ > 0.8) step_down();
         return has_jacobian_ && next >= h && next <= 1.2 * h ? h : next;
     }
@@ -135,7 +138,8 @@ private:
 
     void factorize(double h) {
         real_.factor(jacobian_.values, pairs_, table_->lambda / h);
-        for (std::size_t k = 0; k < table_->mu.size(); ++k) complex_[k].factor(jacobian_.values, pairs_, table_->mu[k] / h);
+        for (std::size_t k = 0; k < table_->mu.size(); ++k)
+            complex_[k].factor(jacobian_.values, pairs_, table_->mu[k] / h);
         factored_for_ = h;
     }
 
@@ -220,7 +224,8 @@ private:
     int pairs_ = 0;  ///< of second_order(jacobian)
     Shifted<double> real_;
     std::vector<Shifted<std::complex<double>>> complex_;
-    Eigen::MatrixXd z_, f_, poly_, kept_, side_;  ///< n × s: stages, rates, polynomials of the last and of this step
+    Eigen::MatrixXd z_, f_, poly_, kept_,
+        side_;  ///< n × s: stages, rates, polynomials of the last and of this step
     Eigen::VectorXd real_side_, real_solution_;
     Eigen::VectorXcd complex_side_;
     std::vector<Eigen::VectorXcd> complex_solution_;

@@ -102,7 +102,8 @@ bool RattleStep::operator()(double t, double h, double* state) {
         if (!evaluate(here_, t, q_, v_)) return false;
     }
     longest_ = std::max(longest_, std::abs(h));
-    if (m_ > 0 && std::abs(h) > 0.01 * longest_) lambda_ = 2 / h * impulse_;  // that of a step to a row close by is rounding / h²
+    if (m_ > 0 && std::abs(h) > 0.01 * longest_)
+        lambda_ = 2 / h * impulse_;  // that of a step to a row close by is rounding / h²
     if (!evaluate(there_, t + h, end_, w_)) return false;
     u_ = there_.factors.solve(P + h / 2 * there_.F - there_.free);
     if (m_ > 0) {

@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// RATTLE for holonomic constraints and any mass matrix: symplectic, symmetric, on the constraints at the end of each step.
+/// RATTLE for holonomic constraints and any mass matrix: symplectic, symmetric, on the constraints at the end of
+/// each step.
 ///
 ///     P  = p + h/2 (F(q, v) + A(q)ᵀλ),      M(q) v + p₀(q) = P           v: the rates that belong to (q, P)
-///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: those of (q₁, P);   f(q₁) = 0 determines λ
-///     p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0 determines μ
+///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: those of (q₁, P);   f(q₁) = 0
+///     determines λ p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0
+///     determines μ
 ///
-/// with p, F and A of canonical.hpp at t (first line) and t + h. That is the two-stage Lobatto IIIA-IIIB pair for q' = H_p(p, q),
-/// p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces without rates it is Andersen's RATTLE, without constraints
-/// Störmer's and Verlet's method. Loads outside V go along as in a forced discrete Lagrangian. The equations of a step are solved until
-/// the changes no longer shrink: Newton's method for λ, with A(q₁) (M(q)⁻¹ + M(q₁)⁻¹) A(q)ᵀ h²/4, together with a fixed-point iteration
-/// for what depends on rates through M and F, which contracts as long as these change little in a step.
+/// with p, F and A of canonical.hpp at t (first line) and t + h. That is the two-stage Lobatto IIIA-IIIB pair for
+/// q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces without rates it is
+/// Andersen's RATTLE, without constraints Störmer's and Verlet's method. Loads outside V go along as in a forced
+/// discrete Lagrangian. The equations of a step are solved until the changes no longer shrink: Newton's method for
+/// λ, with A(q₁) (M(q)⁻¹ + M(q₁)⁻¹) A(q)ᵀ h²/4, together with a fixed-point iteration for what depends on rates
+/// through M and F, which contracts as long as these change little in a step.
 ///
-/// `rattle8` takes 17 such steps of the lengths of Kahan and Li (symplectic.hpp): a symmetric method of order 2 composed to order 8.
+/// `rattle8` takes 17 such steps of the lengths of Kahan and Li (symplectic.hpp): a symmetric method of order 2
+/// composed to order 8.
 ///
-/// Quadratures take the trapezoidal rule, one evaluation of the right-hand side for each substep. A point on the way is the end of a
-/// shorter step, on its constraints too.
+/// Quadratures take the trapezoidal rule, one evaluation of the right-hand side for each substep. A point on the
+/// way is the end of a shorter step, on its constraints too.
 ///
-/// Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, §VII.1.4, (1.26)-(1.27); L. Jay, SIAM J. Numer. Anal.
-/// 33 (1996) 368-387; H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34.
+/// Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, §VII.1.4, (1.26)-(1.27); L.
+/// Jay, SIAM J. Numer. Anal. 33 (1996) 368-387; H. C. Andersen, J. Comput. Phys. 52 (1983) 24-34.
 
 #include <Eigen/Dense>
 
@@ -67,7 +71,10 @@ public:
     static constexpr bool has_fixed_step = true, keeps_constraints = true;
     static constexpr Between between = Between::shorter_step;
 
-    RattleComposition(const Ends& ends, double /*tolerance*/) : step_(*ends.rhs.canonical), n_(static_cast<std::size_t>(ends.rhs.canonical->coordinates)), state_(ends.y.size()) {}
+    RattleComposition(const Ends& ends, double /*tolerance*/)
+        : step_(*ends.rhs.canonical),
+          n_(static_cast<std::size_t>(ends.rhs.canonical->coordinates)),
+          state_(ends.y.size()) {}
 
     int most_evaluations() const { return (RattleStep::most_evaluations + 1) * static_cast<int>(lengths.size()); }
 

@@ -41,7 +41,8 @@ void derivative_of(const void* context, double t, const double* state, double* v
     std::fill_n(values, dimension * dimension, 0.0);
     for (int k = 0; k < derivatives.entries; ++k)
         if (derivatives.rows[k] < dimension)
-            values[derivatives.columns[k] * dimension + derivatives.rows[k]] = entries[static_cast<std::size_t>(k)];
+            values[derivatives.columns[k] * dimension + derivatives.rows[k]] =
+                entries[static_cast<std::size_t>(k)];
 }
 
 }  // namespace
@@ -64,7 +65,8 @@ Rhs make_rhs(const Module& module, const std::vector<double>& values, Work work)
     if (module.derivatives() != nullptr) rhs.jacobian = with_work ? derivative_of<1> : derivative_of<0>;
     for (int i = 0; i < table.coordinates; ++i) rhs.names.emplace_back(table.coordinate_names[i]);
     for (int i = 0; i < table.speeds; ++i)
-        rhs.names.push_back(table.speed_names != nullptr ? table.speed_names[i] : std::string(table.coordinate_names[i]) + "'");
+        rhs.names.push_back(table.speed_names != nullptr ? table.speed_names[i]
+                                                         : std::string(table.coordinate_names[i]) + "'");
     if (with_work) rhs.names.emplace_back("work");
     return rhs;
 }

@@ -11,9 +11,9 @@
 /// The last `extra` components are quadratures: integrated with the same stages, but left out of error control,
 /// and nothing may depend on them. `Work::integrated` adds one, W(t) = ∫ power dt, named "work", for the work
 /// balance. A copy is cheap and shares the context, which keeps the module loaded. Calls are thread-safe if the
-/// function is. Where the file has derivatives, `jacobian` fills the dense ∂rate/∂state, column by column, quadratures
-/// included; elsewhere it is null, and those who need it take differences (newton.hpp). `make_rhs` throws std::invalid_argument if the number of parameters is wrong or a count makes no
-/// sense.
+/// function is. Where the file has derivatives, `jacobian` fills the dense ∂rate/∂state, column by column,
+/// quadratures included; elsewhere it is null, and those who need it take differences (newton.hpp). `make_rhs`
+/// throws std::invalid_argument if the number of parameters is wrong or a count makes no sense.
 
 #include <concepts>
 #include <memory>
@@ -39,7 +39,8 @@ struct Rhs {
     Call call = nullptr;
     Call jacobian = nullptr;  ///< writes dimension² numbers
     Series series = {};       ///< of the motion, for the method taylor; may be missing
-    std::shared_ptr<const Canonical> canonical = {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing
+    std::shared_ptr<const Canonical> canonical =
+        {};  ///< momenta and constraints, for the method rattle (canonical.hpp); may be missing
 
     void operator()(double t, const double* state, double* rate) const { call(context.get(), t, state, rate); }
 
@@ -53,7 +54,8 @@ enum class Work { left_out, integrated };
 Rhs make_rhs(const Module& module, const std::vector<double>& values = {}, Work work = Work::left_out);
 
 /// Any function f(t, const double* state, double* rate), with a Jacobian of the same form.
-template <std::invocable<double, const double*, double*> Function, std::invocable<double, const double*, double*> Jacobian>
+template <std::invocable<double, const double*, double*> Function,
+          std::invocable<double, const double*, double*> Jacobian>
 Rhs make_rhs(int dimension, Function function, Jacobian jacobian) {
     using Both = std::pair<Function, Jacobian>;
     if (dimension < 1) throw std::invalid_argument("a right-hand side needs at least one component");
@@ -85,7 +87,7 @@ Rhs make_rhs(int dimension, Function function, int extra = 0) {
             .call = call,
             .jacobian = nullptr,
             .series = {},
-        .canonical = {}};
+            .canonical = {}};
 }
 
 }  // namespace alembert

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Kinematics of rotation and of relative motion, as values (Zhang & Qin, chapter 2; Goldstein, Classical Mechanics (1980),
-/// chapter 4).
+/// Kinematics of rotation and of relative motion, as values (Zhang & Qin, chapter 2; Goldstein, Classical
+/// Mechanics (1980), chapter 4).
 ///
-///     const Matrix3<> R_NB = rotation_by_angles("zxz", {phi, theta, psi});       // Euler's angles, about the body's axes
-///     const Vector3r<> w = angular_velocity("zxz", {phi, theta, psi}, {phi_dot, theta_dot, psi_dot});   // along B
-///     const Turn<> turn = turn_of(R_NB);                                          // Euler's theorem: axis and angle
-///     const Quaternion<> e = quaternion_of(R_NB);                                 // (e0, e1, e2, e3), scalar first
+///     const Matrix3<> R_NB = rotation_by_angles("zxz", {phi, theta, psi});       // Euler's angles, about the
+///     body's axes const Vector3r<> w = angular_velocity("zxz", {phi, theta, psi}, {phi_dot, theta_dot, psi_dot});
+///     // along B const Turn<> turn = turn_of(R_NB);                                          // Euler's theorem:
+///     axis and angle const Quaternion<> e = quaternion_of(R_NB);                                 // (e0, e1, e2,
+///     e3), scalar first
 ///
-/// R_AB takes components along B to components along A; its columns are B's unit axes in A, its elements the direction
-/// cosines. w_AB_B is the angular velocity of B in A along B. Angles in radians, lengths and times in any units that agree.
-/// All functions are templates over the scalar, so that dual or complex numbers give derivatives; those that choose by size
-/// (turn_of, quaternion_of, angles_of) take real numbers. std::invalid_argument is thrown for a sequence that is no sequence.
+/// R_AB takes components along B to components along A; its columns are B's unit axes in A, its elements the
+/// direction cosines. w_AB_B is the angular velocity of B in A along B. Angles in radians, lengths and times in
+/// any units that agree. All functions are templates over the scalar, so that dual or complex numbers give
+/// derivatives; those that choose by size (turn_of, quaternion_of, angles_of) take real numbers.
+/// std::invalid_argument is thrown for a sequence that is no sequence.
 
 #include <Eigen/Dense>
 #include <array>
@@ -75,14 +77,18 @@ template <typename Real>
 Matrix3<Real> rotation_by(const Quaternion<Real>& e) {
     const Vector3r<Real> v(e[1], e[2], e[3]);
     const Real vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], square = e[0] * e[0] + vv;
-    return ((e[0] * e[0] - vv) * Matrix3<Real>::Identity() + Real(2) * v * v.transpose() + Real(2) * e[0] * skew<Real>(v)) / square;
+    return ((e[0] * e[0] - vv) * Matrix3<Real>::Identity() + Real(2) * v * v.transpose() +
+            Real(2) * e[0] * skew<Real>(v)) /
+           square;
 }
 
 /// R(e ∘ f) = R(e) R(f).
 template <typename Real>
 Quaternion<Real> product(const Quaternion<Real>& e, const Quaternion<Real>& f) {
-    return {e[0] * f[0] - e[1] * f[1] - e[2] * f[2] - e[3] * f[3], e[0] * f[1] + e[1] * f[0] + e[2] * f[3] - e[3] * f[2],
-            e[0] * f[2] + e[2] * f[0] + e[3] * f[1] - e[1] * f[3], e[0] * f[3] + e[3] * f[0] + e[1] * f[2] - e[2] * f[1]};
+    return {e[0] * f[0] - e[1] * f[1] - e[2] * f[2] - e[3] * f[3],
+            e[0] * f[1] + e[1] * f[0] + e[2] * f[3] - e[3] * f[2],
+            e[0] * f[2] + e[2] * f[0] + e[3] * f[1] - e[1] * f[3],
+            e[0] * f[3] + e[3] * f[0] + e[1] * f[2] - e[2] * f[1]};
 }
 
 /// The rotation back, for e·e = 1.
@@ -112,7 +118,8 @@ Quaternion<Real> quaternion_about(const Vector3r<Real>& axis, const Real& angle)
     return {cos(half), axis[0] * s, axis[1] * s, axis[2] * s};
 }
 
-/// By the largest of the four, so that no digits are lost (Shepperd, J. Guidance and Control 1 (1978) 223); e₀ ≥ 0.
+/// By the largest of the four, so that no digits are lost (Shepperd, J. Guidance and Control 1 (1978) 223); e₀ ≥
+/// 0.
 template <typename Real>
 Quaternion<Real> quaternion_of(const Matrix3<Real>& R) {
     const Real trace = R.trace();
@@ -165,8 +172,9 @@ Quaternion<Real> quaternion_rate(const Quaternion<Real>& e, const Vector3r<Real>
     return rate;
 }
 
-// Euler angles: three turns about axes x, y, z in a sequence such as "zxz" (Euler's) or "xyz" (Cardan's, Bryan's). About the
-// body's axes each turn takes the next axes along, R = R₁ R₂ R₃; about the space's axes they stay, R = R₃ R₂ R₁.
+// Euler angles: three turns about axes x, y, z in a sequence such as "zxz" (Euler's) or "xyz" (Cardan's, Bryan's).
+// About the body's axes each turn takes the next axes along, R = R₁ R₂ R₃; about the space's axes they stay, R =
+// R₃ R₂ R₁.
 
 enum class Axes { body, space };
 
@@ -175,13 +183,15 @@ inline std::array<int, 3> letters_of(std::string_view sequence) {
     const bool is_one = sequence.size() == 3 && sequence.find_first_not_of("xyz") == std::string_view::npos &&
                         sequence[0] != sequence[1] && sequence[1] != sequence[2];
     if (!is_one)
-        throw std::invalid_argument("'" + std::string(sequence) +
-                                    "' is no sequence of axes; expected three of x, y, z, no two neighbours the same, as in zxz");
+        throw std::invalid_argument(
+            "'" + std::string(sequence) +
+            "' is no sequence of axes; expected three of x, y, z, no two neighbours the same, as in zxz");
     return {sequence[0] - 'x', sequence[1] - 'x', sequence[2] - 'x'};
 }
 
 template <typename Real = double>
-Matrix3<Real> rotation_by_angles(std::string_view sequence, const std::array<Real, 3>& angles, Axes axes = Axes::body) {
+Matrix3<Real> rotation_by_angles(std::string_view sequence, const std::array<Real, 3>& angles,
+                                 Axes axes = Axes::body) {
     const std::array<int, 3> k = letters_of(sequence);
     Matrix3<Real> R = Matrix3<Real>::Identity();
     for (int i = 0; i < 3; ++i) {
@@ -197,7 +207,8 @@ struct Angles {
     bool locked;                ///< gimbal lock: first and third turn about one line; the third is set to 0 then
 };
 
-/// The angles of a rotation. Near the lock (within 1e-8 of it) first and third are lost one by one, and `locked` says so.
+/// The angles of a rotation. Near the lock (within 1e-8 of it) first and third are lost one by one, and `locked`
+/// says so.
 template <typename Real = double>
 Angles<Real> angles_of(const Matrix3<Real>& R, std::string_view sequence, Axes axes = Axes::body) {
     if (axes == Axes::space) {  // about the space's axes in reverse order it is the same rotation
@@ -206,9 +217,9 @@ Angles<Real> angles_of(const Matrix3<Real>& R, std::string_view sequence, Axes a
     }
     const auto [i, j, last] = letters_of(sequence);
     const Real tiny = Real(1e-8);
-    const int k = 3 - i - j;                             // the third axis
+    const int k = 3 - i - j;                                      // the third axis
     const Real sign = (j - i + 3) % 3 == 1 ? Real(1) : Real(-1);  // of e_i × e_j = ± e_k
-    if (i == last) {                                     // R e_i = cos θ₂ e_i + sin θ₂ (sin θ₁ e_j − sign cos θ₁ e_k)
+    if (i == last) {  // R e_i = cos θ₂ e_i + sin θ₂ (sin θ₁ e_j − sign cos θ₁ e_k)
         const Real s = std::hypot(R(j, i), R(k, i)), middle = std::atan2(s, R(i, i));
         if (s < tiny) return {{std::atan2(sign * R(k, j), R(j, j)), middle, Real(0)}, true};
         return {{std::atan2(R(j, i), -sign * R(k, i)), middle, std::atan2(R(i, j), sign * R(i, k))}, false};
@@ -218,8 +229,8 @@ Angles<Real> angles_of(const Matrix3<Real>& R, std::string_view sequence, Axes a
     return {{std::atan2(-sign * R(j, k), R(k, k)), middle, std::atan2(-sign * R(i, j), R(i, i))}, false};
 }
 
-/// The matrix B of ω = B (θ₁', θ₂', θ₃'): along the body's axes, or along the space's. Its determinant, ± sin θ₂ or ± cos θ₂,
-/// vanishes at gimbal lock.
+/// The matrix B of ω = B (θ₁', θ₂', θ₃'): along the body's axes, or along the space's. Its determinant, ± sin θ₂
+/// or ± cos θ₂, vanishes at gimbal lock.
 template <typename Real = double>
 Matrix3<Real> rates_matrix(std::string_view sequence, const std::array<Real, 3>& angles, Axes axes, Axes along) {
     const std::array<int, 3> k = letters_of(sequence);
@@ -235,8 +246,9 @@ Matrix3<Real> rates_matrix(std::string_view sequence, const std::array<Real, 3>&
 }
 
 template <typename Real = double>
-Vector3r<Real> angular_velocity(std::string_view sequence, const std::array<Real, 3>& angles, const std::array<Real, 3>& rates,
-                                Axes axes = Axes::body, Axes along = Axes::body) {
+Vector3r<Real> angular_velocity(std::string_view sequence, const std::array<Real, 3>& angles,
+                                const std::array<Real, 3>& rates, Axes axes = Axes::body,
+                                Axes along = Axes::body) {
     return rates_matrix<Real>(sequence, angles, axes, along) * Vector3r<Real>(rates[0], rates[1], rates[2]);
 }
 
@@ -244,38 +256,44 @@ Vector3r<Real> angular_velocity(std::string_view sequence, const std::array<Real
 
 /// ω_AC = ω_AB + R_AB ω_BC
 template <typename Real>
-Vector3r<Real> composed_velocity(const Vector3r<Real>& w_AB, const Matrix3<Real>& R_AB, const Vector3r<Real>& w_BC_B) {
+Vector3r<Real> composed_velocity(const Vector3r<Real>& w_AB, const Matrix3<Real>& R_AB,
+                                 const Vector3r<Real>& w_BC_B) {
     return w_AB + R_AB * w_BC_B;
 }
 
 /// α_AC = α_AB + R_AB α_BC + ω_AB × R_AB ω_BC, α_BC being the rate of ω_BC as seen in B.
 template <typename Real>
-Vector3r<Real> composed_acceleration(const Vector3r<Real>& w_AB, const Vector3r<Real>& alpha_AB, const Matrix3<Real>& R_AB,
-                                     const Vector3r<Real>& w_BC_B, const Vector3r<Real>& alpha_BC_B) {
+Vector3r<Real> composed_acceleration(const Vector3r<Real>& w_AB, const Vector3r<Real>& alpha_AB,
+                                     const Matrix3<Real>& R_AB, const Vector3r<Real>& w_BC_B,
+                                     const Vector3r<Real>& alpha_BC_B) {
     return alpha_AB + R_AB * alpha_BC_B + cross_product<Real>(w_AB, R_AB * w_BC_B);
 }
 
 /// The absolute derivative of a vector from the relative one: (dv/dt)_A = (dv/dt)_B + ω_AB × v.
 template <typename Real>
-Vector3r<Real> absolute_derivative(const Vector3r<Real>& relative, const Vector3r<Real>& w_AB, const Vector3r<Real>& v) {
+Vector3r<Real> absolute_derivative(const Vector3r<Real>& relative, const Vector3r<Real>& w_AB,
+                                   const Vector3r<Real>& v) {
     return relative + cross_product<Real>(w_AB, v);
 }
 
-/// A point at r from O_B, moving in B: v = v_B + ω × r + v_r; a = a_B + α × r + ω × (ω × r) + 2 ω × v_r + a_r, the last two
-/// being Coriolis's and the relative acceleration. Everything along one frame.
+/// A point at r from O_B, moving in B: v = v_B + ω × r + v_r; a = a_B + α × r + ω × (ω × r) + 2 ω × v_r + a_r, the
+/// last two being Coriolis's and the relative acceleration. Everything along one frame.
 template <typename Real = double>
 struct FrameMotion {
     Vector3r<Real> velocity, acceleration;  ///< of its origin
     Vector3r<Real> w, alpha;
 };
 template <typename Real>
-Vector3r<Real> point_velocity(const FrameMotion<Real>& frame, const Vector3r<Real>& r, const Vector3r<Real>& relative) {
+Vector3r<Real> point_velocity(const FrameMotion<Real>& frame, const Vector3r<Real>& r,
+                              const Vector3r<Real>& relative) {
     return frame.velocity + cross_product<Real>(frame.w, r) + relative;
 }
 template <typename Real>
-Vector3r<Real> point_acceleration(const FrameMotion<Real>& frame, const Vector3r<Real>& r, const Vector3r<Real>& relative_velocity,
+Vector3r<Real> point_acceleration(const FrameMotion<Real>& frame, const Vector3r<Real>& r,
+                                  const Vector3r<Real>& relative_velocity,
                                   const Vector3r<Real>& relative_acceleration) {
-    return frame.acceleration + cross_product<Real>(frame.alpha, r) + cross_product<Real>(frame.w, cross_product<Real>(frame.w, r)) +
+    return frame.acceleration + cross_product<Real>(frame.alpha, r) +
+           cross_product<Real>(frame.w, cross_product<Real>(frame.w, r)) +
            Real(2) * cross_product<Real>(frame.w, relative_velocity) + relative_acceleration;
 }
 

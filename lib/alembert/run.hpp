@@ -66,10 +66,9 @@ public:
         if (!step_.starts_finite()) {
             const int bad = step_.worst_component();
             fail(FailureKind::not_a_number, bad,
-                 fmt::format(
-                     "the rate of {} is not finite at the start, t = {}; look at its equation, and at the "
-                     "initial values and parameters",
-                     step_.rhs().describe(bad), options_.start));
+                 fmt::format("the rate of {} is not finite at the start, t = {}; look at its equation, and at the "
+                             "initial values and parameters",
+                             step_.rhs().describe(bad), options_.start));
         } else {
             watch_.begin(step_.time(), step_.state(), step_.rate());
             tell(step_.time(), step_.state(), step_.rate());
@@ -190,7 +189,9 @@ private:
             for (std::size_t j = 0; j < crossings.size(); ++j) {
                 if (std::abs(crossings[j].time - crossings[k].time) > grain) continue;
                 if (j > k && crossings[j].counts) tell_event(crossings[j]);
-                result_.last_zeros.push_back({.event = crossings[j].index, .direction = crossings[j].direction, .counts = crossings[j].counts});
+                result_.last_zeros.push_back({.event = crossings[j].index,
+                                              .direction = crossings[j].direction,
+                                              .counts = crossings[j].counts});
             }
             return stop_at(crossings[k].time);
         }
@@ -200,7 +201,8 @@ private:
         if (step_.time() == end_) {
             add_row(end_, step_.state());
         } else if (options_.when_stiff && evaluations() < options_.budget &&
-                   stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(), step_.length())) {
+                   stiffness_.finds_stiff(step_.rhs(), step_.time(), step_.state(), step_.rate(),
+                                          step_.length())) {
             result_.statistics.switched = Switch{.time = step_.time(),
                                                  .method = std::string(name(*options_.when_stiff)),
                                                  .largest_eigenvalue = stiffness_.largest_eigenvalue(),
@@ -209,11 +211,14 @@ private:
         }
     }
 
-    const Event& event_of(const Crossing& crossing) const { return events_.list[static_cast<std::size_t>(crossing.index)]; }
+    const Event& event_of(const Crossing& crossing) const {
+        return events_.list[static_cast<std::size_t>(crossing.index)];
+    }
 
     /// The state there is in row_.
     void tell_event(const Crossing& crossing) {
-        result_.events.push_back({.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = row_});
+        result_.events.push_back(
+            {.index = crossing.index, .name = event_of(crossing).name, .time = crossing.time, .state = row_});
     }
 
     std::vector<Crossing> look_for_events() {
@@ -279,15 +284,15 @@ private:
         const int bad = step_.worst_component();
         if constexpr (requires { step_.solved(); })
             if (!step_.solved() && std::isfinite(step_.rate()[bad]))
-                return fail(FailureKind::not_a_number, -1,
-                            fmt::format("the equations of {} could not be solved for the step after t = {}; take a "
-                                        "shorter step, or radau for a stiff system",
-                                        name(options_.method), step_.time()));
+                return fail(
+                    FailureKind::not_a_number, -1,
+                    fmt::format("the equations of {} could not be solved for the step after t = {}; take a "
+                                "shorter step, or radau for a stiff system",
+                                name(options_.method), step_.time()));
         fail(FailureKind::not_a_number, bad,
-             fmt::format(
-                 "{} is no longer finite after t = {}; take a shorter step, or an adaptive method such as "
-                 "dop853",
-                 step_.rhs().describe(bad), step_.time()));
+             fmt::format("{} is no longer finite after t = {}; take a shorter step, or an adaptive method such as "
+                         "dop853",
+                         step_.rhs().describe(bad), step_.time()));
     }
 
     void fail_underflow(double misfit, double h) {

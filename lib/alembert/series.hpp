@@ -5,7 +5,8 @@
 ///
 ///     const Series series = make_series(load_series(object));     // the scene's own parameters
 ///     std::vector<double> out((order + 1) * series.width), work(series.workspace);
-///     series(t, state, order, out.data(), work.data());           // out[k·width + i]: of (time − t)^k in component i
+///     series(t, state, order, out.data(), work.data());           // out[k·width + i]: of (time − t)^k in
+///     component i
 ///
 /// Throws CompileError as `load` does (module.hpp), std::invalid_argument if the number of parameters is wrong.
 
@@ -22,28 +23,30 @@ using Quad = long double;
 #endif
 
 inline constexpr int series_abi_version = 2;
-inline constexpr int most_order = 32;       ///< of coefficients in double
+inline constexpr int most_order = 32;  ///< of coefficients in double
 inline constexpr int most_order_quad = 40;
 
 }  // namespace alembert
 
 extern "C" {
 
-/// What `alembert_series()` of an emitted file returns; it lives as long as the loaded file. `par` holds p parameters, then k
-/// constants that `prepare` makes; `state` is (q, u), and the work of loads where `extra` is 1; `work` is `workspace` numbers.
+/// What `alembert_series()` of an emitted file returns; it lives as long as the loaded file. `par` holds p
+/// parameters, then k constants that `prepare` makes; `state` is (q, u), and the work of loads where `extra` is 1;
+/// `work` is `workspace` numbers.
 struct alembert_series_table {
     int abi;  ///< alembert::series_abi_version of the emitter
     int coordinates, speeds, extra, parameters, constants;
     int workspace, workspace_quad;
-    double order_cost, product_cost;  ///< a series of order p takes order_cost p + product_cost p², a step's own work taking about 1
+    double order_cost, product_cost;  ///< a series of order p takes order_cost p + product_cost p², a step's own
+                                      ///< work taking about 1
     const char* scene;
     const double* parameter_values;
     void (*prepare)(double* par);
     void (*series)(double t, const double* state, const double* par, int order, double* out, double* work);
     /// Null unless compiled with ALEMBERT_QUAD.
     void (*prepare_quad)(alembert::Quad* par);
-    void (*series_quad)(alembert::Quad t, const alembert::Quad* state, const alembert::Quad* par, int order, alembert::Quad* out,
-                        alembert::Quad* work);
+    void (*series_quad)(alembert::Quad t, const alembert::Quad* state, const alembert::Quad* par, int order,
+                        alembert::Quad* out, alembert::Quad* work);
 };
 
 }  // extern "C"

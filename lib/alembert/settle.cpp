@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "alembert/impact.hpp"
 #include "alembert/dense.hpp"
+#include "alembert/impact.hpp"
 
 namespace alembert {
 
@@ -66,8 +66,7 @@ private:
             if (!(size > 0) || !(size < former / 2)) return;
             former = size;
             const MatrixXd weighted = solve_symmetric(here_.M, rows.rows.transpose());
-            const VectorXd change =
-                weighted * least_norm(rows.rows * weighted, rows.value).x;
+            const VectorXd change = weighted * least_norm(rows.rows * weighted, rows.value).x;
             if (!change.allFinite()) return;
             q() -= change;
             look();
@@ -82,8 +81,10 @@ private:
                 near_.push_back(k);
     }
 
-    /// New rates; tells the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of value' − drift).
-    void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse, const VectorXd& generalized) {
+    /// New rates; tells the work of generalized impulses and of impulses Λ along rows: Σ Λ·(mean of value' −
+    /// drift).
+    void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse,
+                 const VectorXd& generalized) {
         const std::vector<double> before = state_;
         const VectorXd mean = (u() + after) / 2;
         const double work = impulse.dot(rows.rows * mean) + generalized.dot(mean);
@@ -95,14 +96,15 @@ private:
     bool strike_all() {
         result_.struck = u();
         const bool is_kicked = at_.impulse.size() > 0;
-        if (!is_kicked && std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); })) return true;
+        if (!is_kicked && std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); }))
+            return true;
         const VectorXd kick = is_kicked ? at_.impulse : VectorXd::Zero(n_);
         const Situation::Rows rows = selected(here_.contacts, near_);
         VectorXd restitution(rows.drift.size());
         for (std::size_t i = 0; i < near_.size(); ++i)
             restitution[static_cast<Index>(i)] = contacts_.restitution[near_[i]];
-        const ImpactResult hit = strike(here_.M, u(), kick, here_.bilateral.rows,
-                                        here_.bilateral.drift, rows.rows, rows.drift, restitution);
+        const ImpactResult hit = strike(here_.M, u(), kick, here_.bilateral.rows, here_.bilateral.drift, rows.rows,
+                                        rows.drift, restitution);
         if (!hit) return is_kicked ? fail_kick(hit.failure) : fail(near_, hit.failure);
         result_.struck = hit.after;
         const VectorXd before = rows.rows * u() + rows.drift, after = rows.rows * hit.after + rows.drift;
@@ -233,13 +235,14 @@ private:
     bool fail(const std::vector<int>& those, const std::string& why) {
         std::string names;
         for (const int k : those) names += (names.empty() ? "'" : ", '") + contacts_.names[k] + "'";
-        result_.failure = fmt::format(
-            "no contact mode is consistent at t = {} with the contacts {} closed: {}", at_.t, names, why);
+        result_.failure = fmt::format("no contact mode is consistent at t = {} with the contacts {} closed: {}",
+                                      at_.t, names, why);
         return false;
     }
 
     bool fail_kick(const std::string& why) {
-        result_.failure = fmt::format("there are no rates after the impulses of the events at t = {}: {}", at_.t, why);
+        result_.failure =
+            fmt::format("there are no rates after the impulses of the events at t = {}: {}", at_.t, why);
         return false;
     }
 

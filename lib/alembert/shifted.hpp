@@ -7,12 +7,13 @@
 ///     shifted.factor(J, second_order(J), mu / h);
 ///     shifted.solve(b, x);
 ///
-/// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing that depends on W. Then q and W are
-/// eliminated and Gaussian elimination with row pivots is of half the size:
+/// Equations of motion are of second order, y = (q, u) or (q, u, W) with q' = u and nothing that depends on W.
+/// Then q and W are eliminated and Gaussian elimination with row pivots is of half the size:
 ///
 ///     (σ − J_u − J_q/σ) u = b_u + J_q b_q/σ,    q = (b_q + u)/σ,    W = (b_W + J_Wq q + J_Wu u)/σ.
 ///
-/// J must live as long as it is solved with. Nothing is thrown; a singular system gives values that are not finite.
+/// J must live as long as it is solved with. Nothing is thrown; a singular system gives values that are not
+/// finite.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -39,7 +40,11 @@ public:
     using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
     explicit Shifted(int size)
-        : size_(size), entries_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)), reciprocal_(size), order_(size), side_(size) {}
+        : size_(size),
+          entries_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
+          reciprocal_(size),
+          order_(size),
+          side_(size) {}
 
     /// `pairs`: second_order(J), or 0.
     void factor(const Eigen::MatrixXd& J, int pairs, Scalar sigma) {
@@ -48,7 +53,8 @@ public:
         over_ = Scalar(1) / sigma;
         m_ = pairs > 0 ? pairs : size_;
         for (int i = 0; i < m_; ++i) {
-            for (int j = 0; j < m_; ++j) at(i, j) = Scalar(-J(n_ + i, n_ + j)) - (n_ > 0 ? J(n_ + i, j) * over_ : Scalar(0));
+            for (int j = 0; j < m_; ++j)
+                at(i, j) = Scalar(-J(n_ + i, n_ + j)) - (n_ > 0 ? J(n_ + i, j) * over_ : Scalar(0));
             at(i, i) += sigma;
             order_[i] = i;
         }

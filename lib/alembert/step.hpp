@@ -20,8 +20,8 @@
 /// Error, component by component: |error_i| / max(1, |y_i|), the largest of which is the misfit; it is held
 /// against the tolerance as it is. With two rows of error weights (dop853) the error is that of Hairer, Nørsett,
 /// Wanner I, §II.10, e₅² / √(e₅² + 0.01 e₃²), of order h⁸; they take e₅ and e₃ as norms of the whole vector, here
-/// each component has its own, as the convention wants (on the problems of step_size.hpp that needs up to 15 % fewer
-/// evaluations for the same error). Quadratures (Rhs::extra) do not take part.
+/// each component has its own, as the convention wants (on the problems of step_size.hpp that needs up to 15 %
+/// fewer evaluations for the same error). Quadratures (Rhs::extra) do not take part.
 
 #include <algorithm>
 #include <cmath>
@@ -101,8 +101,8 @@ public:
         return zero == 0 ? std::sqrt(largest) : HUGE_VAL;
     }
 
-    /// Moves the end of an attempt back to where it belongs (to its constraints), and makes the rate anew. What is there already stays,
-    /// with what rounding has left of it.
+    /// Moves the end of an attempt back to where it belongs (to its constraints), and makes the rate anew. What is
+    /// there already stays, with what rounding has left of it.
     void correct(const std::function<void(double t, double* state)>& project) {
         std::copy_n(real(next_), rhs_.dimension, real(trial_));
         project(end_, real(next_));
@@ -160,7 +160,7 @@ public:
 
 private:
     static constexpr int short_stride = 8;  ///< lanes: up to 16 components
-    static constexpr int arrays = 7;  ///< y, rest, next, next_rest, and the three below
+    static constexpr int arrays = 7;        ///< y, rest, next, next_rest, and the three below
 
     static constexpr bool last_stage_in_estimate() {
         for (const auto& row : tableau.e)
@@ -182,8 +182,8 @@ private:
         ++evaluations_;
     }
 
-    /// Calls function(lanes from one array to the next), for short states a constant: the distances of all stages from the first are
-    /// constants then, which saves 5 % of the time of a free body.
+    /// Calls function(lanes from one array to the next), for short states a constant: the distances of all stages
+    /// from the first are constants then, which saves 5 % of the time of a free body.
     template <class Function>
     void with_stride(Function function) const {
         if (stride_ == short_stride)
@@ -192,7 +192,8 @@ private:
             function(stride_);
     }
 
-    /// Σ_j weight_j k_j, j running over the non-zero weights, `k` being the first stage; `Row` gives weight j as a constant.
+    /// Σ_j weight_j k_j, j running over the non-zero weights, `k` being the first stage; `Row` gives weight j as a
+    /// constant.
     template <class Row>
     static Lane weighted_sum(const Lane* k, auto stride) {
         constexpr int first = first_of<Row>();
@@ -215,8 +216,8 @@ private:
         return j;
     }
 
-    /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written and is what everything waits for: it enters last, and is
-    /// loaded number by number, as a load of two would wait until these have left for the cache.
+    /// rest + h Σ_j weight_j k_j. Stage `fresh` has just been written and is what everything waits for: it enters
+    /// last, and is loaded number by number, as a load of two would wait until these have left for the cache.
     template <class Row, int fresh>
     static Lane change(const Lane* k, auto stride, double h, const Lane& rest) {
         const Lane known = h * weighted_sum<Without<Row, fresh>>(k, stride) + rest;
@@ -257,7 +258,8 @@ private:
             const Lane *const k = stage(0), *const y = lanes(y_), *const rest = lanes(rest_);
             Lane* const trial = lanes(trial_);
             const double h = h_;
-            for (int b = 0; b < blocks_; ++b) trial[b] = y[b] + change<StageRow<i>, i - 1>(k + b, stride, h, rest[b]);
+            for (int b = 0; b < blocks_; ++b)
+                trial[b] = y[b] + change<StageRow<i>, i - 1>(k + b, stride, h, rest[b]);
         });
         rate_into(i, t_ + tableau.c[i] * h_, real(trial_));
     }
@@ -276,7 +278,9 @@ private:
         });
     }
 
-    static Lane larger(const Lane& a, const Lane& b) { return a > b ? a : b; }
+    static Lane larger(const Lane& a, const Lane& b) {
+        return a > b ? a : b;
+    }
 
     /// Of block b, in units of max(1, |y_i|).
     Lane squared_error(auto stride, int b) const {
@@ -317,7 +321,7 @@ private:
     const Rhs& rhs_;
     int controlled_;  ///< components under error control
     int blocks_;
-    int stride_;      ///< lanes from one array to the next
+    int stride_;  ///< lanes from one array to the next
     std::vector<Lane> memory_;
     int y_ = 0, rest_ = 1, next_ = 2, next_rest_ = 3;  ///< places in memory; y and next change theirs
     static constexpr int trial_ = 4, difference_ = 5, error_ = 6;

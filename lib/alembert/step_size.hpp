@@ -83,7 +83,8 @@ inline double starting_step(const Rhs& rhs, double t, const double* state, const
     const double second =
         steepest <= 1e-15 ? std::max(1e-6, first * 1e-3) : std::pow(0.01 / steepest, 1.0 / order);
     const double step = std::min({100 * first, second, longest});
-    const double told_apart = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);  // a state that is zero to rounding asks for less
+    const double told_apart = 64 * std::numeric_limits<double>::epsilon() *
+                              std::abs(t);  // a state that is zero to rounding asks for less
     return std::min(longest, std::max(std::isfinite(step) && step > 0 ? step : first, told_apart));
 }
 

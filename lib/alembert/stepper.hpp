@@ -13,12 +13,13 @@
 ///     int most_evaluations() const;                       // of an increment
 ///     bool increment(Ends& ends, double h, double* change, double* end_rate);
 ///
-/// `increment` writes y(t + h) − y(t) without what is lost in y + change, and false if its equations were not solved.
-/// A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in Ends::knows_end_rate.
-/// Adaptive formulas write the error of each component to Ends::error and have `estimate_order`; those
-/// that find the rate at the end by a way of their own, after projection, have `evaluate_end(ends)`; those with a memory
-/// have `finished(ends)` and `advance(ends)`, those with a polynomial `interpolate(ends, theta, out)`. One whose steps end on the
-/// constraints of their own says so by `static constexpr bool keeps_constraints = true`: it is not projected.
+/// `increment` writes y(t + h) − y(t) without what is lost in y + change, and false if its equations were not
+/// solved. A formula that gets the rate at the end for nothing writes it to `end_rate` and says so in
+/// Ends::knows_end_rate. Adaptive formulas write the error of each component to Ends::error and have
+/// `estimate_order`; those that find the rate at the end by a way of their own, after projection, have
+/// `evaluate_end(ends)`; those with a memory have `finished(ends)` and `advance(ends)`, those with a polynomial
+/// `interpolate(ends, theta, out)`. One whose steps end on the constraints of their own says so by `static
+/// constexpr bool keeps_constraints = true`: it is not projected.
 ///
 /// The state is the sum of two doubles as in step.hpp, and errors are measured as there.
 
@@ -32,7 +33,8 @@
 
 namespace alembert {
 
-/// The cubic Hermite polynomial; a step of the method to there (its full order, for its price); its own polynomial.
+/// The cubic Hermite polynomial; a step of the method to there (its full order, for its price); its own
+/// polynomial.
 enum class Between { hermite, shorter_step, own };
 
 /// The two ends of a step.
@@ -67,7 +69,8 @@ struct Ends {
     double norm(const double* values) const {
         double largest = 0, zero = 0;
         for (int i = 0; i < controlled; ++i) {
-            largest = std::max(largest, std::abs(values[i]) / std::max(1.0, std::abs(y[static_cast<std::size_t>(i)])));
+            largest =
+                std::max(largest, std::abs(values[i]) / std::max(1.0, std::abs(y[static_cast<std::size_t>(i)])));
             zero += values[i] * 0;
         }
         return zero == 0 ? largest : HUGE_VAL;
@@ -109,11 +112,8 @@ public:
     const Rhs& rhs() const { return ends_.rhs; }
     int most_evaluations() const { return formula_.most_evaluations() + 1; }
     bool solved() const { return solved_; }
-    double stable_interval() const
-        requires requires(const Formula f) { f.stable_interval(); }
-    {
-        return formula_.stable_interval();
-    }
+    double stable_interval() const requires requires(const Formula f) { f.stable_interval(); }
+    { return formula_.stable_interval(); }
 
     void attempt(double end) {
         ends_.end = end;
@@ -181,17 +181,13 @@ public:
         ends_.t = ends_.end;
     }
 
-    double next_length(bool accepted, double ratio)
-        requires requires(Formula f, Ends e) { f.next_length(e, accepted, ratio); }
-    {
-        return formula_.next_length(ends_, accepted, ratio);
+    double next_length(bool accepted, double ratio) requires requires(Formula f, Ends e) {
+        f.next_length(e, accepted, ratio);
     }
+    { return formula_.next_length(ends_, accepted, ratio); }
 
-    double first_length()
-        requires requires(Formula f, Ends e) { f.first_length(e); }
-    {
-        return formula_.first_length(ends_);
-    }
+    double first_length() requires requires(Formula f, Ends e) { f.first_length(e); }
+    { return formula_.first_length(ends_); }
 
     void interpolate(double theta, double* out) {
         if constexpr (Formula::between == Between::own) {

@@ -6,10 +6,11 @@
 ///     StiffnessWatch watch(Method::dop853);
 ///     if (watch.finds_stiff(rhs, t, y, rate, h)) ...          // after each accepted step
 ///
-/// At every fourth step ρ = ‖f(t, y + δv) − f(t, y)‖/δ, ‖v‖ = 1, one evaluation; the difference is the next v, so that the power
-/// method finds the size of the largest eigenvalue of ∂f/∂y on the way (as RKC does: Sommeijer, Shampine, Verwer, J. Comput. Appl.
-/// Math. 88 (1998) 315-326, §3). A step that accuracy chose is well inside the region of stability; one that hρ has come near its border
-/// fifteen times in a row, with at most five exceptions, is not chosen by accuracy (Hairer & Wanner, Solving ODEs II, §IV.2).
+/// At every fourth step ρ = ‖f(t, y + δv) − f(t, y)‖/δ, ‖v‖ = 1, one evaluation; the difference is the next v, so
+/// that the power method finds the size of the largest eigenvalue of ∂f/∂y on the way (as RKC does: Sommeijer,
+/// Shampine, Verwer, J. Comput. Appl. Math. 88 (1998) 315-326, §3). A step that accuracy chose is well inside the
+/// region of stability; one that hρ has come near its border fifteen times in a row, with at most five exceptions,
+/// is not chosen by accuracy (Hairer & Wanner, Solving ODEs II, §IV.2).
 
 #include <algorithm>
 #include <cmath>
@@ -27,12 +28,18 @@ public:
     /// −hλ up to which the method is stable; 0: not known.
     static double stable_interval(Method method) {
         switch (method) {
-            case Method::dopri5: return 3.31;
-            case Method::dop853: return 6.1;
-            case Method::verner76: return 4.64;
-            case Method::verner98: return 4.48;
-            case Method::abm: return 1.28;
-            default: return 0;
+            case Method::dopri5:
+                return 3.31;
+            case Method::dop853:
+                return 6.1;
+            case Method::verner76:
+                return 4.64;
+            case Method::verner98:
+                return 4.48;
+            case Method::abm:
+                return 1.28;
+            default:
+                return 0;
         }
     }
 

@@ -5,12 +5,13 @@
 ///
 ///     v½ = v + h/2 a(t, q),   q₁ = q + h v½,   v₁ = v½ + h/2 a(t + h, q₁)
 ///
-/// for a state (q, v) with q' = v and accelerations a that no rate enters (M constant, forces of positions and time):
-/// the one that asks must know that, a right-hand side does not tell. std::invalid_argument is thrown for a state that
-/// is not (q, v). One evaluation for each substep, two where quadratures go with it: these need the rate at q₁, v₁,
-/// and take the trapezoidal rule, which makes the substep as symmetric as it was.
+/// for a state (q, v) with q' = v and accelerations a that no rate enters (M constant, forces of positions and
+/// time): the one that asks must know that, a right-hand side does not tell. std::invalid_argument is thrown for a
+/// state that is not (q, v). One evaluation for each substep, two where quadratures go with it: these need the
+/// rate at q₁, v₁, and take the trapezoidal rule, which makes the substep as symmetric as it was.
 ///
-/// Order 2, stable for the oscillator if hω < 2. The composition takes 17 such steps of lengths γ_i h; its order is 8.
+/// Order 2, stable for the oscillator if hω < 2. The composition takes 17 such steps of lengths γ_i h; its order
+/// is 8.
 ///
 /// Sources: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, §I.3.1 and §V.3.2; W. Kahan and
 /// R.-C. Li, Composition constants for raising the orders of unconventional schemes for ordinary differential
@@ -46,7 +47,8 @@ public:
             fits = ends.rate[i] == ends.y[n_ + i] || !std::isfinite(ends.rate[i]);
         if (!fits)
             throw std::invalid_argument(
-                "verlet and kahanli8 need a state of coordinates followed by their rates; this is another: take gauss "
+                "verlet and kahanli8 need a state of coordinates followed by their rates; this is another: take "
+                "gauss "
                 "or dop853");
     }
 

@@ -19,8 +19,9 @@
 ///
 /// Without rows d this is the cubic Hermite polynomial.
 ///
-/// Sources: Runge 1895 for rk2 (the midpoint rule); Kutta 1901 for rk4; Dormand & Prince, J. Comp. Appl. Math. 6 (1980) 19-26 for dopri5, RK5(4)7M; its
-/// fourth-order continuous extension is Shampine's, as in Hairer, Nørsett, Wanner, §II.6 and table II.5.2.
+/// Sources: Runge 1895 for rk2 (the midpoint rule); Kutta 1901 for rk4; Dormand & Prince, J. Comp. Appl. Math. 6
+/// (1980) 19-26 for dopri5, RK5(4)7M; its fourth-order continuous extension is Shampine's, as in Hairer, Nørsett,
+/// Wanner, §II.6 and table II.5.2.
 
 #include <array>
 

@@ -9,17 +9,17 @@
 ///
 ///     h = min over j = p−1, p of (a tolerance / n_j)^(1/j)
 ///
-/// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln tolerance⌉ and
-/// a = ½), so that the last terms are a times the tolerance and what is left out less. Here a = 1/20: the errors of the steps of a
-/// long run add up. Steps go with tolerance^(1/p) and the time that a series takes
-/// is about 1 + c p + d p² (c, d from the emitted file); p makes their quotient least. Where products of series take all the time
-/// that is Jorba & Zou's order (§3.1); where they do not, it is higher. The polynomial is kept: states within the step cost its
-/// evaluation. `error` is the last term.
+/// (Jorba & Zou, Experimental Math. 14 (2005) 99-117, §3.2: their ρ e^(−2 − 0.7/(p−1)) is that for p = ⌈1 − ½ ln
+/// tolerance⌉ and a = ½), so that the last terms are a times the tolerance and what is left out less. Here a =
+/// 1/20: the errors of the steps of a long run add up. Steps go with tolerance^(1/p) and the time that a series
+/// takes is about 1 + c p + d p² (c, d from the emitted file); p makes their quotient least. Where products of
+/// series take all the time that is Jorba & Zou's order (§3.1); where they do not, it is higher. The polynomial is
+/// kept: states within the step cost its evaluation. `error` is the last term.
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <iterator>
+#include <memory>
 #include <new>
 
 #include "alembert/stepper.hpp"
@@ -28,7 +28,8 @@ namespace alembert {
 
 inline constexpr double taylor_share = 0.05;  ///< of the tolerance, for the last term
 
-/// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉ and 4.
+/// The order that makes (1 + order_cost p + product_cost p²) tolerance^(−1/p) least, at least ⌈1 − ½ ln tolerance⌉
+/// and 4.
 inline int taylor_order(double tolerance, double order_cost = 0, double product_cost = 1, int most = most_order) {
     const double digits = -std::log(taylor_share * tolerance);
     int best = std::clamp(static_cast<int>(std::ceil(1 - std::log(tolerance) / 2)), 4, most);
@@ -45,7 +46,8 @@ public:
 
     Taylor(const Ends& ends, double tolerance)
         : log_tolerance_(std::log(taylor_share * tolerance)),
-          order_(taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
+          order_(
+              taylor_order(tolerance, ends.rhs.series.module->order_cost, ends.rhs.series.module->product_cost)),
           size_(ends.y.size()),
           coefficients_(static_cast<std::size_t>(order_ + 1) * size_),
           next_(coefficients_.size()),
@@ -85,7 +87,9 @@ public:
     }
 
     double next_length(Ends& ends, bool accepted, double ratio) {
-        return accepted ? length(ends) : ends.h * (std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order_)) : 0.5);
+        return accepted
+                   ? length(ends)
+                   : ends.h * (std::isfinite(ratio) ? std::min(0.8, 0.9 * std::pow(ratio, -1.0 / order_)) : 0.5);
     }
 
     void interpolate(const Ends& ends, double theta, double* out) const {
@@ -101,7 +105,8 @@ private:
 
     const double* row(int k) const { return coefficients_.data() + static_cast<std::size_t>(k) * size_; }
 
-    /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴: a sum waits for its last term alone.
+    /// Σ_{k≥1} c_k h^k, two components at a time, each as four polynomials in h⁴: a sum waits for its last term
+    /// alone.
     void add_up(double h, double* change) const {
         const double h2 = h * h, h4 = h2 * h2;
         const auto part = [&](std::size_t i, auto sum) {
@@ -114,7 +119,8 @@ private:
                         sum.values[r][j] = h4 * sum.values[r][j] + (there ? row(k + r)[i + j] : 0);
                     }
             for (std::size_t j = 0; j < count; ++j)
-                change[i + j] = (sum.values[0][j] + h2 * sum.values[2][j]) + h * (sum.values[1][j] + h2 * sum.values[3][j]);
+                change[i + j] =
+                    (sum.values[0][j] + h2 * sum.values[2][j]) + h * (sum.values[1][j] + h2 * sum.values[3][j]);
         };
         std::size_t i = 0;
         for (; i + 2 <= size_; i += 2) part(i, Sums<2>());

@@ -67,7 +67,7 @@ struct Statistics {
     long rejected = 0;
     long evaluations = 0;  ///< of the right-hand side, those for dense output and events included
     double seconds = 0;    ///< processor time of this thread, without set-up of the system
-    std::string method;                 ///< the one of the start
+    std::string method;    ///< the one of the start
     std::optional<Switch> switched = {};
 };
 
@@ -77,7 +77,8 @@ struct Trajectory {
     std::vector<double> times;
     std::vector<double> states;  ///< rows() × dimension
     std::vector<EventRecord> events;
-    std::vector<LastZero> last_zeros = {};  ///< all events that are zero where one has stopped the run, in the order of `events`
+    std::vector<LastZero> last_zeros =
+        {};  ///< all events that are zero where one has stopped the run, in the order of `events`
     Statistics statistics;
     Ending ending = Ending::completed;
     std::optional<Failure> failure;  ///< there if and only if ending is `failed`

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Right-hand sides of one coordinate as one writes them by hand, for rhs.cpp: a function for each scene of that name in systems/,
-// with the scene's numbers, compiled as an emitted file is. What does not change is worked out beforehand, by the compiler.
+// Right-hand sides of one coordinate as one writes them by hand, for rhs.cpp: a function for each scene of that
+// name in systems/, with the scene's numbers, compiled as an emitted file is. What does not change is worked out
+// beforehand, by the compiler.
 #include <cmath>
 
 /// θ″ = −(g/l) sin θ

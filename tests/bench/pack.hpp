@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The walk of rhs.cpp over packs: the same 64 states, eight side by side, each perturbed by its own previous answer.
+/// The walk of rhs.cpp over packs: the same 64 states, eight side by side, each perturbed by its own previous
+/// answer.
 ///
 ///     PackWalk walk(module, states, values);       // values: 64 × (n + s), state by state
 ///     walk();                                      // 64 right-hand sides
@@ -43,7 +44,8 @@ public:
     }
 
 private:
-    /// As one vector: a pack that is stored in pieces and loaded whole waits until the pieces have left for the cache.
+    /// As one vector: a pack that is stored in pieces and loaded whole waits until the pieces have left for the
+    /// cache.
     using Whole [[gnu::may_alias]] = double __attribute__((vector_size(sizeof(Lanes))));
     static Whole& whole(Lanes& pack) { return reinterpret_cast<Whole&>(pack); }
 

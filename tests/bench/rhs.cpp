@@ -3,12 +3,13 @@
 //
 //   bench_rhs [--json FILE] FOLDER INFO SOURCE.cpp [INFO SOURCE.cpp …]      INFO: what `emit --json` printed
 //
-// Thread CPU time of many short slices, the floor's and ours in turn, each after a third of a slice that is not timed; the median of each. A slice walks through 64 states
-// with |q| ≤ π; each is perturbed by its own previous answer, so that no evaluation can be left out, and none waits for
-// the one before. The floor is n calls of glibc's sincos on the same angles in the same loop.
-// Accelerations at a reference state (50 digits: FOLDER/reference/chains.json, FOLDER/bench/systems/) give `error`, relative to
-// the largest. A rival (rivals.hpp) is timed in the same turns once its accelerations at all 64 states are ours to 1e-9; so is
-// the function of the system's name in FOLDER/bench/by_hand.cpp, where there is one.
+// Thread CPU time of many short slices, the floor's and ours in turn, each after a third of a slice that is not
+// timed; the median of each. A slice walks through 64 states with |q| ≤ π; each is perturbed by its own previous
+// answer, so that no evaluation can be left out, and none waits for the one before. The floor is n calls of
+// glibc's sincos on the same angles in the same loop. Accelerations at a reference state (50 digits:
+// FOLDER/reference/chains.json, FOLDER/bench/systems/) give `error`, relative to the largest. A rival (rivals.hpp)
+// is timed in the same turns once its accelerations at all 64 states are ours to 1e-9; so is the function of the
+// system's name in FOLDER/bench/by_hand.cpp, where there is one.
 #include <fmt/format.h>
 #include <math.h>
 #include <time.h>
@@ -47,7 +48,8 @@ double now_ns() {
 }
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
 }
 
@@ -69,7 +71,8 @@ std::vector<double> timed(const std::vector<std::function<void()>>& walks) {
     std::vector<std::vector<double>> times(walks.size());
     for (int slice = 0; slice < slices; ++slice)
         for (std::size_t which = 0; which < walks.size(); ++which) {
-            for (int k = 0; k < (repeats[which] + 2) / 3; ++k) walks[which]();  // not timed: caches, and the clock that wide vectors take
+            for (int k = 0; k < (repeats[which] + 2) / 3; ++k)
+                walks[which]();  // not timed: caches, and the clock that wide vectors take
             const double start = now_ns();
             for (int k = 0; k < repeats[which]; ++k) walks[which]();
             times[which].push_back((now_ns() - start) / repeats[which] / states);
@@ -81,7 +84,8 @@ std::vector<double> timed(const std::vector<std::function<void()>>& walks) {
 
 /// 64 states: where they start, and the last answer to each.
 struct Walkers {
-    Walkers(int n, int s, unsigned seed) : width(n + s), base(states * width), answer(states * width, 0.0), state(width) {
+    Walkers(int n, int s, unsigned seed)
+        : width(n + s), base(states * width), answer(states * width, 0.0), state(width) {
         std::mt19937_64 random(seed);
         std::uniform_real_distribution<double> turn(-M_PI, M_PI), rate(-1, 1);
         for (int k = 0; k < states; ++k)
@@ -98,7 +102,8 @@ struct Walkers {
 /// The largest error of an acceleration, relative to the largest acceleration.
 double error_of(const alembert_solver_table& table, const Module& module, const Json& reference) {
     const int n = table.coordinates;
-    std::vector<double> values(table.parameter_values, table.parameter_values + table.parameters), state, rate(2 * n);
+    std::vector<double> values(table.parameter_values, table.parameter_values + table.parameters), state,
+        rate(2 * n);
     for (const char* key : {"q", "qd"})
         for (const double x : reference.at(key)) state.push_back(x);
     for (int i = 0; i < n; ++i)  // the torques are parameters, or the scene's own numbers
@@ -118,8 +123,10 @@ double error_of(const alembert_solver_table& table, const Module& module, const 
 using Accelerations = std::function<void(double t, const double* state, double* accelerations)>;
 using ByHand = void (*)(double t, const double* state, double* rate);
 
-/// The states and accelerations of a rival are ours? (Those where the accelerations are larger are weaker by rounding.)
-void compare(const std::string& rival, const Accelerations& accelerations, const std::string& system, const alembert_solver_table& table, const std::vector<double>& par, Walkers& walkers) {
+/// The states and accelerations of a rival are ours? (Those where the accelerations are larger are weaker by
+/// rounding.)
+void compare(const std::string& rival, const Accelerations& accelerations, const std::string& system,
+             const alembert_solver_table& table, const std::vector<double>& par, Walkers& walkers) {
     const int n = table.coordinates;
     std::vector<double> rate(2 * n), theirs(n);
     double worst = 0;
@@ -135,7 +142,9 @@ void compare(const std::string& rival, const Accelerations& accelerations, const
         worst = std::max(worst, difference / largest);
     }
     if (!(worst < agreement))
-        throw std::runtime_error(fmt::format("{}: accelerations of {} are not ours: {:.1e} apart, expected less than {:.0e}", rival, system, worst, agreement));
+        throw std::runtime_error(
+            fmt::format("{}: accelerations of {} are not ours: {:.1e} apart, expected less than {:.0e}", rival,
+                        system, worst, agreement));
 }
 
 Json reference_of(const std::string& folder, const std::string& name) {
@@ -166,7 +175,8 @@ Json measured(const Json& info, const std::string& source, const std::string& fo
         }
     });
     walks.emplace_back([&] {
-        for (int k = 0; k < states; ++k) table.rhs(k * time_step, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
+        for (int k = 0; k < states; ++k)
+            table.rhs(k * time_step, ours.perturbed(k, n + s), par.data(), &ours.answer[k * ours.width]);
     });
     std::optional<PackWalk> packs;  // where it was emitted with --batch
     if (module.pack() != nullptr) packs.emplace(module, states, ours.base, feedback);
@@ -178,7 +188,9 @@ Json measured(const Json& info, const std::string& source, const std::string& fo
     const std::vector<bench::Rival> rivals = tree ? bench::rivals_of(*tree) : std::vector<bench::Rival>();
     std::vector<Walkers> theirs(rivals.size(), Walkers(n, s, 1));
     for (std::size_t r = 0; r < rivals.size(); ++r) {
-        const auto accelerations = [&rival = rivals[r], n](double, const double* state, double* a) { rival.accelerations(state, state + n, a); };
+        const auto accelerations = [&rival = rivals[r], n](double, const double* state, double* a) {
+            rival.accelerations(state, state + n, a);
+        };
         compare(rivals[r].name, accelerations, name, table, par, theirs[r]);
         walks.emplace_back([&walkers = theirs[r], &accelerations = rivals[r].accelerations, n, s] {
             for (int k = 0; k < states; ++k) {
@@ -198,7 +210,8 @@ Json measured(const Json& info, const std::string& source, const std::string& fo
         };
         compare("by hand", accelerations, name, table, par, hands);
         walks.emplace_back([&] {
-            for (int k = 0; k < states; ++k) by_hand(k * time_step, hands.perturbed(k, n + s), &hands.answer[k * hands.width]);
+            for (int k = 0; k < states; ++k)
+                by_hand(k * time_step, hands.perturbed(k, n + s), &hands.answer[k * hands.width]);
         });
     }
     const std::vector<double> ns = timed(walks);
@@ -234,10 +247,13 @@ void print_rivals(const Json& rows) {
     for (const Json& row : rows) {
         if (row.at("rivals").empty()) continue;
         const double floor = row.at("floor_ns");
-        fmt::print("{:<16} {:>9.2f}", row.at("system").get<std::string>(), row.at("ours_ns").get<double>() / floor);
+        fmt::print("{:<16} {:>9.2f}", row.at("system").get<std::string>(),
+                   row.at("ours_ns").get<double>() / floor);
         for (const std::string& name : names) {
             const auto rival = row.at("rivals").find(name);
-            fmt::print(" {:>9}", rival == row.at("rivals").end() ? "-" : fmt::format("{:.2f}", rival->get<double>() / floor));
+            fmt::print(" {:>9}", rival == row.at("rivals").end()
+                                     ? "-"
+                                     : fmt::format("{:.2f}", rival->get<double>() / floor));
         }
         fmt::print("\n");
     }
@@ -254,14 +270,15 @@ int main(int argc, char** argv) try {
     }
     const std::string folder = arguments.at(0);
     Json rows = Json::array();
-    fmt::print("{:<16} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n", "system", "floor ns", "ours ns", "floors",
-               "pack ns", "floors", "operations", "error", "compile s", "formulation");
+    fmt::print("{:<16} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n", "system", "floor ns", "ours ns",
+               "floors", "pack ns", "floors", "operations", "error", "compile s", "formulation");
     for (std::size_t k = 1; k + 1 < arguments.size(); k += 2) {
         const Json row = measured(Json::parse(text_of(arguments[k])), arguments[k + 1], folder);
         const double floor = row["floor_ns"], ours = row["ours_ns"];
         const Json& pack = row["ours_pack_ns"];
-        fmt::print("{:<16} {:>9.1f} {:>9.1f} {:>7.2f} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n", row["system"].get<std::string>(), floor,
-                   ours, ours / floor, cell(pack, "{:.1f}"), pack.is_null() ? "-" : fmt::format("{:.2f}", pack.get<double>() / floor),
+        fmt::print("{:<16} {:>9.1f} {:>9.1f} {:>7.2f} {:>9} {:>7} {:>10} {:>9} {:>10}   {}\n",
+                   row["system"].get<std::string>(), floor, ours, ours / floor, cell(pack, "{:.1f}"),
+                   pack.is_null() ? "-" : fmt::format("{:.2f}", pack.get<double>() / floor),
                    row["operations"].get<int>(), cell(row["error"], "{:.1e}"), cell(row["compile_s"], "{:.2f}"),
                    row["formulation"].get<std::string>());
         rows.push_back(row);

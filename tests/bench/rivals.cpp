@@ -9,7 +9,9 @@ namespace alembert::bench {
 
 namespace {
 
-Vector vector_of(const nlohmann::json& list) { return {list.at(0), list.at(1), list.at(2)}; }
+Vector vector_of(const nlohmann::json& list) {
+    return {list.at(0), list.at(1), list.at(2)};
+}
 
 /// N uniform rods of mass and length 1 that hang along −z and turn about y, each against the one before.
 Tree chain(int n) {
@@ -28,7 +30,8 @@ Tree chain(int n) {
 }  // namespace
 
 std::optional<Tree> tree_of(const std::string& name, const std::string& folder) {
-    if (name.starts_with("pend") && name.size() > 4 && name.find_first_not_of("0123456789", 4) == std::string::npos) {
+    if (name.starts_with("pend") && name.size() > 4 &&
+        name.find_first_not_of("0123456789", 4) == std::string::npos) {
         Tree tree = chain(std::stoi(name.substr(4)));
         tree.tau.assign(tree.bodies.size(), 0.0);
         return tree;
@@ -36,9 +39,16 @@ std::optional<Tree> tree_of(const std::string& name, const std::string& folder) 
     const std::string path = folder + "/" + name + ".json";
     if (!std::filesystem::exists(path)) return std::nullopt;
     const nlohmann::json system = nlohmann::json::parse(std::ifstream(path));
-    Tree tree{.name = name, .gravity = vector_of(system.at("gravity")), .bodies = {}, .tau = system.at("ref").at("tau")};
+    Tree tree{
+        .name = name, .gravity = vector_of(system.at("gravity")), .bodies = {}, .tau = system.at("ref").at("tau")};
     for (const nlohmann::json& b : system.at("bodies")) {
-        TreeBody body{.parent = b.at("parent"), .R = {}, .p = vector_of(b.at("p")), .axis = vector_of(b.at("axis")), .mass = b.at("mass"), .com = vector_of(b.at("com")), .inertia = b.at("inertia")};
+        TreeBody body{.parent = b.at("parent"),
+                      .R = {},
+                      .p = vector_of(b.at("p")),
+                      .axis = vector_of(b.at("axis")),
+                      .mass = b.at("mass"),
+                      .com = vector_of(b.at("com")),
+                      .inertia = b.at("inertia")};
         for (std::size_t row = 0; row < 3; ++row) body.R[row] = vector_of(b.at("R").at(row));
         tree.bodies.push_back(body);
     }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What other programs need for q, q', τ → q'' of a chain of bodies on revolute joints, and those programs that are there.
+/// What other programs need for q, q', τ → q'' of a chain of bodies on revolute joints, and those programs that
+/// are there.
 ///
 ///     const std::optional<Tree> tree = tree_of("arm7", "tests/bench/systems");
 ///     for (const Rival& rival : rivals_of(*tree)) rival.accelerations(q, u, a);
 ///
-/// A body's frame is its joint's. At q = 0 it stands in the parent's frame at p, with its axes along the columns of R; then it
-/// turns by q about `axis`. Mass centre and inertia (about the mass centre: xx xy xz yy yz zz) are along it. SI units.
-/// The torques are the tree's own and stay as they are. Each rival has a file of its own, rivals_NAME.cpp.
+/// A body's frame is its joint's. At q = 0 it stands in the parent's frame at p, with its axes along the columns
+/// of R; then it turns by q about `axis`. Mass centre and inertia (about the mass centre: xx xy xz yy yz zz) are
+/// along it. SI units. The torques are the tree's own and stay as they are. Each rival has a file of its own,
+/// rivals_NAME.cpp.
 
 #include <array>
 #include <functional>

@@ -10,8 +10,12 @@ namespace alembert::bench {
 
 namespace {
 
-btVector3 bt(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-btQuaternion bt(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+btVector3 bt(const Eigen::Vector3d& v) {
+    return {v[0], v[1], v[2]};
+}
+btQuaternion bt(const Eigen::Quaterniond& q) {
+    return {q.x(), q.y(), q.z(), q.w()};
+}
 
 struct Links {
     explicit Links(const Tree& tree)
@@ -25,8 +29,9 @@ struct Links {
             const Eigen::Matrix3d parent = on_ground ? Eigen::Matrix3d::Identity() : principal[b.parent].axes;
             const Eigen::Vector3d com = on_ground ? Eigen::Vector3d::Zero() : eigen(tree.bodies[b.parent].com);
             const Eigen::Matrix3d turn = own.transpose() * rotation_of(b).transpose() * parent;
-            body.setupRevolute(i, b.mass, bt(principal[i].moments), b.parent, bt(Eigen::Quaterniond(turn)), bt(own.transpose() * eigen(b.axis)),
-                               bt(parent.transpose() * (eigen(b.p) - com)), bt(own.transpose() * eigen(b.com)), true);
+            body.setupRevolute(i, b.mass, bt(principal[i].moments), b.parent, bt(Eigen::Quaterniond(turn)),
+                               bt(own.transpose() * eigen(b.axis)), bt(parent.transpose() * (eigen(b.p) - com)),
+                               bt(own.transpose() * eigen(b.com)), true);
             weight.push_back(bt(b.mass * eigen(tree.gravity)));
         }
         body.finalizeMultiDof();
@@ -54,8 +59,10 @@ Rival bullet(const Tree& tree) {
                     s->body.addLinkForce(i, s->weight[i]);
                     s->body.addJointTorque(i, s->tau[i]);
                 }
-                s->body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, s->reals, s->vectors, s->matrices, false, false, false);
-                for (int i = 0; i < s->n; ++i) a[i] = s->reals[s->n + 6 + i];  // where it leaves them, after its own work space
+                s->body.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, s->reals, s->vectors, s->matrices,
+                                                                             false, false, false);
+                for (int i = 0; i < s->n; ++i)
+                    a[i] = s->reals[s->n + 6 + i];  // where it leaves them, after its own work space
             }};
 }
 

@@ -19,9 +19,14 @@ Rival dart(const Tree& tree) {
         joint.mAxis = eigen(body.axis);
         joint.mT_ParentBodyToJoint.linear() = rotation_of(body);
         joint.mT_ParentBodyToJoint.translation() = eigen(body.p);
-        joint.mName = "joint" + std::to_string(skeleton->getNumJoints());  // it announces the names that it makes itself
-        const ::dart::dynamics::BodyNode::AspectProperties named("body" + std::to_string(skeleton->getNumBodyNodes()));
-        last = skeleton->createJointAndBodyNodePair<::dart::dynamics::RevoluteJoint>(last, joint, ::dart::dynamics::BodyNode::Properties(named)).second;
+        joint.mName =
+            "joint" + std::to_string(skeleton->getNumJoints());  // it announces the names that it makes itself
+        const ::dart::dynamics::BodyNode::AspectProperties named("body" +
+                                                                 std::to_string(skeleton->getNumBodyNodes()));
+        last = skeleton
+                   ->createJointAndBodyNodePair<::dart::dynamics::RevoluteJoint>(
+                       last, joint, ::dart::dynamics::BodyNode::Properties(named))
+                   .second;
         last->setInertia(::dart::dynamics::Inertia(body.mass, eigen(body.com), inertia_of(body)));
     }
     const auto n = static_cast<Eigen::Index>(tree.bodies.size());

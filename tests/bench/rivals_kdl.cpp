@@ -12,12 +12,15 @@ namespace alembert::bench {
 
 namespace {
 
-KDL::Vector kdl_vector(const Vector& v) { return {v[0], v[1], v[2]}; }
+KDL::Vector kdl_vector(const Vector& v) {
+    return {v[0], v[1], v[2]};
+}
 
 KDL::Chain chain_of(const Tree& tree) {
     KDL::Chain chain;
     for (const TreeBody& b : tree.bodies) {
-        const KDL::Rotation R(b.R[0][0], b.R[0][1], b.R[0][2], b.R[1][0], b.R[1][1], b.R[1][2], b.R[2][0], b.R[2][1], b.R[2][2]);
+        const KDL::Rotation R(b.R[0][0], b.R[0][1], b.R[0][2], b.R[1][0], b.R[1][1], b.R[1][2], b.R[2][0],
+                              b.R[2][1], b.R[2][2]);
         const KDL::Vector p = kdl_vector(b.p);
         const auto& [xx, xy, xz, yy, yz, zz] = b.inertia;
         const KDL::RotationalInertia own(xx, yy, zz, xy, xz, yz);
@@ -29,7 +32,14 @@ KDL::Chain chain_of(const Tree& tree) {
 
 struct Solver {
     explicit Solver(const Tree& tree)
-        : chain(chain_of(tree)), solver(chain, kdl_vector(tree.gravity)), n(chain.getNrOfJoints()), q(n), u(n), tau(n), a(n), outside(n, KDL::Wrench::Zero()) {
+        : chain(chain_of(tree)),
+          solver(chain, kdl_vector(tree.gravity)),
+          n(chain.getNrOfJoints()),
+          q(n),
+          u(n),
+          tau(n),
+          a(n),
+          outside(n, KDL::Wrench::Zero()) {
         for (unsigned i = 0; i < n; ++i) tau(i) = tree.tau[i];
     }
     KDL::Chain chain;

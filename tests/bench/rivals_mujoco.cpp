@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
-#include <unistd.h>
 
 #include "rivals_principal.hpp"
 
@@ -16,26 +16,35 @@ namespace alembert::bench {
 
 namespace {
 
-std::string text(const Eigen::Quaterniond& q) { return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", q.w(), q.x(), q.y(), q.z()); }
-std::string text(const Eigen::Vector3d& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v[0], v[1], v[2]); }
+std::string text(const Eigen::Quaterniond& q) {
+    return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}", q.w(), q.x(), q.y(), q.z());
+}
+std::string text(const Eigen::Vector3d& v) {
+    return fmt::format("{:.17g} {:.17g} {:.17g}", v[0], v[1], v[2]);
+}
 
 std::string xml_of(const Tree& tree) {
     std::string bodies, ends;
     for (const TreeBody& body : tree.bodies) {  // a chain: each in the one before
         const Principal own = principal_of(body);
-        bodies += fmt::format("<body pos='{}' quat='{}'><inertial pos='{}' quat='{}' mass='{:.17g}' diaginertia='{}'/><joint type='hinge' axis='{}'/>\n",
-                              text(eigen(body.p)), text(Eigen::Quaterniond(rotation_of(body))), text(eigen(body.com)),
-                              text(Eigen::Quaterniond(own.axes)), body.mass, text(own.moments), text(eigen(body.axis)));
+        bodies += fmt::format(
+            "<body pos='{}' quat='{}'><inertial pos='{}' quat='{}' mass='{:.17g}' diaginertia='{}'/><joint "
+            "type='hinge' axis='{}'/>\n",
+            text(eigen(body.p)), text(Eigen::Quaterniond(rotation_of(body))), text(eigen(body.com)),
+            text(Eigen::Quaterniond(own.axes)), body.mass, text(own.moments), text(eigen(body.axis)));
         ends += "</body>";
     }
-    return fmt::format("<mujoco><option gravity='{}'><flag constraint='disable' contact='disable'/></option>\n<worldbody>{}{}</worldbody></mujoco>",
-                       text(eigen(tree.gravity)), bodies, ends);
+    return fmt::format(
+        "<mujoco><option gravity='{}'><flag constraint='disable' "
+        "contact='disable'/></option>\n<worldbody>{}{}</worldbody></mujoco>",
+        text(eigen(tree.gravity)), bodies, ends);
 }
 
 }  // namespace
 
 Rival mujoco(const Tree& tree) {
-    const std::string path = (std::filesystem::temp_directory_path() / fmt::format("alembert-{}-{}.xml", getpid(), tree.name)).string();
+    const std::string path =
+        (std::filesystem::temp_directory_path() / fmt::format("alembert-{}-{}.xml", getpid(), tree.name)).string();
     std::ofstream(path) << xml_of(tree);
     char error[1000] = "";
     const std::shared_ptr<mjModel> model(mj_loadXML(path.c_str(), nullptr, error, sizeof error), mj_deleteModel);

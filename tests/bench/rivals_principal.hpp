@@ -9,7 +9,9 @@
 
 namespace alembert::bench {
 
-inline Eigen::Vector3d eigen(const Vector& v) { return {v[0], v[1], v[2]}; }
+inline Eigen::Vector3d eigen(const Vector& v) {
+    return {v[0], v[1], v[2]};
+}
 
 inline Eigen::Matrix3d rotation_of(const TreeBody& body) {
     Eigen::Matrix3d R;

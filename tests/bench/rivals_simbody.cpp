@@ -12,7 +12,9 @@ namespace alembert::bench {
 
 namespace {
 
-SimTK::Vec3 vec(const Vector& v) { return {v[0], v[1], v[2]}; }
+SimTK::Vec3 vec(const Vector& v) {
+    return {v[0], v[1], v[2]};
+}
 
 struct System {
     explicit System(const Tree& tree) : matter(system), forces(system), loads(forces, matter) {
@@ -21,14 +23,17 @@ struct System {
         for (const TreeBody& b : tree.bodies) {
             const auto& [xx, xy, xz, yy, yz, zz] = b.inertia;
             const SimTK::Inertia about_centre(xx, yy, zz, xy, xz, yz);
-            const SimTK::Body::Rigid body(SimTK::MassProperties(b.mass, vec(b.com), about_centre.shiftFromMassCenter(-vec(b.com), b.mass)));
+            const SimTK::Body::Rigid body(
+                SimTK::MassProperties(b.mass, vec(b.com), about_centre.shiftFromMassCenter(-vec(b.com), b.mass)));
             // A pin turns about z of its frames.
             const SimTK::Rotation to_axis(SimTK::UnitVec3(vec(b.axis)), SimTK::ZAxis);
             SimTK::Mat33 R;
             for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) R(i, j) = b.R[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+                for (int j = 0; j < 3; ++j)
+                    R(i, j) = b.R[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
             const SimTK::Rotation placed(R, true);
-            last = SimTK::MobilizedBody::Pin(last, SimTK::Transform(placed * to_axis, vec(b.p)), body, SimTK::Transform(to_axis));
+            last = SimTK::MobilizedBody::Pin(last, SimTK::Transform(placed * to_axis, vec(b.p)), body,
+                                             SimTK::Transform(to_axis));
         }
         state = system.realizeTopology();
         const int n = matter.getNumMobilities();

@@ -3,14 +3,15 @@
 //
 //   bench_sines POINTS SOURCE.cpp [SOURCE.cpp …]      emitted with --batch; outputs sin q₁, cos q₁, sin q₂ …
 //
-// A way to a sine: alone or in a group of as many angles as the source has coordinates, a state at a time or eight in packs,
-// compiled for this processor or for any of its kind. Every way sees every angle (angles.hpp). Its value is CLN's: 80 digits and
-// as many more as the angle has before the point, of which the reduction loses 28 at most up to 1e8; it is kept as two doubles,
-// so that errors are good to 1e-16 ulp. An ulp is that of the exact value (of its own binade, not of the one it rounds to).
-// Zeros must keep their sign, infinities and NaN give NaN, and beyond 1e8 the bits must be those of libm.
+// A way to a sine: alone or in a group of as many angles as the source has coordinates, a state at a time or eight
+// in packs, compiled for this processor or for any of its kind. Every way sees every angle (angles.hpp). Its value
+// is CLN's: 80 digits and as many more as the angle has before the point, of which the reduction loses 28 at most
+// up to 1e8; it is kept as two doubles, so that errors are good to 1e-16 ulp. An ulp is that of the exact value
+// (of its own binade, not of the one it rounds to). Zeros must keep their sign, infinities and NaN give NaN, and
+// beyond 1e8 the bits must be those of libm.
 //
-// CLN counts its references without locks: workers are processes, and each takes the next chunk of angles. Angles depend on the
-// number of the chunk alone, so the report is the same whatever the number of processors.
+// CLN counts its references without locks: workers are processes, and each takes the next chunk of angles. Angles
+// depend on the number of the chunk alone, so the report is the same whatever the number of processors.
 #include <cln/cln.h>
 #include <fmt/format.h>
 #include <signal.h>
@@ -41,7 +42,8 @@ using bench::farthest;
 
 namespace {
 
-constexpr int chunk = 4800, most_ways = 64, most_workers = 256;  // a chunk is whole packs of 1, 2, 3, 5 and 8 angles
+constexpr int chunk = 4800, most_ways = 64,
+              most_workers = 256;  // a chunk is whole packs of 1, 2, 3, 5 and 8 angles
 constexpr double allowed = 2.5, rounding = 0.5;
 
 /// A sine or cosine as (hi + lo) 2^exponent with 0.5 ≤ |hi| ≤ 1.
@@ -100,7 +102,8 @@ struct Way {
     }
 };
 
-/// The largest error, and where. Of equals the smallest angle, so that the report does not depend on who came first.
+/// The largest error, and where. Of equals the smallest angle, so that the report does not depend on who came
+/// first.
 struct Worst {
     double error = 0, angle = 0;
     bool is_cosine = false;
@@ -128,7 +131,9 @@ struct Board {
     Verdict verdicts[most_workers][most_ways];
 };
 
-bool is_same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool is_same(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
 
 bool is_right_kind(double x, double s, double c) {
     if (!std::isfinite(x)) return std::isnan(s) && std::isnan(c);
@@ -136,10 +141,11 @@ bool is_right_kind(double x, double s, double c) {
     return std::abs(x) <= farthest || (is_same(s, std::sin(x)) && is_same(c, std::cos(x)));
 }
 
-void judge(const std::vector<double>& x, const std::vector<Exact>& sine, const std::vector<Exact>& cosine, const std::vector<double>& s,
-           const std::vector<double>& c, Verdict& verdict) {
+void judge(const std::vector<double>& x, const std::vector<Exact>& sine, const std::vector<Exact>& cosine,
+           const std::vector<double>& s, const std::vector<double>& c, Verdict& verdict) {
     for (int k = 0; k < chunk; ++k) {
-        if (!is_right_kind(x[k], s[k], c[k])) verdict.meet({.near = {}, .far = {}, .wrong = 1, .wrong_angle = x[k]});
+        if (!is_right_kind(x[k], s[k], c[k]))
+            verdict.meet({.near = {}, .far = {}, .wrong = 1, .wrong_angle = x[k]});
         if (!std::isfinite(x[k]) || x[k] == 0) continue;
         Worst& worst = std::abs(x[k]) <= farthest ? verdict.near : verdict.far;
         worst.meet({.error = sine[k].error(s[k]), .angle = x[k], .is_cosine = false});
@@ -147,12 +153,14 @@ void judge(const std::vector<double>& x, const std::vector<Exact>& sine, const s
     }
 }
 
-void work(const std::vector<Way>& ways, const std::vector<double>& hard, long chunks, Board& board, Verdict* verdicts) {
+void work(const std::vector<Way>& ways, const std::vector<double>& hard, long chunks, Board& board,
+          Verdict* verdicts) {
     std::vector<double> x(chunk), s(chunk), c(chunk);
     std::vector<Exact> sine(chunk), cosine(chunk);
     for (long k = board.next++; k < chunks; k = board.next++) {
         bench::fill_angles(k, x);
-        for (long i = k * chunk; i < std::min<long>((k + 1) * chunk, static_cast<long>(hard.size())); ++i) x[i - k * chunk] = hard[i];
+        for (long i = k * chunk; i < std::min<long>((k + 1) * chunk, static_cast<long>(hard.size())); ++i)
+            x[i - k * chunk] = hard[i];
         for (int i = 0; i < chunk; ++i)
             if (x[i] != 0 && std::isfinite(x[i])) {
                 const cln::cos_sin_t value = fifty_digits(x[i]);
@@ -178,12 +186,15 @@ std::vector<Way> ways_of(const std::vector<std::string>& files) {
             for (const std::string& file : files) {
                 std::ostringstream text;
                 text << std::ifstream(file, std::ios::binary).rdbuf();
-                const Module module = load(compile(text.str(), "sines", {.compiler = {}, .extra_flags = flags, .cache = {}}).object);
-                if (module.pack() == nullptr || module.table().outputs != 2 * module.table().coordinates || chunk % (lanes * module.table().coordinates) != 0)
+                const Module module =
+                    load(compile(text.str(), "sines", {.compiler = {}, .extra_flags = flags, .cache = {}}).object);
+                if (module.pack() == nullptr || module.table().outputs != 2 * module.table().coordinates ||
+                    chunk % (lanes * module.table().coordinates) != 0)
                     throw std::runtime_error(file + ": not a solver of sines and cosines emitted with --batch");
                 ways.push_back({module, target, is_pack});
             }
-    if (ways.size() > most_ways) throw std::runtime_error(fmt::format("{} ways are too many: {} at most", ways.size(), most_ways));
+    if (ways.size() > most_ways)
+        throw std::runtime_error(fmt::format("{} ways are too many: {} at most", ways.size(), most_ways));
     return ways;
 }
 
@@ -202,12 +213,18 @@ bool attend(const std::vector<pid_t>& workers, const Board& board, long chunks) 
     return is_whole && board.done == chunks;
 }
 
-std::string place(const Worst& worst) { return fmt::format("{}({:.17g})", worst.is_cosine ? "cos" : "sin", worst.angle); }
+std::string place(const Worst& worst) {
+    return fmt::format("{}({:.17g})", worst.is_cosine ? "cos" : "sin", worst.angle);
+}
 
-/// Prints a row; false where it is not as it must be. Sines of which none is off by half an ulp have not been looked at.
+/// Prints a row; false where it is not as it must be. Sines of which none is off by half an ulp have not been
+/// looked at.
 bool report(const Way& way, const Verdict& verdict) {
-    fmt::print("{:<16} {:<8} {:>7} {:>12.4f}   {}\n", way.target, way.is_pack ? "in packs" : "a state", way.angles(), verdict.near.error, place(verdict.near));
-    if (verdict.wrong > 0) fmt::print("  {} angles give what they must not, {:.17g} among them\n", verdict.wrong, verdict.wrong_angle);
+    fmt::print("{:<16} {:<8} {:>7} {:>12.4f}   {}\n", way.target, way.is_pack ? "in packs" : "a state",
+               way.angles(), verdict.near.error, place(verdict.near));
+    if (verdict.wrong > 0)
+        fmt::print("  {} angles give what they must not, {:.17g} among them\n", verdict.wrong,
+                   verdict.wrong_angle);
     return verdict.wrong == 0 && verdict.near.error <= allowed && verdict.near.error > rounding;
 }
 
@@ -224,7 +241,8 @@ int main(int argc, char** argv) try {
     if (memory == MAP_FAILED) throw std::runtime_error("no memory for the workers' results");
     Board& board = *new (memory) Board();
     std::vector<pid_t> workers;
-    const unsigned count = std::clamp(std::thread::hardware_concurrency(), 1U, static_cast<unsigned>(most_workers));
+    const unsigned count =
+        std::clamp(std::thread::hardware_concurrency(), 1U, static_cast<unsigned>(most_workers));
     for (unsigned w = 0; w < count; ++w) {
         const pid_t worker = fork();
         if (worker < 0) throw std::runtime_error("cannot start a worker");
@@ -239,7 +257,8 @@ int main(int argc, char** argv) try {
     if (!attend(workers, board, chunks)) throw std::runtime_error("a worker was lost");
 
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    fmt::print("{} angles, {} of them hard ones; {:.0f} s on {} processors\n\n", chunks * chunk, hard.size(), seconds.count(), count);
+    fmt::print("{} angles, {} of them hard ones; {:.0f} s on {} processors\n\n", chunks * chunk, hard.size(),
+               seconds.count(), count);
     fmt::print("{:<16} {:<8} {:>7} {:>12}   at\n", "compiled for", "", "at once", "worst, ulp");
     bool is_right = true;
     Verdict all;
@@ -249,8 +268,9 @@ int main(int argc, char** argv) try {
         is_right = report(ways[way], verdict) && is_right;
         all.meet(verdict);
     }
-    fmt::print("\nrequired: at most {} ulp up to 1e8 ({:.4f}), beyond libm's own bits (its worst: {:.4f} ulp, {}): {}\n", allowed, all.near.error,
-               all.far.error, place(all.far), is_right ? "holds" : "FAILS");
+    fmt::print(
+        "\nrequired: at most {} ulp up to 1e8 ({:.4f}), beyond libm's own bits (its worst: {:.4f} ulp, {}): {}\n",
+        allowed, all.near.error, all.far.error, place(all.far), is_right ? "holds" : "FAILS");
     return is_right ? 0 : 1;
 } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";

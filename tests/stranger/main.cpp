@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The whole way from a scene to its equations and its motion with the installed library, in a program of somebody else: a ball
-// that bounces. Prints the equation of motion in LaTeX, the times of the first two impacts and the estimated error.
+// The whole way from a scene to its equations and its motion with the installed library, in a program of somebody
+// else: a ball that bounces. Prints the equation of motion in LaTeX, the times of the first two impacts and the
+// estimated error.
 #include <alembert/derive/derive.hpp>
 #include <alembert/notation/latex.hpp>
 #include <alembert/run/simulate.hpp>
@@ -23,7 +24,8 @@ position = [0, "y"]
 name = "floor"
 gap = "y"
 restitution = 0.5
-)toml", "ball.toml");
+)toml",
+                                    "ball.toml");
 
     const DerivedScene d = derive(scene);
     const ReadableEquation& equation = d.shown.equations.at(0);
