@@ -21,11 +21,14 @@ struct ImportOptions {
 
 int run(const ImportOptions& options) {
     const std::string file = std::filesystem::path(options.robot).filename().string();
+    const Robot robot = read_robot(options.robot);
     const RobotScene scene =
-        robot_scene(read_robot(options.robot),
-                    {.source = file, .floating = options.floating, .quaternion = options.quaternion});
+        robot_scene(robot, {.source = file, .floating = options.floating, .quaternion = options.quaternion});
     parse_scene(scene.text, options.output);  // what it refuses is not written
     write_file(options.output, scene.text, {options.robot});
+    for (const Diagnostic& remark : robot.remarks)
+        std::cerr << fmt::format("{}:{}:{}: warning: {}\n", options.robot, remark.place.line, remark.place.column,
+                                 escaped(remark.message, 300));
     for (const std::string& sentence : scene.notes)
         std::cerr << fmt::format("{}: note: {}\n", options.robot, escaped(sentence, 300));
     for (const Robot::Dropped& dropped : scene.dropped)
@@ -40,6 +43,9 @@ int run(const ImportOptions& options) {
         result["merged"] = scene.merged;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
+        result["warnings"] = Json::array();
+        for (const Diagnostic& remark : robot.remarks)
+            result["warnings"].push_back({{"line", remark.place.line}, {"message", remark.message}});
         show(result);
         return 0;
     }

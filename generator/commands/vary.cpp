@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "alembert/error.hpp"
+#include "commands/verb.hpp"
 
 namespace alembert {
 
@@ -15,8 +16,7 @@ namespace {
 
 constexpr std::size_t most_points = 1'000'000;
 
-template <typename Number>
-bool read(std::string_view text, Number& value) {
+bool read(std::string_view text, long& value) {
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
     return failure == std::errc() && end == text.data() + text.size();
@@ -36,9 +36,14 @@ Axis axis_of(const std::string& item) {
     Axis axis{.name = item.substr(0, equals)};
     const std::string_view from = range.substr(0, first), to = range.substr(first + 1, second - first - 1),
                            count = range.substr(second + 1);
-    for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}})
-        if (!read(text, *value) || !std::isfinite(*value))
+    for (const auto& [text, value] : {std::pair{from, &axis.from}, std::pair{to, &axis.to}}) {
+        try {
+            *value = number_of(std::string(text));
+        } catch (const ModelError&) {
             throw wrong(fmt::format("'{}' is no finite number", text));
+        }
+        if (!std::isfinite(*value)) throw wrong(fmt::format("'{}' is no finite number", text));
+    }
     long number = 0;
     if (!read(count, number)) throw wrong(fmt::format("the count '{}' is no whole number", count));
     if (number < 1) throw wrong(fmt::format("a count of {} leaves nothing to do", number));

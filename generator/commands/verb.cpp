@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "formalism/formalisms.hpp"
+#include "model/constant.hpp"
 
 namespace alembert {
 
@@ -43,7 +44,9 @@ void add_reactions_option(CLI::App& verb, bool& reactions) {
 }
 
 void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
-    verb.add_option("--at", at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    verb.add_option("--at", at,
+                    "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t; the value a number or an "
+                    "expression such as pi/2");
 }
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
@@ -56,19 +59,28 @@ Overrides overrides_of(const std::vector<std::string>& at) {
     Overrides result;
     for (const std::string& item : at) {
         const std::size_t equals = item.find('=');
-        std::size_t used = 0;
-        double value = 0;
+        if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
+            throw ModelError(fmt::format(
+                "--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item));
         try {
-            value = std::stod(item.substr(equals + 1), &used);
-        } catch (const std::exception&) {
-            used = 0;
+            result.emplace_back(item.substr(0, equals), number_of(item.substr(equals + 1)));
+        } catch (const ModelError& mistake) {
+            throw ModelError(fmt::format(
+                "--at {}: {}; expected NAME=VALUE with a number, as in --at theta1=0.3 or --at theta1=pi/2", item,
+                mistake.what()));
         }
-        if (equals == std::string::npos || equals == 0 || used == 0 || used != item.size() - equals - 1)
-            throw ModelError(
-                fmt::format("--at {}: expected NAME=VALUE with a number, as in --at theta1=0.3", item));
-        result.emplace_back(item.substr(0, equals), value);
     }
     return result;
+}
+
+double number_of(const std::string& text) {
+    std::size_t used = 0;
+    try {
+        const double value = std::stod(text, &used);
+        if (used == text.size()) return value;
+    } catch (const std::exception&) {
+    }
+    return constant_number(text);
 }
 
 }  // namespace alembert

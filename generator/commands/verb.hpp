@@ -55,6 +55,10 @@ void add_verbs(CLI::App& app, Chosen& chosen);
 /// --at NAME=VALUE, any number of times. Throws ModelError for what is not of this form.
 Overrides overrides_of(const std::vector<std::string>& at);
 
+/// A number as typed, or an expression of numbers and pi (model/constant.hpp). Throws ModelError for anything
+/// else.
+double number_of(const std::string& text);
+
 /// CLI11's own validators let NaN pass, and tell the range in 309 digits.
 CLI::Validator positive_number();
 CLI::Validator nonnegative_number();

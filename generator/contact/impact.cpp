@@ -9,6 +9,7 @@
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "program/rounding.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -105,8 +106,10 @@ private:
 
     void find_broken(Impact& result) const {
         const std::vector<int> velocity = program_.nodes_of(Group::velocity);
+        const std::vector<double> rounded = rounding_errors(program_, result.start.state());
         for (std::size_t k = 0; k < velocity.size(); ++k)
-            if (std::abs(value_[velocity[k]]) > closed * size_of_terms(program_, velocity[k], value_))
+            if (std::abs(value_[velocity[k]]) >
+                closed * size_of_terms(program_, velocity[k], value_) + rounded[velocity[k]])
                 result.imposed.push_back(m_.constraints[k].name);
     }
 

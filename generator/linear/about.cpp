@@ -10,6 +10,7 @@
 #include "formalism/elements.hpp"
 #include "linear/linearize_symbolic.hpp"
 #include "lower/lower.hpp"
+#include "model/constant.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "state/assemble.hpp"
@@ -28,7 +29,7 @@ std::vector<GiNaC::ex> starts(const Mechanism& m, const LinearizeOptions& option
     std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
     for (const auto& [name, number] : options.exact_at)
         for (int i = 0; i < m.size(); ++i)
-            if (m.q[i].get_name() + prime == name) values[i] = exact_number(number);
+            if (m.q[i].get_name() + prime == name) values[i] = constant_value(number);
     return values;
 }
 

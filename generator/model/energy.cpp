@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/energy.hpp"
 
+#include <algorithm>
+
 #include "symbolic/fourier.hpp"
 #include "symbolic/nonzero.hpp"
 
@@ -21,6 +23,19 @@ std::vector<GiNaC::symbol> clock(const Mechanism& m) {
     for (const Mechanism::Input& input : m.inputs)
         symbols.insert(symbols.end(), input.derivative.begin(), input.derivative.end());
     return symbols;
+}
+
+/// A frame that turns at a given rate leaves T₁ and T₀ in T even where t itself cancels from T (a gyrocompass), so
+/// that the question is put to the places, not to T.
+bool places_depend_on_time(const Mechanism& m) {
+    const std::vector<GiNaC::symbol> time = clock(m);
+    const auto depends = [&](const Vector3& v) {
+        return std::any_of(v.begin(), v.end(), [&](const ex& x) { return m.z->depends(x, time); });
+    };
+    return std::any_of(m.masses.begin(), m.masses.end(), [&](const MassElement& body) {
+        return depends(body.position) ||
+               (body.rotation && std::any_of(body.rotation->axes.begin(), body.rotation->axes.end(), depends));
+    });
 }
 
 }  // namespace
@@ -65,8 +80,7 @@ Energy energy_of(const Mechanism& m) {
         result.energy = z.name(result.kinetic + result.potential);
         const bool bodies_alone =
             !m.kinetic.empty() && m.kinetic.back().origin.kind != Origin::Kind::given_kinetic;
-        const bool scleronomic = bodies_alone && !z.depends(result.kinetic, clock(m));
-        if (!scleronomic) extra = z.name(2 * result.kinetic - pq);
+        if (!bodies_alone || places_depend_on_time(m)) extra = z.name(2 * result.kinetic - pq);
         if (is_identically_zero(extra, m)) extra = 0;
     }
 

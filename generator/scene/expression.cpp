@@ -184,10 +184,18 @@ private:
 
     Operand primary() {
         if (now().kind == Token::Kind::number) return number();
-        if (now().kind == Token::Kind::name)
-            return Words::is(words_.ahead(1), '(') || find_function(words_.word(now())) ? call() : name();
+        if (now().kind == Token::Kind::name) return is_call() ? call() : name();
         if (at('(')) return parenthesis();
         refuse_missing_operand(words_);
+    }
+
+    /// Of a name that may be a quantity's too, a parenthesis makes a function, behind primes as well (which are
+    /// refused then; x'(-) is no call).
+    bool is_call() const {
+        const std::string word = words_.word(now());
+        if (is_reserved_function(word) || Words::is(words_.ahead(1), '(')) return true;
+        return find_function(word) != nullptr && words_.ahead(1).kind == Token::Kind::primes &&
+               Words::is(words_.ahead(2), '(') && !Words::is(words_.ahead(3), '-');
     }
 
     Operand number() {

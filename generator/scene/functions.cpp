@@ -50,6 +50,11 @@ const Function* find_function(std::string_view name) {
     return nullptr;
 }
 
+bool is_reserved_function(std::string_view name) {
+    const Function* const function = find_function(name);
+    return function != nullptr && function->takes == Takes::scalars;
+}
+
 const std::vector<std::string>& function_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;

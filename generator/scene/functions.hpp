@@ -19,4 +19,8 @@ struct Function {
 /// Null where there is no such function.
 const Function* find_function(std::string_view name);
 
+/// Functions of numbers keep their names for themselves. Those of the geometry (omega, ex, pos …) are functions
+/// only before a parenthesis; elsewhere the name is free for a parameter, a coordinate or a definition.
+bool is_reserved_function(std::string_view name);
+
 }  // namespace alembert

@@ -38,7 +38,7 @@ bool is_reserved(const std::string& name, Kind kind) {
         case Kind::body:
             return name == "N" || name == "O";
         default:
-            return name == "t" || name == "pi" || find_function(name) != nullptr;
+            return name == "t" || name == "pi" || is_reserved_function(name);
     }
 }
 

@@ -258,6 +258,8 @@ void Quantities::meet_unknown(Context& context, const Tree& tree) {
             fmt::format("; {} is {}, whose position is pos({})", tree.text, described(other->kind), tree.text);
     } else if (const Declared* const frame = NameSpaces::find(names_.frames, tree.text)) {
         message += fmt::format("; {} is {}, not a number", tree.text, described(frame->kind));
+    } else if (const Function* const function = find_function(tree.text)) {
+        message += fmt::format("; the function needs its argument in parentheses: {}", function->usage);
     } else {
         message += suggestion(tree.text, values_);
     }

@@ -13,6 +13,7 @@
 
 #include "alembert/dense.hpp"
 #include "lower/lower.hpp"
+#include "program/rounding.hpp"
 
 namespace alembert {
 
@@ -154,10 +155,12 @@ private:
 
     /// `solved`: x is what a linear system gave.
     void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed, bool solved) const {
-        const std::vector<double> value = interpret(p_, start_.state());
+        const std::vector<double> value = interpret(p_, start_.state()),
+                                  rounded = rounding_errors(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0))
+            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0) +
+                              rounded[nodes[k]])
                 continue;
             if (!std::isfinite(misfit))
                 throw ModelError(

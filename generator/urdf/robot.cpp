@@ -9,10 +9,11 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <sstream>
 
-#include "alembert/inertia.hpp"
 #include "scene/text.hpp"
 #include "scene/text_file.hpp"
+#include "urdf/elements.hpp"
 
 namespace alembert {
 
@@ -33,7 +34,7 @@ public:
 
 class Reader {
 public:
-    Reader(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+    Reader(const std::string& text, const std::string& file) : text_(text), elements_(file) {}
 
     Robot read() {
         check_depth();
@@ -48,42 +49,69 @@ public:
                    fmt::format("the outermost element is {}; expected <robot>",
                                root != nullptr ? shown(*root) : "missing"));
         refuse_macros(*root);
-        Complaints complaints;
-        model_ = urdf::parseURDF(text_);
-        if (!model_)
-            refuse({}, fmt::format("urdfdom refuses it: {}", complaints.said.empty()
-                                                                 ? "no reason given"
-                                                                 : escaped(complaints.said.front(), 300)));
-        robot_.name = model_->getName();
         for (const TiXmlElement* e = root->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
             const std::string& tag = e->ValueStr();
             if (tag == "link")
                 add_link(*e);
-            else if (tag != "joint")
+            else if (tag == "joint")
+                read_joint(*e);
+            else
                 drop(fmt::format("<{}>", tag), named(*e));
         }
+        check_by_urdfdom(*root);
+        robot_.name = model_->getName();
+        if (model_->links_.size() > robot_.links.size()) {  // the world, which urdfdom was given besides
+            link_of_["world"] = static_cast<int>(robot_.links.size());
+            robot_.links.push_back({.name = "world", .place = {}});
+        }
+        auto numbers = joints_read_.begin();
         for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr;
              e = e->NextSiblingElement("joint"))
-            add_joint(*e);
+            add_joint(*e, std::move(*numbers++));
         for (const TiXmlElement* e = root->FirstChildElement("joint"); e != nullptr;
              e = e->NextSiblingElement("joint"))
             add_mimic(*e);
         check_tree();
         for (Robot::Joint& joint : robot_.joints) resolve(joint);
+        robot_.remarks = elements_.remarks();
         return std::move(robot_);
     }
 
 private:
-    [[noreturn]] void refuse(const Place& place, const std::string& why) const {
-        const std::string where = place.line > 0 ? fmt::format(":{}:{}", place.line, place.column) : "";
-        throw SceneError(fmt::format("{}{}: {}", file_, where, why), {{place, why}});
-    }
-    static Place place_of(const TiXmlElement& e) { return {e.Row(), e.Column()}; }
-    static std::string shown(const TiXmlElement& e) { return "<" + escaped(e.ValueStr()) + ">"; }
+    [[noreturn]] void refuse(const Place& place, const std::string& why) const { elements_.refuse(place, why); }
+    static Place place_of(const TiXmlElement& e) { return Elements::place_of(e); }
+    /// As urdfdom is given it (checkable): one blank between words.
     static std::string named(const TiXmlElement& e) {
         for (const char* key : {"name", "reference"})
-            if (const char* value = e.Attribute(key)) return value;
+            if (const char* value = e.Attribute(key)) {
+                std::istringstream words(value);
+                std::string name;
+                for (std::string word; words >> word;) name += (name.empty() ? "" : " ") + word;
+                return name;
+            }
         return "";
+    }
+    /// Refuses what urdfdom complains of, at the link or joint whose name it says.
+    void check_by_urdfdom(const TiXmlElement& root) {
+        TiXmlPrinter printer;
+        checkable(document_, elements_).Accept(&printer);
+        Complaints complaints;
+        model_ = urdf::parseURDF(printer.Str());
+        if (model_ && complaints.said.empty()) return;
+        const std::string said = complaints.said.empty() ? "no reason given" : complaints.said.front();
+        Place place{};
+        for (const TiXmlElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement())
+            if (const std::string name = named(*e); place.line == 0 && !name.empty() &&
+                                                    (said.find("[" + name + "]") != std::string::npos ||
+                                                     said.find("'" + name + "'") != std::string::npos))
+                place = place_of(*e);
+        refuse(place, fmt::format("urdfdom refuses it: {}", escaped(said, 300)));
+    }
+    void drop_unknown(const TiXmlElement& e, const std::string& of) {
+        for (const std::string& what : elements_.unknown_attributes(e)) drop(what, of);
+        for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement())
+            drop_unknown(*child, of);
     }
     void drop(const std::string& what, const std::string& of) {
         auto found = std::find_if(robot_.dropped.begin(), robot_.dropped.end(),
@@ -125,32 +153,6 @@ private:
             refuse_macros(*child);
     }
 
-    double finite(double value, const TiXmlElement& e, const char* what) const {
-        if (!std::isfinite(value))
-            refuse(place_of(e), fmt::format("{} of {} is not finite", what, in_quotes(named(e))));
-        return value;
-    }
-    Real3 finite(const urdf::Vector3& v, const TiXmlElement& e, const char* what) const {
-        return {finite(v.x, e, what), finite(v.y, e, what), finite(v.z, e, what)};
-    }
-
-    /// Angles as they are written: urdfdom keeps a quaternion.
-    RobotPose pose(const urdf::Pose& known, const TiXmlElement* inside, const TiXmlElement& owner) const {
-        RobotPose result{.shift = finite(known.position, owner, "the origin")};
-        const TiXmlElement* origin = inside != nullptr ? inside->FirstChildElement("origin") : nullptr;
-        if (const char* angles = origin != nullptr ? origin->Attribute("rpy") : nullptr) {
-            urdf::Vector3 rpy;
-            try {
-                rpy.init(angles);
-            } catch (const urdf::ParseError&) {
-                refuse(place_of(*origin),
-                       fmt::format("rpy=\"{}\"; expected three numbers, roll, pitch and yaw", escaped(angles)));
-            }
-            result.rpy = finite(rpy, owner, "the origin's rpy");
-        }
-        return result;
-    }
-
     void add_link(const TiXmlElement& e) {
         Robot::Link link;
         link.name = named(e);
@@ -158,59 +160,65 @@ private:
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement())
             if (child->ValueStr() != "inertial") drop(fmt::format("<{}>", child->ValueStr()), link.name);
-        if (const auto inertial = model_->getLink(link.name)->inertial) {
-            const RobotPose at = pose(inertial->origin, e.FirstChildElement("inertial"), e);
-            link.mass = finite(inertial->mass, e, "the mass");
-            if (link.mass < 0)
-                refuse(link.place, fmt::format("the mass of link {} is {}; expected zero or more",
-                                               in_quotes(link.name), link.mass));
-            link.centre = at.shift;
-            const Real33 own =
-                inertia_matrix<double>({finite(inertial->ixx, e, "ixx"), finite(inertial->iyy, e, "iyy"),
-                                        finite(inertial->izz, e, "izz"), finite(inertial->ixy, e, "ixy"),
-                                        finite(inertial->iyz, e, "iyz"), finite(inertial->ixz, e, "ixz")});
-            link.inertia = turned<double>(own, at.rotation());
-            if (const PrincipalAxes<> principal = principal_axes<double>(own); has_negative_moment(principal))
-                refuse(link.place, fmt::format("the principal moments of inertia of link {}, {:.6g}, {:.6g} and "
-                                               "{:.6g}, are not all zero or more",
-                                               in_quotes(link.name), principal.moments[0], principal.moments[1],
-                                               principal.moments[2]));
+        if (const TiXmlElement* const inertial = elements_.only(e, "inertial")) {
+            elements_.read_inertial(*inertial, link);
+            drop_unknown(*inertial, link.name);
         }
         link_of_[link.name] = static_cast<int>(robot_.links.size());
         robot_.links.push_back(std::move(link));
     }
 
-    void add_joint(const TiXmlElement& e) {
-        const urdf::JointConstSharedPtr known = model_->getJoint(named(e));
+    /// Its numbers; type, parent and child come from urdfdom.
+    void read_joint(const TiXmlElement& e) {
+        Robot::Joint joint{.name = named(e),
+                           .place = place_of(e),
+                           .type = Robot::Type::fixed,
+                           .parent = -1,
+                           .child = -1,
+                           .at = elements_.pose(elements_.only(e, "origin")),
+                           .axis = Real3::UnitX()};
+        if (const TiXmlElement* const axis = elements_.only(e, "axis"))
+            joint.axis = elements_.three(*axis, "xyz", Real3::Zero());
+        if (const TiXmlElement* const dynamics = elements_.only(e, "dynamics")) {
+            joint.damping = elements_.number(*dynamics, "damping").value_or(0);
+            if (joint.damping < 0)
+                refuse(joint.place, fmt::format("the damping of joint {} is {}; expected zero or more",
+                                                in_quotes(joint.name), joint.damping));
+            if (elements_.number(*dynamics, "friction").value_or(0) != 0)
+                drop("Coulomb friction, <dynamics friction=…>", joint.name);
+        }
+        if (const TiXmlElement* const limit = elements_.only(e, "limit"))
+            if (limit->Attribute("lower") != nullptr || limit->Attribute("upper") != nullptr)
+                joint.limits = {elements_.number(*limit, "lower").value_or(0),
+                                elements_.number(*limit, "upper").value_or(0)};
+        if (const TiXmlElement* const mimic = elements_.only(e, "mimic"))
+            joint.mimic = Robot::Mimic{-1, elements_.number(*mimic, "multiplier").value_or(1),
+                                       elements_.number(*mimic, "offset").value_or(0)};
+        for (const char* tag : {"parent", "child"}) elements_.only(e, tag);
+        drop_unknown(e, joint.name);
+        joints_read_.push_back(std::move(joint));
+    }
+
+    void add_joint(const TiXmlElement& e, Robot::Joint joint) {
+        const urdf::JointConstSharedPtr known = model_->getJoint(joint.name);
         using Known = urdf::Joint;
         const std::map<int, Robot::Type> types{
             {Known::REVOLUTE, Robot::Type::revolute},   {Known::CONTINUOUS, Robot::Type::continuous},
             {Known::PRISMATIC, Robot::Type::prismatic}, {Known::FLOATING, Robot::Type::floating},
             {Known::PLANAR, Robot::Type::planar},       {Known::FIXED, Robot::Type::fixed}};
-        Robot::Joint joint{.name = known->name,
-                           .place = place_of(e),
-                           .type = types.at(known->type),
-                           .parent = link_of_.at(known->parent_link_name),
-                           .child = link_of_.at(known->child_link_name),
-                           .at = pose(known->parent_to_joint_origin_transform, &e, e),
-                           .axis = finite(known->axis, e, "the axis")};
+        joint.type = types.at(known->type);
+        joint.parent = link_of_.at(known->parent_link_name);
+        joint.child = link_of_.at(known->child_link_name);
+        const bool is_hinge = joint.type == Robot::Type::revolute || joint.type == Robot::Type::prismatic;
         if (joint.type == Robot::Type::fixed || joint.type == Robot::Type::floating)
             joint.axis = Real3::UnitX();
         else if (joint.axis.norm() == 0)
             refuse(joint.place,
                    fmt::format("the axis of joint {} is zero; expected a direction", in_quotes(joint.name)));
-        if (known->dynamics) {
-            joint.damping = finite(known->dynamics->damping, e, "the damping");
-            if (joint.damping < 0)
-                refuse(joint.place, fmt::format("the damping of joint {} is {}; expected zero or more",
-                                                in_quotes(joint.name), joint.damping));
-            if (known->dynamics->friction != 0) drop("Coulomb friction, <dynamics friction=…>", joint.name);
-            if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
-                                       joint.type == Robot::Type::fixed))
-                drop("damping of a floating, planar or fixed joint", joint.name);
-        }
-        if (known->limits && (joint.type == Robot::Type::revolute || joint.type == Robot::Type::prismatic))
-            joint.limits = {known->limits->lower, known->limits->upper};
+        if (joint.damping != 0 && (joint.type == Robot::Type::floating || joint.type == Robot::Type::planar ||
+                                   joint.type == Robot::Type::fixed))
+            drop("damping of a floating, planar or fixed joint", joint.name);
+        if (!is_hinge) joint.limits.reset();
         for (const TiXmlElement* child = e.FirstChildElement(); child != nullptr;
              child = child->NextSiblingElement()) {
             const std::string& tag = child->ValueStr();
@@ -231,7 +239,7 @@ private:
     void add_mimic(const TiXmlElement& e) {
         Robot::Joint& joint = robot_.joints[static_cast<std::size_t>(joint_of_.at(named(e)))];
         const auto mimic = model_->getJoint(joint.name)->mimic;
-        if (!mimic || joint.type == Robot::Type::fixed) return;
+        if (!mimic || joint.type == Robot::Type::fixed) return joint.mimic.reset();
         const auto found = joint_of_.find(mimic->joint_name);
         if (found == joint_of_.end())
             refuse(joint.place, fmt::format("joint {} mimics {}, which is no joint of this robot",
@@ -244,8 +252,7 @@ private:
                        fmt::format("joint {} mimics {}: joint {} has more than one coordinate; expected revolute, "
                                    "continuous or prismatic joints",
                                    in_quotes(joint.name), in_quotes(mimic->joint_name), in_quotes(both->name)));
-        joint.mimic = Robot::Mimic{found->second, finite(mimic->multiplier, e, "the multiplier of <mimic>"),
-                                   finite(mimic->offset, e, "the offset of <mimic>")};
+        joint.mimic->joint = found->second;
     }
 
     /// Who mimics a follower follows its leader; who mimics a fixed joint stands still.
@@ -277,10 +284,11 @@ private:
     }
 
     const std::string& text_;
-    std::string file_;
+    Elements elements_;
     TiXmlDocument document_;
     urdf::ModelInterfaceSharedPtr model_;
     Robot robot_;
+    std::vector<Robot::Joint> joints_read_;
     std::map<std::string, int> link_of_, joint_of_;
 };
 

@@ -10,8 +10,7 @@
 /// A link's frame is that of the joint above it. A joint's frame stands in its parent link by `at`; its axis is in
 /// its own frame. Roll, pitch and yaw turn about the parent's fixed axes x, y, z: R = R_z(yaw) R_y(pitch)
 /// R_x(roll). Inertias are turned into the link's frame, about the mass centre. Metres, kilograms, radians.
-/// (urdfdom checks and reads; the file's order, the angles as they are written and the elements that it does not
-/// know are read beside it.)
+/// (urdfdom checks names, types and the tree; numbers are read beside it, strictly: elements.hpp.)
 
 #include <array>
 #include <optional>
@@ -71,6 +70,7 @@ struct Robot {
     std::vector<Joint> joints;
     int root = 0;  ///< in `links`
     std::vector<Dropped> dropped;
+    std::vector<Diagnostic> remarks;  ///< what was completed or is odd, with its place
 };
 
 /// Throws SceneError for what is no URDF, for links and joints that are no tree, and for values that no body has.

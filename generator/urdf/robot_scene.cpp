@@ -50,7 +50,7 @@ public:
             name += fits || is_digit(c) ? encode(c) : "_";
         }
         if (name.empty()) name = "unnamed";
-        while (!taken_.insert(name).second || find_function(name) != nullptr) name += "_";
+        while (!taken_.insert(name).second || is_reserved_function(name)) name += "_";
         return name;
     }
 
@@ -185,6 +185,14 @@ private:
         for (const int i : heavy)
             group.inertia += moved_from_centre<double>(turned<double>(link(i).inertia, seat(i).R), link(i).mass,
                                                        centre(i) - group.centre);
+        if (const PrincipalAxes<> own = principal_axes<double>(group.inertia);
+            !group.ground && has_negative_moment(own))
+            throw ModelError(fmt::format(
+                "link {}{} has the principal moments of inertia {:.6g}, {:.6g} and {:.6g}, which are not all zero "
+                "or "
+                "more; no body has them",
+                in_quotes(link(group.top).name), group.links.size() > 1 ? ", with all that is fixed to it," : "",
+                own.moments[0], own.moments[1], own.moments[2]));
     }
 
     void leave_out_massless() {
