@@ -9,4 +9,9 @@ namespace alembert {
 Json as_json(const Agreed& agreed);
 std::string as_text(const Agreed& agreed);
 
+/// In a sentence.
+std::string how_it_was_proved(const Agreement& agreement);
+/// "proved".
+const char* name_of(Agreement::Verdict verdict);
+
 }  // namespace alembert
