@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/run_verb.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 
 namespace alembert {
@@ -17,6 +22,26 @@ void add_run_options(CLI::App& verb, RunVerb& options) {
     verb.add_option("-o,--output", options.output, "CSV file");
     verb.add_option("--budget", w.budget, "right-hand sides at the most")->check(positive_number());
     verb.add_flag("--fast-math", w.fast_math, "let the compiler reorder sums");
+}
+
+void add_show_option(CLI::App& verb, std::string& list, const std::string& picture) {
+    verb.add_option("--show", list, "with " + picture + ": what to draw, as in theta1,theta1',energy")
+        ->needs(picture);
+}
+
+std::vector<std::string> shown_names(const std::string& list) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; !list.empty() && begin <= list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        std::string name = list.substr(begin, end - begin);
+        name.erase(0, name.find_first_not_of(' '));
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (name.empty())
+            throw ModelError(fmt::format("--show {}: expected names with commas between, as in --show x,y", list));
+        names.push_back(name);
+        begin = end + 1;
+    }
+    return names;
 }
 
 }  // namespace alembert

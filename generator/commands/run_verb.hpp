@@ -16,4 +16,10 @@ struct RunVerb : SceneOptions {
 /// --duration, --tolerance, --method, --step, --max-step, -o, --budget, --fast-math.
 void add_run_options(CLI::App& verb, RunVerb& options);
 
+/// --show NAME,NAME…: what a picture shows; refused without the option `picture`, which must be there already.
+void add_show_option(CLI::App& verb, std::string& list, const std::string& picture);
+
+/// "theta1, energy" as names; none where it is empty. Throws ModelError where there is no name between commas.
+std::vector<std::string> shown_names(const std::string& list);
+
 }  // namespace alembert

@@ -9,6 +9,7 @@
 #include "commands/show.hpp"
 #include "commands/vary.hpp"
 #include "report/sweep.hpp"
+#include "report/sweep_plot.hpp"
 
 namespace alembert {
 
@@ -17,19 +18,24 @@ namespace {
 struct SweepVerb : RunVerb {
     std::vector<std::string> vary;
     int threads = 0;
+    std::string svg;   ///< a picture; empty: none
+    std::string show;  ///< names of what it shows, with commas; empty: the coordinates
 };
 
 int run(const SweepVerb& verb) {
-    check_output(verb.output, {verb.scene});
+    for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene});
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
+    wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     const Grid grid = grid_of(verb.vary);
+    if (!verb.svg.empty()) need_pictured(grid);
     const Sweep swept = sweep(read_scene(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(swept), {verb.scene});
+    if (!verb.svg.empty()) write_file(verb.svg, sweep_plot(swept, wishes.columns), {verb.scene});
     if (verb.json) {
         Json result = as_json(swept);
         if (!verb.output.empty())
@@ -63,6 +69,8 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                 ->required();
             verb.add_option("--threads", options.threads, "as many as there are cores where it is missing")
                 ->check(CLI::Range(1, 1024));
+            verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, a map over two");
+            add_show_option(verb, options.show, "--svg");
         });
 }
 

@@ -74,6 +74,11 @@ public:
                     });
         modes.take_free(std::move(program));
         const LoadedMode& free = modes({});
+        if (wishes_.reactions && !run_.mechanism.joints.empty())
+            reactions_ = joint_reactions(run_.scene, run_.mechanism);
+        std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
+        columns.erase(columns.begin());  // t is the other axis of a picture
+        check_columns(columns, wishes_.columns);
         options_.quick_times =
             quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
@@ -95,6 +100,8 @@ private:
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
     }
+
+    const JointReactions* reactions() const { return reactions_ ? &*reactions_ : nullptr; }
 
     void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state,
               std::span<const double> rate) const {
@@ -195,9 +202,7 @@ private:
         free.contact.rhs(run_.motion.final_time(), end.data(), rates.data());
         run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
         run_.contacts = contacts_.names;
-        std::optional<JointReactions> reactions;
-        if (wishes_.reactions && !m.joints.empty()) reactions = joint_reactions(run_.scene, m);
-        run_.rows = rows_of(run_.motion, run_, modes, reactions ? &*reactions : nullptr, first_);
+        run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
         if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
     }
 
@@ -220,6 +225,7 @@ private:
     std::optional<KickView> kicks_;
     Contacts contacts_;
     std::vector<double> initial_;
+    std::optional<JointReactions> reactions_;
 };
 
 }  // namespace
