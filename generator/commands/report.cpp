@@ -4,6 +4,7 @@
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "report/scene_page.hpp"
 
 namespace alembert {
@@ -48,16 +49,22 @@ int run(const ReportVerb& verb) {
 }  // namespace
 
 void add_report(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<ReportVerb>(app, chosen, "report", "write one page with all about the scene", run,
-                               [](CLI::App& verb, ReportVerb& options) {
-                                   verb.add_option("-o,--output", options.output, "HTML file")->required();
-                                   verb.add_option("--duration", options.wishes.duration, "seconds from the start")
-                                       ->check(nonnegative_number());
-                                   verb.add_option("--budget", options.wishes.budget,
-                                                   "right-hand sides at the most")
-                                       ->check(positive_number());
-                                   verb.add_flag("!--no-motion", options.moves, "leave the motion out");
-                               });
+    add_scene_verb<ReportVerb>(
+        app, chosen,
+        {.name = "report",
+         .about = "writes one self-contained page with all that is known about the scene",
+         .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
+        run, [](CLI::App& verb, ReportVerb& options) {
+            add_by_option(verb, options.by);
+            verb.add_option("-o,--output", options.output, "the page, HTML")->required()->type_name(values::file);
+            verb.add_option("--duration", options.wishes.duration, "seconds from the start")
+                ->type_name(values::seconds)
+                ->check(nonnegative_number());
+            verb.add_option("--budget", options.wishes.budget, "right-hand sides at the most")
+                ->type_name(values::count)
+                ->check(positive_number());
+            verb.add_flag("!--no-motion", options.moves, "leave the motion out");
+        });
 }
 
 }  // namespace alembert

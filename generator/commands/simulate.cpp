@@ -4,27 +4,37 @@
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "report/motion_plot.hpp"
 #include "report/run.hpp"
 
 namespace alembert {
 
 namespace {
 
-int run(const RunVerb& verb) {
-    check_output(verb.output, {verb.scene});
+struct SimulateVerb : RunVerb {
+    std::string plot;  ///< an SVG file; empty: none
+    std::string show;  ///< names of what it shows, with commas; empty: all
+};
+
+int run(const SimulateVerb& verb) {
+    for (const std::string& file : {verb.output, verb.plot}) check_output(file, {verb.scene});
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
+    wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Run run = simulate(read_scene(verb.scene), wishes);
+    const Run run = simulate(scene_of(verb.scene), wishes);
     progress.wipe();
     warn(run.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows), {verb.scene});
+    if (!verb.plot.empty()) write_file(verb.plot, motion_plot(run, wishes.columns), {verb.scene});
     if (verb.json) {
         show(as_json(run));
     } else {
         show(as_text(run));
-        if (!verb.output.empty()) show("wrote " + verb.output + "\n");
+        for (const std::string& file : {verb.output, verb.plot})
+            if (!file.empty()) show("wrote " + file + "\n");
     }
     if (run.failure) throw IntegrationError(*run.failure, run.motion.failure->time, run.motion.failure->state);
     return 0;
@@ -33,14 +43,23 @@ int run(const RunVerb& verb) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<RunVerb>(
-        app, chosen, "simulate", "emit, compile and integrate", run, [](CLI::App& verb, RunVerb& options) {
-            add_run_options(verb, options);
-            verb.add_option("--sample", options.wishes.sample, "seconds between rows")->check(positive_number());
-            verb.add_flag("!--no-estimate", options.wishes.estimate,
-                          "no second run to estimate the error: half the time");
-            add_reactions_option(verb, options.wishes.reactions);
-        });
+    add_scene_verb<SimulateVerb>(app, chosen,
+                                 {.name = "simulate",
+                                  .about = "emits, compiles and integrates, and says how large the error is",
+                                  .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
+                                 run, [](CLI::App& verb, SimulateVerb& options) {
+                                     add_run_options(verb, options);
+                                     verb.add_option("--sample", options.wishes.sample,
+                                                     "time between rows of the table")
+                                         ->type_name(values::seconds)
+                                         ->check(positive_number());
+                                     verb.add_option("--plot", options.plot, "SVG picture of the motion over time")
+                                         ->type_name(values::file);
+                                     add_show_option(verb, options.show, "--plot");
+                                     verb.add_flag("!--no-estimate", options.wishes.estimate,
+                                                   "no second run to estimate the error: half the time");
+                                     add_reactions_option(verb, options.wishes.reactions);
+                                 });
 }
 
 }  // namespace alembert

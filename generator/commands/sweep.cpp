@@ -7,8 +7,10 @@
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/vary.hpp"
 #include "report/sweep.hpp"
+#include "report/sweep_plot.hpp"
 
 namespace alembert {
 
@@ -17,19 +19,24 @@ namespace {
 struct SweepVerb : RunVerb {
     std::vector<std::string> vary;
     int threads = 0;
+    std::string svg;   ///< a picture; empty: none
+    std::string show;  ///< names of what it shows, with commas; empty: the coordinates
 };
 
 int run(const SweepVerb& verb) {
-    check_output(verb.output, {verb.scene});
+    for (const std::string& file : {verb.output, verb.svg}) check_output(file, {verb.scene});
     RunOptions wishes = verb.wishes;
     wishes.by = verb.by;
+    wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     const Grid grid = grid_of(verb.vary);
-    const Sweep swept = sweep(read_scene(verb.scene), grid, wishes, verb.threads);
+    if (!verb.svg.empty()) need_pictured(grid);
+    const Sweep swept = sweep(scene_of(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(swept), {verb.scene});
+    if (!verb.svg.empty()) write_file(verb.svg, sweep_plot(swept, wishes.columns), {verb.scene});
     if (verb.json) {
         Json result = as_json(swept);
         if (!verb.output.empty())
@@ -54,15 +61,22 @@ int run(const SweepVerb& verb) {
 
 void add_sweep(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SweepVerb>(
-        app, chosen, "sweep", "integrate from many initial states or with many parameters, a row for each", run,
-        [](CLI::App& verb, SweepVerb& options) {
-            add_run_options(verb, options);
+        app, chosen,
+        {.name = "sweep",
+         .about = "integrates from many initial states or with many parameters",
+         .example = "alembert sweep scenes/textbook/double_pendulum.toml --vary theta1=0:3:100"},
+        run, [](CLI::App& verb, SweepVerb& options) {
             verb.add_option("--vary", options.vary,
-                            "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; "
-                            "several make a grid")
+                            "COUNT values of a coordinate, a rate, a parameter or t; several make a grid")
+                ->type_name(values::range)
                 ->required();
-            verb.add_option("--threads", options.threads, "as many as there are cores where it is missing")
-                ->check(CLI::Range(1, 1024));
+            add_run_options(verb, options);
+            verb.add_option("--threads", options.threads, "default: as many as there are cores")
+                ->type_name(values::count)
+                ->check(CLI::Range(1, 1024).description(""));
+            verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, maps over two")
+                ->type_name(values::file);
+            add_show_option(verb, options.show, "--svg");
         });
 }
 

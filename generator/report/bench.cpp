@@ -52,7 +52,7 @@ std::vector<Curve> curves_of(const std::vector<Measured>& runs) {
         if (!run.error) continue;
         const bool peer = run.who != "alembert";
         const std::string name = peer ? run.who + " " + run.method : run.method;
-        if (list.empty() || list.back().name != name) list.push_back({.name = name, .dashed = peer, .points = {}});
+        if (list.empty() || list.back().name != name) list.push_back({.name = name, .points = {}});
         list.back().points.emplace_back(std::max(*run.error, floor_of_doubles), run.seconds);
     }
     return list;

@@ -69,18 +69,13 @@ Json rows_as_json(const Sweep& s) {
 std::string as_csv(const Sweep& s) {
     std::string text;
     for (const Axis& axis : s.grid.axes) text += axis.name + ",";
-    text += "final_t";
-    for (const std::string& q : s.coordinates) text += ",final_" + q;
-    for (const std::string& q : s.coordinates) text += ",final_" + q + "'";
-    for (const std::string& u : s.speeds) text += ",final_" + u;
-    put(text, ",{},steps,rejected,evaluations,status\n", drift_name(s));
+    const std::vector<std::string> columns = end_columns(s);
+    for (const std::string& column : columns) text += (column == columns.back() ? "" : "final_") + column + ",";
+    text += "steps,rejected,evaluations,status\n";
     for (const SweptMotion& m : s.members) {
-        std::vector<double> numbers = m.varied;
-        numbers.push_back(m.time);
-        for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds})
-            numbers.insert(numbers.end(), part->begin(), part->end());
-        for (const double x : numbers) put(text, "{:.17g},", x);
-        put(text, "{:.17g},{},{},{},{}\n", m.drift, m.steps, m.rejected, m.evaluations, quoted(m.status));
+        for (const std::vector<double>& part : {m.varied, end_values(m)})
+            for (const double x : part) put(text, "{:.17g},", x);
+        put(text, "{},{},{},{}\n", m.steps, m.rejected, m.evaluations, quoted(m.status));
     }
     return text;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace alembert {
 
@@ -20,6 +21,8 @@ struct RunOptions {
     bool fast_math = false;    ///< the compiler may reorder sums
     bool estimate = true;      ///< of the error, by a second run
     bool reactions = false;    ///< what joints bear, on every row
+    /// Columns that the table of rows must have: whoever asks for others is told before the motion is integrated.
+    std::vector<std::string> columns = {};
 
     /// Told now and then what is being done and which part of it is over, from 0 to 1.
     std::function<void(std::string_view what, double part)> progress = {};

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "run/rows.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "alembert/error.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -52,7 +55,17 @@ void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode&
     }
 }
 
-std::vector<std::string> columns_of(const Mechanism& m, const Program& program, const JointReactions* reactions) {
+/// Does the next phase begin with the row with which this one ends?
+bool is_continued(const Trajectory& here, const Trajectory& next) {
+    const auto last = here.final_state(), first = next.state(0);
+    return next.times[0] == here.times.back() &&
+           std::equal(last.begin(), last.end(), first.begin(),
+                      [](double a, double b) { return std::abs(a - b) <= 1e-8 * std::max(1.0, std::abs(a)); });
+}
+
+}  // namespace
+
+std::vector<std::string> row_columns(const Mechanism& m, const Program& program, const JointReactions* reactions) {
     std::vector<std::string> columns{"t"};
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name());
     for (const GiNaC::symbol& q : m.q) columns.push_back(q.get_name() + "'");
@@ -69,19 +82,19 @@ std::vector<std::string> columns_of(const Mechanism& m, const Program& program, 
     return columns;
 }
 
-/// Does the next phase begin with the row with which this one ends?
-bool is_continued(const Trajectory& here, const Trajectory& next) {
-    const auto last = here.final_state(), first = next.state(0);
-    return next.times[0] == here.times.back() &&
-           std::equal(last.begin(), last.end(), first.begin(),
-                      [](double a, double b) { return std::abs(a - b) <= 1e-8 * std::max(1.0, std::abs(a)); });
+void check_columns(const std::vector<std::string>& columns, const std::vector<std::string>& wanted) {
+    for (const std::string& name : wanted) {
+        if (std::find(columns.begin(), columns.end(), name) != columns.end()) continue;
+        const std::string meant = nearest(name, columns);
+        throw ModelError(fmt::format("there is no {} to show{}; expected one of {}", in_quotes(name),
+                                     meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
+                                     fmt::join(columns, ", ")));
+    }
 }
-
-}  // namespace
 
 Table rows_of(const PhasedMotion& motion, const Derived& d, Modes& modes, const JointReactions* reactions,
               const State<double>& first) {
-    Table table{.columns = columns_of(d.mechanism, modes({}).program, reactions), .values = {}};
+    Table table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
         const Phase& phase = motion.phases[k];
         std::size_t rows = phase.motion.rows();

@@ -17,10 +17,16 @@ struct Table {
     double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
 };
 
-/// Columns: t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while
-/// open), energy, outputs, the scene's own speeds. Where rates jump there are two rows for one time, before and
-/// after; where they only change their law, one. `reactions` may be null; then JOINT.fx … JOINT.mz are the last
-/// columns, at the parameters of `first`.
+/// t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while open),
+/// energy, outputs, the scene's own speeds, and with `reactions` (it may be null) JOINT.fx … JOINT.mz.
+std::vector<std::string> row_columns(const Mechanism& mechanism, const Program& program,
+                                     const JointReactions* reactions);
+
+/// Throws ModelError for a wanted name that is no column, with the nearest one and all others.
+void check_columns(const std::vector<std::string>& columns, const std::vector<std::string>& wanted);
+
+/// The table with these columns. Where rates jump there are two rows for one time, before and after; where they
+/// only change their law, one. Reactions are at the parameters of `first`.
 Table rows_of(const PhasedMotion& motion, const Derived& derived, Modes& modes, const JointReactions* reactions,
               const State<double>& first);
 

@@ -74,6 +74,11 @@ public:
                     });
         modes.take_free(std::move(program));
         const LoadedMode& free = modes({});
+        if (wishes_.reactions && !run_.mechanism.joints.empty())
+            reactions_ = joint_reactions(run_.scene, run_.mechanism);
+        std::vector<std::string> columns = row_columns(run_.mechanism, free.program, reactions());
+        columns.erase(columns.begin());  // t is the other axis of a picture
+        check_columns(columns, wishes_.columns);
         options_.quick_times =
             quick_times(free.program, start_.parameters, options_.start, options_.start + options_.duration);
         contacts_.on_jump = [&](double t, const double* before, const double* after, double jump) {
@@ -95,6 +100,8 @@ private:
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
     }
+
+    const JointReactions* reactions() const { return reactions_ ? &*reactions_ : nullptr; }
 
     void look(Watch& watch, LoadedMode& mode, double t, std::span<const double> state,
               std::span<const double> rate) const {
@@ -187,7 +194,7 @@ private:
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
         run_.solver = {.formulation = free.source.formulation,
-                       .operations = free.source.operations.total(),
+                       .operations = modes.operations(),
                        .jacobian_operations = free.jacobian_operations,
                        .from_cache = free.from_cache};
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
@@ -202,9 +209,7 @@ private:
         free.contact.rhs(run_.motion.final_time(), end.data(), rates.data());
         run_.final_rates.assign(rates.begin(), rates.begin() + m.size());
         run_.contacts = contacts_.names;
-        std::optional<JointReactions> reactions;
-        if (wishes_.reactions && !m.joints.empty()) reactions = joint_reactions(run_.scene, m);
-        run_.rows = rows_of(run_.motion, run_, modes, reactions ? &*reactions : nullptr, first_);
+        run_.rows = rows_of(run_.motion, run_, modes, reactions(), first_);
         if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
     }
 
@@ -227,6 +232,7 @@ private:
     std::optional<KickView> kicks_;
     Contacts contacts_;
     std::vector<double> initial_;
+    std::optional<JointReactions> reactions_;
 };
 
 }  // namespace
@@ -234,7 +240,7 @@ private:
 Run simulate(Scene scene, const RunOptions& wishes) {
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
-        result.warnings.push_back(
+        result.warn(
             fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
                         "gives those after\n",
                         result.scene.file));

@@ -16,6 +16,7 @@
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
 #include "run/method.hpp"
+#include "run/rows.hpp"
 #include "state/assemble.hpp"
 #include "state/inertia_check.hpp"
 
@@ -87,7 +88,7 @@ void check_bodies_along(Sweep& s) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s.scene, {one});
-            if (told.insert(one.place).second) s.warnings.push_back(describe(s.scene, {one}));
+            if (told.insert(one.place).second) s.warn(describe(s.scene, {one}));
         }
     }
 }
@@ -196,7 +197,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     const Mechanism& m = s.mechanism;
     need_smooth_motion(m);
     if (!m.impulses.empty())
-        s.warnings.push_back(
+        s.warn(
             fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
                         "gives those after\n",
                         s.scene.file));
@@ -211,6 +212,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     for (const Quantity& q : program.coordinates) s.coordinates.push_back(q.name);
     if (!m.speeds.empty())
         for (const Quantity& u : program.speeds) s.speeds.push_back(u.name);
+    check_columns(end_columns(s), wishes.columns);
     const Options options = options_for(s, wishes);
 
     const Source source = emit(program, {.batch = true});
@@ -239,6 +241,23 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     s.threads = ends.threads;
     for (std::size_t k = 0; k < grid.size(); ++k) s.members.push_back(member_of(k, s, program, begin, ends));
     return s;
+}
+
+std::vector<std::string> end_columns(const Sweep& s) {
+    std::vector<std::string> columns{"t"};
+    columns.insert(columns.end(), s.coordinates.begin(), s.coordinates.end());
+    for (const std::string& q : s.coordinates) columns.push_back(q + "'");
+    columns.insert(columns.end(), s.speeds.begin(), s.speeds.end());
+    columns.emplace_back(s.conserved ? "energy_drift" : "work_balance");
+    return columns;
+}
+
+std::vector<double> end_values(const SweptMotion& m) {
+    std::vector<double> values{m.time};
+    for (const auto* part : {&m.final_coordinates, &m.final_rates, &m.final_speeds})
+        values.insert(values.end(), part->begin(), part->end());
+    values.push_back(m.drift);
+    return values;
 }
 
 SweepTotals totals_of(const Sweep& sweep) {

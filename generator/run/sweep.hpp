@@ -42,6 +42,12 @@ struct Sweep : Derived {
 /// matrix is singular.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
+/// What is known of the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and
+/// energy_drift or work_balance.
+std::vector<std::string> end_columns(const Sweep& sweep);
+/// As many numbers.
+std::vector<double> end_values(const SweptMotion& motion);
+
 /// What the whole sweep took, and what came of it.
 struct SweepTotals {
     long steps = 0, rejected = 0, evaluations = 0, failed = 0;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/motion_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/plot_panels.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// What the numbers of a column are. Outputs may be anything, so each is a group of its own, from the last number
+/// on.
+enum Group { coordinate, rate, multiplier, energy, speed, reaction, output };
+
+std::string per_second(const std::string& unit) {
+    return unit.empty() ? "" : unit + "/s";
+}
+
+/// All columns but the time, in the order of row_columns, without their points.
+std::vector<PlottedLine> columns_of(const Run& run) {
+    const Mechanism& m = run.mechanism;
+    std::vector<PlottedLine> result;
+    const auto add = [&](int group, const std::string& unit) {
+        result.push_back(
+            {.name = run.rows.columns[result.size() + 1], .unit = unit, .group = group, .points = {}});
+    };
+    for (const std::string& unit : m.units) add(coordinate, unit);
+    for (const std::string& unit : m.units) add(rate, per_second(unit));
+    for (std::size_t k = 0; k < m.constraints.size() + m.redundant.size() + m.unilateral.size(); ++k)
+        add(multiplier, "");
+    add(energy, "J");
+    for (std::size_t k = 0; k < m.outputs.size(); ++k) add(output + static_cast<int>(k), "");
+    for (const Mechanism::Speed& u : m.speeds) add(speed, u.unit);
+    while (result.size() + 1 < run.rows.columns.size()) {  // JOINT.fx …, three forces and three moments
+        const std::string& name = run.rows.columns[result.size() + 1];
+        add(reaction, name[name.rfind('.') + 1] == 'f' ? "N" : "N m");
+    }
+    return result;
+}
+
+/// The named columns, or all but reactions, with their points.
+std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
+    std::vector<PlottedLine> all = columns_of(run), result;
+    const Table& rows = run.rows;
+    for (std::size_t column = 1; column < rows.columns.size(); ++column)
+        for (std::size_t row = 0; row < rows.rows(); ++row)
+            all[column - 1].points.emplace_back(rows.at(row, 0), rows.at(row, column));
+    if (names.empty()) {
+        std::erase_if(all, [](const PlottedLine& line) { return line.group == reaction; });
+        return all;
+    }
+    for (const std::string& name : names)
+        for (const PlottedLine& one : all)
+            if (one.name == name) result.push_back(one);
+    return result;
+}
+
+/// "event strike at t = 1.2 and 3 more; contact floor: 12 impacts, 1 rest", for the caption.
+std::string account_of(const Run& run) {
+    std::string text;
+    const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+    const std::vector<EventRecord>& events = run.motion.events;
+    for (std::size_t k = 0; k < run.mechanism.events.size(); ++k) {
+        const auto happens = [k](const EventRecord& e) { return e.index == static_cast<int>(k); };
+        const auto first = std::find_if(events.begin(), events.end(), happens);
+        if (first == events.end()) continue;
+        const auto count = std::count_if(events.begin(), events.end(), happens);
+        add(fmt::format("event {} at t = {:.4g}{}", run.mechanism.events[k].name, first->time,
+                        count > 1 ? fmt::format(" and {} more", count - 1) : ""));
+    }
+    for (std::size_t k = 0; k < run.contacts.size(); ++k) {
+        std::string counts;
+        for (const auto& [kind, name] : {std::pair{ContactEvent::Kind::impact, "impact"},
+                                         {ContactEvent::Kind::rest, "rest"},
+                                         {ContactEvent::Kind::release, "release"}}) {
+            const auto count = std::count_if(run.motion.contacts.begin(), run.motion.contacts.end(),
+                                             [&, kind = kind](const ContactEvent& e) {
+                                                 return e.contact == static_cast<int>(k) && e.kind == kind;
+                                             });
+            if (count > 0)
+                counts += fmt::format("{}{} {}{}", counts.empty() ? "" : ", ", count, name, count == 1 ? "" : "s");
+        }
+        if (!counts.empty()) add(fmt::format("contact {}: {}", run.contacts[k], counts));
+    }
+    return text;
+}
+
+/// What happens in time, behind the lines: grey while a contact is closed, thin lines at impacts, dashed ones at
+/// events.
+std::string happenings(const Run& run, const PlotArea& area) {
+    std::string svg, impacts, events;
+    const double top = area.y.end, height = area.y.begin - area.y.end;
+    for (const Phase& phase : run.motion.phases) {
+        if (phase.closed.empty()) continue;
+        const double from = area.x.at(phase.motion.times.front()), to = area.x.at(phase.motion.times.back());
+        svg += fmt::format("<rect x='{:.1f}' y='{:g}' width='{:.1f}' height='{:g}' fill='#f0f0f0'/>", from, top,
+                           to - from, height);
+    }
+    double last = -1;
+    for (const ContactEvent& e : run.motion.contacts) {
+        const double x = area.x.at(e.time);
+        if (e.kind != ContactEvent::Kind::impact || x - last < 1) continue;
+        last = x;
+        impacts += fmt::format("M{:.1f} {:g}v{:g}", x, top, height);
+    }
+    for (const EventRecord& e : run.motion.events)
+        events += fmt::format("M{:.1f} {:g}v{:g}", area.x.at(e.time), top, height);
+    if (!impacts.empty()) svg += fmt::format("<path d='{}' stroke='#bbb' fill='none'/>", impacts);
+    if (!events.empty())
+        svg += fmt::format("<path d='{}' stroke='#777' stroke-dasharray='2 3' fill='none'/>", events);
+    return svg + "\n";
+}
+
+}  // namespace
+
+std::string motion_plot(const Run& run, const std::vector<std::string>& columns) {
+    PlotSheet sheet{.title = run.mechanism.title.empty() ? run.mechanism.name : run.mechanism.title,
+                    .about = fmt::format("Charts over the time until {:.6g} s.", run.motion.final_time())};
+    if (const std::string account = account_of(run); !account.empty()) sheet.captions.push_back(account);
+    if (run.failure) sheet.captions.emplace_back("The motion broke off: the numbers failed.");
+    for (const std::string& caption : sheet.captions) sheet.about += " " + caption;
+    return plot_panels(sheet, lines_of(run, columns), "t in s",
+                       [&run](const PlotArea& area) { return happenings(run, area); });
+}
+
+}  // namespace alembert
