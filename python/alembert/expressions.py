@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Expressions and equations of a scene as SymPy's, and back.
+
+    to_sympy("m*l^2*theta'' + m*g*l*sin(theta) = 0")     # sympy.Eq; theta is Function("theta")(t)
+    from_sympy(equation)                                  # "m*l^2*theta'' + … = 0", a valid claim
+
+A name that has a prime somewhere in the text is a function of t; `functions` names others that are.
+"""
+
+import re
+
+_TOKEN = re.compile(r"\s*(?:(\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|([^\W\d]\w*)('*)|([-+*/^(),=]))")
+_RENAMED = {"asin": "asin", "acos": "acos", "abs": "Abs", "min": "Min", "max": "Max"}
+_FUNCTIONS = "sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs min max sign".split()
+
+
+class _Parser:
+    def __init__(self, text, functions):
+        import sympy
+
+        self.sympy = sympy
+        self.t = sympy.Symbol("t")
+        self.tokens, at = [], 0
+        while text[at:].strip():
+            match = _TOKEN.match(text, at)
+            if not match:
+                raise ValueError(f"cannot read {text[at:at + 20]!r} in {text!r}")
+            self.tokens.append(match)
+            at = match.end()
+        self.functions = set(functions) | {m[2] for m in self.tokens if m[3]}
+        self.position = 0
+
+    def symbol(self):
+        return self.tokens[self.position][4] if self.position < len(self.tokens) else None
+
+    def take(self, *wanted):
+        if self.symbol() in wanted and self.symbol() is not None:
+            self.position += 1
+            return self.tokens[self.position - 1][4]
+        return None
+
+    def expect(self, wanted):
+        if not self.take(wanted):
+            found = self.tokens[self.position][0].strip() if self.position < len(self.tokens) else "the end"
+            raise ValueError(f"expected '{wanted}', found {found!r}")
+
+    def sum(self):
+        value = self.product()
+        while sign := self.take("+", "-"):
+            other = self.product()
+            value = value + other if sign == "+" else value - other
+        return value
+
+    def product(self):
+        value = self.signed()
+        while sign := self.take("*", "/"):
+            other = self.signed()
+            value = value * other if sign == "*" else value / other
+        return value
+
+    def signed(self):
+        if self.take("-"):
+            return -self.signed()
+        if self.take("+"):
+            return self.signed()
+        return self.power()
+
+    def power(self):
+        base = self.atom()
+        return base ** self.signed() if self.take("^") else base
+
+    def atom(self):
+        if self.position >= len(self.tokens):
+            raise ValueError("the expression ends too early")
+        if self.take("("):
+            value = self.sum()
+            self.expect(")")
+            return value
+        number, name, primes, other = self.tokens[self.position].groups()
+        if other:
+            raise ValueError(f"a number, a name or '(' was expected, found {other!r}")
+        self.position += 1
+        if number:
+            return self.sympy.Rational(number)
+        if self.symbol() == "(" and name in _FUNCTIONS and not primes:
+            self.expect("(")
+            arguments = [self.sum()]
+            while self.take(","):
+                arguments.append(self.sum())
+            self.expect(")")
+            return getattr(self.sympy, _RENAMED.get(name, name))(*arguments)
+        if name == "pi":
+            return self.sympy.pi
+        if name == "t":
+            return self.t
+        if name in self.functions:
+            value = self.sympy.Function(name)(self.t)
+            return value.diff(self.t, len(primes)) if primes else value
+        return self.sympy.Symbol(name)
+
+
+def to_sympy(text, functions=()):
+    """`text`, an expression or an equation of the scene language, as SymPy's. Decimals become exact rationals.
+
+    Raises ValueError for a text that is none (vector functions and primes of parentheses are not read).
+    """
+    parser = _Parser(text, functions)
+    value = parser.sum()
+    if parser.take("="):
+        value = parser.sympy.Eq(value, parser.sum(), evaluate=False)
+    if parser.position != len(parser.tokens):
+        raise ValueError(f"cannot read {parser.tokens[parser.position][0]!r} in {text!r}")
+    return value
+
+
+def from_sympy(value):
+    """A SymPy expression or equation in the scene language. Functions of t lose their argument: theta(t) is theta."""
+    import sympy
+    from sympy.printing.str import StrPrinter
+
+    class Printer(StrPrinter):
+        def _print_Function(self, e):
+            name = e.func.__name__
+            if e.args == (sympy.Symbol("t"),) and isinstance(e, sympy.core.function.AppliedUndef):
+                return name
+            return f"{ {'Abs': 'abs', 'Min': 'min', 'Max': 'max'}.get(name, name) }({self.stringify(e.args, ', ')})"
+
+        _print_Abs = _print_Min = _print_Max = _print_Function
+        _print_LatticeOp = _print_Function
+
+        def _print_Derivative(self, e):
+            (variable, order), = e.variable_count
+            if variable != sympy.Symbol("t"):
+                raise ValueError(f"{e} is not a derivative by t")
+            return f"{self._print(e.expr)}" + "'" * int(order)
+
+        def _print_Pow(self, e, rational=False):
+            return super()._print_Pow(e, rational).replace("**", "^")
+
+        def _print_Relational(self, e):
+            return f"{self._print(e.lhs)} = {self._print(e.rhs)}"
+
+    return Printer().doprint(value)

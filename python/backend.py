@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Builds a wheel for `pip install .` (PEP 517) with CMake alone, so that nothing has to be downloaded."""
+
+import base64
+import hashlib
+import os
+import re
+import subprocess
+import sysconfig
+import zipfile
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def _version():
+    with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as file:
+        return re.search(r"project\(alembert[^)]*VERSION\s+([0-9.]+)", file.read()).group(1)
+
+
+def _metadata():
+    with open(os.path.join(ROOT, "pyproject.toml"), encoding="utf-8") as file:
+        description = re.search(r'^description = "(.*)"$', file.read(), re.M).group(1)
+    return (f"Metadata-Version: 2.1\nName: alembert\nVersion: {_version()}\nSummary: {description}\n"
+            "License: GPL-2.0-or-later\nRequires-Python: >=3.9\nRequires-Dist: numpy\n")
+
+
+def _build():
+    """The folder of the built package."""
+    build = os.path.join(ROOT, "build", "python-wheel")
+    subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DALEMBERT_TESTS=OFF"], check=True)
+    subprocess.run(["cmake", "--build", build, "--target", "alembert_python"], check=True)
+    return os.path.join(build, "python", "alembert")
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    abi = "cp" + sysconfig.get_config_var("py_version_nodot")
+    platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    tag = f"{abi}-{abi}-{platform}"
+    info = f"alembert-{_version()}.dist-info"
+    package = _build()
+    contents = {}
+    for name in sorted(os.listdir(package)):
+        path = os.path.join(package, name)
+        if os.path.isfile(path):
+            with open(path, "rb") as file:
+                contents[f"alembert/{name}"] = file.read()
+    contents[f"{info}/METADATA"] = _metadata().encode()
+    contents[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: alembert\nRoot-Is-Purelib: false\nTag: {tag}\n".encode()
+    record = ""
+    wheel = f"alembert-{_version()}-{tag}.whl"
+    with zipfile.ZipFile(os.path.join(wheel_directory, wheel), "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in contents.items():
+            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+            record += f"{name},sha256={digest},{len(content)}\n"
+            archive.writestr(name, content)
+        archive.writestr(f"{info}/RECORD", record + f"{info}/RECORD,,\n")
+    return wheel
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise NotImplementedError("take the repository: there is no source distribution")

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+
+namespace alembert {
+
+namespace {
+
+double time_of(const std::vector<double>& times, std::size_t k) { return times.size() == 1 ? times[0] : times[k]; }
+
+std::vector<std::string> strings(const char* const* names, int count) {
+    return names == nullptr ? std::vector<std::string>{} : std::vector<std::string>(names, names + count);
+}
+
+/// Numbers at a multiple of 64 bytes, as the functions for packs want them.
+class Aligned {
+public:
+    explicit Aligned(std::size_t count) : memory_(count + 8) {
+        const auto address = reinterpret_cast<std::uintptr_t>(memory_.data());
+        begin_ = memory_.data() + (64 - address % 64) % 64 / sizeof(double);
+    }
+    double* data() { return begin_; }
+
+private:
+    std::vector<double> memory_;
+    double* begin_;
+};
+
+/// Calls `part(from, to)` for pieces of 0 … count on all cores, each piece a multiple of eight.
+template <typename Part>
+void on_all_cores(std::size_t count, const Part& part) {
+    constexpr std::size_t worth_a_thread = 2048;
+    const std::size_t most = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t threads = std::clamp<std::size_t>(count / worth_a_thread, 1, most);
+    if (threads == 1) return part(std::size_t{0}, count);
+    const std::size_t piece = (count / threads + 7) / 8 * 8;
+    std::vector<std::thread> workers;
+    for (std::size_t from = piece; from < count; from += piece)
+        workers.emplace_back([&part, from, to = std::min(count, from + piece)] { part(from, to); });
+    part(std::size_t{0}, std::min(count, piece));
+    for (std::thread& worker : workers) worker.join();
+}
+
+}  // namespace
+
+System::System(Module module, std::string source)
+    : module_(std::move(module)),
+      source_(std::move(source)),
+      n_(module_.table().coordinates),
+      s_(module_.table().speeds),
+      values_(module_.table().parameter_values,
+              module_.table().parameter_values + module_.table().parameters),
+      par_(prepared(module_)) {}
+
+std::vector<std::string> System::coordinates() const { return strings(module_.table().coordinate_names, n_); }
+std::vector<std::string> System::speeds() const { return strings(module_.table().speed_names, s_); }
+std::vector<std::string> System::parameter_names() const {
+    return strings(module_.table().parameter_names, module_.table().parameters);
+}
+
+void System::set_parameters(const std::vector<double>& values) {
+    if (values.size() != values_.size())
+        throw std::invalid_argument(fmt::format("{} values for {} parameters", values.size(), values_.size()));
+    par_ = prepared(module_, values);
+    values_ = values;
+}
+
+void System::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
+                          double* rates) const {
+    const auto width = static_cast<std::size_t>(dimension());
+    const alembert_pack_table* const pack = module_.pack();
+    std::size_t k = from;
+    if (pack != nullptr) {
+        const auto lanes = static_cast<std::size_t>(pack->lanes);
+        Aligned t(lanes), state(width * lanes), rate(width * lanes), par(std::max<std::size_t>(1, par_.size()) * lanes);
+        for (std::size_t i = 0; i < par_.size(); ++i) std::fill_n(par.data() + i * lanes, lanes, par_[i]);
+        for (; k + lanes <= to; k += lanes) {
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                t.data()[lane] = time_of(times, k + lane);
+                for (std::size_t i = 0; i < width; ++i)
+                    state.data()[i * lanes + lane] = states[(k + lane) * width + i];
+            }
+            pack->rhs(t.data(), state.data(), par.data(), rate.data());
+            for (std::size_t lane = 0; lane < lanes; ++lane)
+                for (std::size_t i = 0; i < width; ++i)
+                    rates[(k + lane) * width + i] = rate.data()[i * lanes + lane];
+        }
+    }
+    for (; k < to; ++k) rhs(time_of(times, k), states + k * width, rates + k * width);
+}
+
+void System::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                         double* rates) const {
+    on_all_cores(count,
+                 [&](std::size_t from, std::size_t to) { rhs_of_range(times, states, from, to, rates); });
+}
+
+void System::jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                              double* values) const {
+    const alembert_derivative_table* const table = module_.derivatives();
+    if (table == nullptr) throw std::invalid_argument("this system was compiled without derivatives");
+    const auto width = static_cast<std::size_t>(dimension());
+    on_all_cores(count, [&](std::size_t from, std::size_t to) {
+        std::vector<double> entries(static_cast<std::size_t>(std::max(1, table->entries)));
+        for (std::size_t k = from; k < to; ++k) {
+            double* const dense = values + k * width * width;
+            std::fill_n(dense, width * width, 0.0);
+            table->jacobian(time_of(times, k), states + k * width, par_.data(), entries.data());
+            for (int i = 0; i < table->entries; ++i)
+                if (table->rows[i] < dimension())  // the row beyond is the power's
+                    dense[static_cast<std::size_t>(table->rows[i]) * width +
+                          static_cast<std::size_t>(table->columns[i])] = entries[static_cast<std::size_t>(i)];
+        }
+    });
+}
+
+void System::mass_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* mass,
+                          double* forcing) const {
+    if (module_.table().mass_forcing == nullptr)
+        throw std::invalid_argument("the mass matrix of this system is not emitted: it has too many joints");
+    const auto width = static_cast<std::size_t>(dimension()), s = static_cast<std::size_t>(s_);
+    on_all_cores(count, [&](std::size_t from, std::size_t to) {
+        std::vector<double> f(s);
+        for (std::size_t k = from; k < to; ++k)
+            module_.table().mass_forcing(time_of(times, k), states + k * width, par_.data(), mass + k * s * s,
+                                         forcing != nullptr ? forcing + k * s : f.data());
+    });
+}
+
+void System::energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                            double* energies) const {
+    const auto width = static_cast<std::size_t>(dimension());
+    on_all_cores(count, [&](std::size_t from, std::size_t to) {
+        std::vector<double> rate(width);
+        double told[4], jacobi = 0;
+        for (std::size_t k = from; k < to; ++k) {
+            const double t = time_of(times, k);
+            rhs(t, states + k * width, rate.data());
+            module_.table().energy(t, states + k * width, rate.data(), par_.data(), told, &jacobi);
+            std::copy_n(told, 3, energies + 3 * k);
+        }
+    });
+}
+
+}  // namespace alembert

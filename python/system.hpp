@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Emitted and compiled functions of a scene, for one state or for many at once.
+///
+///     const System system(load(compile(text, "pendulum", {}).object), text);
+///     system.rhs(0, state, rate);                        // state: coordinates, then speeds; rate: their derivatives
+///     system.rhs_of_many({0}, states, 1000, rates);      // rows of 1000 states; packs of eight on all cores
+///
+/// A time for each state, or one for all. Functions are thread-safe while nobody sets parameters.
+
+#include <string>
+#include <vector>
+
+#include "alembert/module.hpp"
+
+namespace alembert {
+
+class System {
+public:
+    System(Module module, std::string source);
+
+    int dimension() const { return n_ + s_; }
+    int speed_count() const { return s_; }
+    std::vector<std::string> coordinates() const;
+    std::vector<std::string> speeds() const;  ///< of the scene; empty where they are the rates
+    std::vector<std::string> parameter_names() const;
+    const std::vector<double>& parameter_values() const { return values_; }
+    const std::string& source() const { return source_; }
+
+    /// Throws std::invalid_argument for a number of values that is not that of the parameters.
+    void set_parameters(const std::vector<double>& values);
+
+    void rhs(double t, const double* state, double* rate) const {
+        module_.table().rhs(t, state, par_.data(), rate);
+    }
+    void rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* rates) const;
+    /// Row by row: count × dimension². Throws std::invalid_argument where the file has no derivatives.
+    void jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                          double* values) const;
+    /// count × speeds²; `forcing` count × speeds or null. Throws std::invalid_argument where M is not emitted.
+    void mass_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* mass,
+                      double* forcing) const;
+    /// T, V and E: count × 3.
+    void energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                        double* energies) const;
+
+private:
+    void rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
+                      double* rates) const;
+
+    Module module_;
+    std::string source_;
+    int n_, s_;
+    std::vector<double> values_, par_;
+};
+
+}  // namespace alembert
