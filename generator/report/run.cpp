@@ -101,6 +101,37 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
     return result;
 }
 
+const char* word(SideChange::Kind kind) {
+    switch (kind) {
+        case SideChange::Kind::sliding:
+            return "stays zero";
+        case SideChange::Kind::leaving:
+            return "leaves zero";
+        default:
+            return "changes sign";
+    }
+}
+
+const char* event_name(SideChange::Kind kind) {
+    switch (kind) {
+        case SideChange::Kind::sliding:
+            return "sliding";
+        case SideChange::Kind::leaving:
+            return "leaving";
+        default:
+            return "crossing";
+    }
+}
+
+std::string text_of(const std::vector<Run::Side>& changes) {
+    constexpr std::size_t most = 20;
+    std::string page;
+    for (std::size_t k = 0; k < std::min(most, changes.size()); ++k)
+        put(page, "t = {:.15g}: {} {}\n", changes[k].time, changes[k].name, word(changes[k].kind));
+    if (changes.size() > most) put(page, "… and {} such changes more\n", changes.size() - most);
+    return page;
+}
+
 /// Why the result is not to be trusted; empty where nothing speaks against it.
 std::string warning_of(const Run& run) {
     return run.doubts.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
@@ -125,6 +156,7 @@ void add_motion(std::string& page, const Run& run) {
         put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
     page += text_of(run.motion.events, run.mechanism);
     page += text_of(run.motion.contacts, run.contacts);
+    page += text_of(run.side_changes);
     put(page, "\nat t = {:.15g}\n", run.motion.final_time());
     for (std::size_t i = 0; i < run.coordinates.size(); ++i)
         put(page, "{:<16}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], run.final_coordinates[i],
@@ -195,6 +227,9 @@ Json as_json(const Run& run) {
     if (run.mechanism.has_kicks()) result["impulse_work"] = energy.impulse_work;
     if (!run.contacts.empty()) {
         result["contacts"] = json_of(run.motion.contacts, run.contacts);
+        for (const Run::Side& change : run.side_changes)
+            result["switches"].push_back(
+                {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
         result["impact_loss"] = energy.impact_loss;
     }
     result["seconds"] = {{"derive", run.timings.derive},

@@ -11,6 +11,7 @@
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
 #include "run/foreign.hpp"
+#include "run/sides.hpp"
 #include "state/diagnose.hpp"
 
 namespace alembert {
@@ -94,7 +95,7 @@ void Modes::forget() {
     for (auto& entry : loaded_) entry.second->projection.forget();
 }
 
-const LoadedMode& Modes::operator()(const std::vector<int>& closed) {
+LoadedMode& Modes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
     if (!mode) mode = made(closed);
     return *mode;
@@ -124,6 +125,62 @@ CompileOptions Modes::options_of_compiler() const {
     return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
 }
 
+void LoadedMode::hold(const std::vector<double>& sigma) {
+    const auto first = par.begin() + module.table().parameters - static_cast<std::ptrdiff_t>(sigma.size());
+    if (std::equal(sigma.begin(), sigma.end(), first)) return;
+    std::copy(sigma.begin(), sigma.end(), first);
+    module.table().prepare(par.data());
+}
+
+void LoadedMode::hold_sides(double t, const double* state) {
+    if (contact.switching) hold(sides_at(*contact.switching, t, state, contact.rhs.dimension, side_sizes));
+}
+
+void LoadedMode::measure_sides(const Trajectory& motion) {
+    if (!contact.switching) return;
+    const std::size_t count = side_sizes.size();
+    const std::vector<double> sigma(count, 1.0);
+    std::vector<double> rate(static_cast<std::size_t>(contact.rhs.dimension)), g(2 * count);
+    for (std::size_t row = 0; row < motion.rows(); ++row) {
+        contact.switching->values(motion.times[row], motion.state(row).data(), sigma.data(), rate.data(),
+                                  g.data());
+        for (std::size_t k = 0; k < count; ++k) side_sizes[k] = std::max(side_sizes[k], std::abs(g[k]));
+    }
+}
+
+void Modes::hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
+                       const SeriesModule& series) {
+    LoadedMode* const self = &mode;
+    Switching system = switching_of(
+        mode.module, start_.parameters, std::move(names), work_,
+        [this, self, series](const std::vector<double>& values) {
+            Rhs rhs = make_rhs(self->module, values, work_);
+            rhs.extra = self->contact.rhs.extra;
+            if (needs_series(method_.method)) rhs.series = make_series(series, values);
+            return self->derived.mechanism.constraints.empty() ? rhs : self->projection.guarded(std::move(rhs));
+        });
+    mode.side_sizes.assign(system.names.size(), 0);
+    system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
+    system.on_change = [this, self](const SideChange& change) {
+        if (on_side_change)
+            on_side_change(change, self->contact.switching->names[static_cast<std::size_t>(change.index)]);
+    };
+    mode.contact.events = first_events(std::move(mode.contact.events), events);
+    mode.contact.switching = std::make_shared<const Switching>(std::move(system));
+    const int dimension = mode.contact.rhs.dimension;
+    Rhs& rhs = mode.contact.rhs;
+    rhs.context = std::make_shared<LoadedMode* const>(self);
+    rhs.call = [](const void* context, double t, const double* state, double* rate) {
+        const LoadedMode& own = **static_cast<LoadedMode* const*>(context);
+        const std::vector<double> sigma =
+            sides_at(*own.contact.switching, t, state, own.contact.rhs.dimension, own.side_sizes);
+        own.contact.switching->rates(t, state, sigma.data(), rate);
+    };
+    rhs.jacobian = nullptr;
+    rhs.series = {};
+    rhs.dimension = dimension;
+}
+
 std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     double clock = process_seconds();
     const auto lap = [&clock] {
@@ -143,13 +200,16 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         throw IntegrationError(fmt::format("there are no finite accelerations at t = {:.6g}: {}", start_.t,
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
+    std::optional<Switched> jumps;
+    if (method_.foreign.empty() && !needs_canonical(method_.method)) jumps = switched(program);
+    const Program& smooth = jumps ? jumps->program : program;
     const std::optional<Differentiated> derivatives =
-        uses_jacobian(method_.method) ? affordable_derivatives(program, work_) : std::nullopt;
+        uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
     std::optional<Source> series;
-    if (needs_series(method_.method)) series = emit_taylor(program, work_ == Work::integrated);
+    if (needs_series(method_.method)) series = emit_taylor(smooth, work_ == Work::integrated);
     std::optional<Source> form;
     if (needs_canonical(method_.method)) form = emit(canonical_form(derived));
-    Source source = emit(derivatives ? derivatives->program : program);
+    Source source = emit(derivatives ? derivatives->program : smooth);
     seconds_.emit += lap();
     const Compiled compiled = compile(source.text, program.name, options_of_compiler());
     const Module module = load(compiled.object);
@@ -163,13 +223,18 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
             start_.parameters);
     seconds_.compile += lap();
 
-    const std::vector<double>& values = start_.parameters;
+    const std::size_t sides = jumps ? jumps->functions.size() : 0;
+    std::vector<double> values = start_.parameters;
+    values.resize(values.size() + sides, 1.0);
     std::vector<bool> stops;
     std::vector<int> directions;
     for (const Mechanism::Occasion& event : derived.mechanism.occasions) {
         stops.push_back(event.stop);
         directions.push_back(event.direction);
     }
+    const std::size_t events = stops.size();
+    stops.resize(events + 2 * sides);
+    directions.resize(events + 2 * sides);
     const bool constrained = !derived.mechanism.constraints.empty();
     auto mode = std::make_unique<LoadedMode>(
         LoadedMode{.derived = std::move(derived),
@@ -190,9 +255,10 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
     if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);
     LoadedMode* const self = mode.get();
+    if (jumps) hold_signs(*self, names_of_sides(self->program, jumps->functions), events, series_module);
     if (constrained) {
         mode->contact.project = self->projection.after_steps();
-        mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
+        if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));
     }
     mode->contact.on_step = [this, self](double t, std::span<const double> state, std::span<const double> rate) {
         on_step_(*self, t, state, rate);

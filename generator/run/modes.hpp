@@ -15,6 +15,7 @@
 #include "alembert/module.hpp"
 #include "alembert/phases.hpp"
 #include "alembert/project.hpp"
+#include "alembert/series.hpp"
 #include "contact/contacts.hpp"
 #include "contact/kicks.hpp"
 #include "derive/derived.hpp"
@@ -34,6 +35,13 @@ struct LoadedMode {
     bool from_cache = false;
     std::optional<int> jacobian_operations = {};  ///< where it is emitted
     std::optional<Rhs> when_stiff = {};           ///< once the motion was found stiff
+    /// The largest size on the way of each function whose sign is held.
+    std::vector<double> side_sizes = {};
+    /// Before anything is evaluated with `par`: sets it to the signs at a state of the motion, or to those given.
+    void hold_sides(double t, const double* state);
+    void hold(const std::vector<double>& sigma);
+    /// Lets `side_sizes` know a motion.
+    void measure_sides(const Trajectory& motion);
 };
 
 /// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it,
@@ -60,7 +68,10 @@ public:
 
     /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what
     /// the stages throw.
-    const LoadedMode& operator()(const std::vector<int>& closed);
+    LoadedMode& operator()(const std::vector<int>& closed);
+
+    /// Told what happens to the signs that a right-hand side holds, and their names; may be empty.
+    std::function<void(const SideChange&, const std::string& name)> on_side_change = {};
 
     /// Takes the program of the mode {} from one who has it.
     void take_free(Program program);
@@ -78,6 +89,8 @@ public:
 
 private:
     std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
+    void hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
+                    const SeriesModule& series);
     Rhs with_jacobian(LoadedMode& mode);
     CompileOptions options_of_compiler() const;
 

@@ -14,7 +14,7 @@ namespace alembert {
 namespace {
 
 /// One phase's rows, without the last one if it is said again by the next.
-void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode& mode, const Derived& d,
+void add_rows(std::vector<double>& values, const Phase& phase, LoadedMode& mode, const Derived& d,
               std::size_t rows, const JointReactions* reactions, State<double> at) {
     const alembert_solver_table& table = mode.module.table();
     const auto n = static_cast<std::size_t>(d.mechanism.size()), bilateral = d.mechanism.constraints.size(),
@@ -25,6 +25,7 @@ void add_rows(std::vector<double>& values, const Phase& phase, const LoadedMode&
     for (std::size_t row = 0; row < rows; ++row) {
         const double t = phase.motion.times[row];
         const auto state = phase.motion.state(row);
+        mode.hold_sides(t, state.data());
         mode.contact.rhs(t, state.data(), rate.data());
         double energy[4], jacobi = 0;
         table.energy(t, state.data(), rate.data(), mode.par.data(), energy, &jacobi);

@@ -73,6 +73,9 @@ public:
                         if (!watch.is_over) look(watch, mode, t, state, rate);
                     });
         modes.take_free(std::move(program));
+        modes.on_side_change = [&](const SideChange& change, const std::string& name) {
+            if (!watch.is_over) run_.side_changes.push_back({change.time, name, change.kind});
+        };
         const LoadedMode& free = modes({});
         if (wishes_.reactions && !run_.mechanism.joints.empty())
             reactions_ = joint_reactions(run_.scene, run_.mechanism);
@@ -139,6 +142,7 @@ private:
         const double made_before = making(), begin = process_seconds();
         run_.motion = followed(modes, options_, initial_);
         run_.timings.integrate = process_seconds() - begin - (making() - made_before);
+        for (const Phase& phase : run_.motion.phases) modes(phase.closed).measure_sides(phase.motion);
         run_.timings.derive += modes.seconds().derive;
         run_.timings.emit += modes.seconds().emit;
         run_.timings.compile += modes.seconds().compile;
@@ -214,7 +218,8 @@ private:
     }
 
     std::string reason_of(const Failure& failure, Modes& modes) const {
-        if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks)
+        if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
+            failure.kind == FailureKind::no_side)
             return failure.message;
         const auto there = failure_at(modes(run_.motion.phases.back().closed).derived, state_at(first_, failure));
         return failure.message + (there ? "\n  there: " + *there : "");

@@ -51,6 +51,13 @@ struct Run : Derived {
     std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds where the scene has its own
     std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
+    /// What happened to the signs in the right-hand side: of dry friction, |x|, min, max.
+    struct Side {
+        double time;
+        std::string name;
+        SideChange::Kind kind;
+    };
+    std::vector<Side> side_changes = {};
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};

@@ -97,20 +97,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     rest.budget = std::max(1L, options.budget - first.statistics.evaluations);
     const std::vector<double> state(first.final_state().begin(), first.final_state().end());
     Trajectory second = integrate(options.rhs_when_stiff ? options.rhs_when_stiff() : rhs, state, rest, events);
-    const double rows = (rest.start - *rest.grid) / interval;
-    if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && second.rows() > 1) {
-        first.times.pop_back();
-        first.states.resize(first.states.size() - static_cast<std::size_t>(first.dimension));
-    }
-    first.times.insert(first.times.end(), second.times.begin() + 1, second.times.end());
-    first.states.insert(first.states.end(), second.states.begin() + first.dimension, second.states.end());
-    first.events.insert(first.events.end(), second.events.begin(), second.events.end());
-    first.statistics.steps += second.statistics.steps;
-    first.statistics.rejected += second.statistics.rejected;
-    first.statistics.evaluations += second.statistics.evaluations;
-    first.last_zeros = std::move(second.last_zeros);
-    first.ending = second.ending;
-    first.failure = std::move(second.failure);
+    append(first, std::move(second), *rest.grid, interval);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)
         first.failure->message = fmt::format(
             "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen "

@@ -195,7 +195,8 @@ private:
         here.on_step = mode.on_step;
         here.by = mode.by;
         const Events events = in_phases_ ? watched(mode) : mode.events;
-        Trajectory motion = integrate(mode.rhs, state_, here, events);
+        Trajectory motion = mode.switching ? integrate(*mode.switching, state_, here, events)
+                                           : integrate(mode.rhs, state_, here, events);
         add_up(motion.statistics);
         const Halt halt = halt_of(motion, mode);
         const int of_scene = static_cast<int>(mode.events.list.size()) - count_;

@@ -22,6 +22,7 @@
 
 #include "alembert/integrate.hpp"
 #include "alembert/settle.hpp"
+#include "alembert/switching.hpp"
 
 namespace alembert {
 
@@ -33,6 +34,7 @@ struct ContactMode {
     std::function<void(double t, double* state)> project = {};  ///< to the constraints of the mode; may be empty
     OnStep on_step = {};                                        ///< may be empty
     Integrator by = {};                                         ///< Options::by; may be empty
+    std::shared_ptr<const Switching> switching = {};            ///< where the right-hand side has jumps or kinks
 };
 
 /// Asked once for each phase. The reference stays good.

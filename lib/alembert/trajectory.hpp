@@ -27,7 +27,9 @@ enum class FailureKind {
     step_underflow,  ///< the step has become so short that time stands still: 16 ε |t|
     budget_used_up,
     no_contact_mode,  ///< contacts that cannot all stay closed or open (phases.hpp)
-    endless_kicks     ///< impulses of events that have no rates after, or come without end (phases.hpp)
+    endless_kicks,    ///< impulses of events that have no rates after, or come without end (phases.hpp)
+    no_side           ///< a sign in the right-hand side of which no value, or more than one, is consistent
+                      ///< (switching.hpp)
 };
 
 struct Failure {
@@ -93,5 +95,9 @@ struct Trajectory {
 
 /// Throws the failure as an IntegrationError, for callers who want no partial result.
 [[noreturn]] void throw_failure(const Failure& failure);
+
+/// Adds the rows, events and statistics of what follows; how it ended is how all ended. The row where the two meet
+/// stands once, and only if it is on the grid of rows, `grid` + k·`sample`.
+void append(Trajectory& first, Trajectory next, double grid, double sample);
 
 }  // namespace alembert

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "run/sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace alembert {
+
+HeldParameters::HeldParameters(const Module& module, std::vector<double> values, int count)
+    : module_(module), values_(std::move(values)), sigma_(static_cast<std::size_t>(count), 1.0) {
+    par_ = prepared(module_, this->values(sigma_));
+}
+
+std::vector<double> HeldParameters::values(const std::vector<double>& sigma) const {
+    std::vector<double> all = values_;
+    all.insert(all.end(), sigma.begin(), sigma.end());
+    return all;
+}
+
+const double* HeldParameters::with(const double* sigma) {
+    if (!std::equal(sigma_.begin(), sigma_.end(), sigma)) {
+        std::copy_n(sigma, sigma_.size(), sigma_.begin());
+        std::copy_n(sigma, sigma_.size(), par_.begin() + static_cast<std::ptrdiff_t>(values_.size()));
+        module_.table().prepare(par_.data());
+    }
+    return par_.data();
+}
+
+std::vector<std::string> names_of_sides(const Program& program, const std::vector<int>& functions) {
+    std::vector<std::string> names;
+    for (const int id : functions) {
+        const Node& node = program[id];
+        std::string of;
+        for (const int source : node.sources)
+            if (source > 0 && static_cast<std::size_t>(source) < program.source_labels.size() && of.empty())
+                of = " of " + program.source_labels[static_cast<std::size_t>(source)];
+        names.push_back(fmt::format("{}(…){}", name_of(node.op), of));
+    }
+    return names;
+}
+
+Switching switching_of(const Module& module, const std::vector<double>& values, std::vector<std::string> names,
+                       Work work, std::function<Rhs(const std::vector<double>& values)> smooth) {
+    const auto count = names.size();
+    const auto held = std::make_shared<HeldParameters>(module, values, static_cast<int>(count));
+    Switching system;
+    system.names = std::move(names);
+    system.rates = [module, held, work](double t, const double* y, const double* sigma, double* rate) {
+        const alembert_solver_table& table = module.table();
+        const double* const par = held->with(sigma);
+        table.rhs(t, y, par, rate);
+        if (work == Work::left_out) return;
+        double energy[4], jacobi = 0;
+        table.energy(t, y, rate, par, energy, &jacobi);
+        rate[table.coordinates + table.speeds] = energy[3];
+    };
+    system.values = [module, held, count,
+                     all = std::vector<double>(static_cast<std::size_t>(module.table().events))](
+                        double t, const double* y, const double* sigma, const double* rate, double* out) mutable {
+        module.table().events_at(t, y, rate, held->with(sigma), all.data());
+        std::copy(all.end() - static_cast<std::ptrdiff_t>(2 * count), all.end(), out);
+    };
+    system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
+        return smooth(held->values(sigma));
+    };
+    return system;
+}
+
+Events first_events(Events all, std::size_t count) {
+    if (count == 0) return {};
+    std::vector<Event> list(all.list.begin(), all.list.begin() + static_cast<std::ptrdiff_t>(count));
+    return make_events(std::move(list),
+                       [all = std::move(all), count](double t, const double* y, const double* rate, double* out) {
+                           std::vector<double> values(all.list.size());
+                           all(t, y, rate, values.data());
+                           std::copy_n(values.begin(), count, out);
+                       });
+}
+
+std::vector<double> sides_at(const Switching& system, double t, const double* y, int dimension,
+                             const std::vector<double>& sizes) {
+    constexpr double on_it = 1e-9;
+    const std::size_t count = system.names.size();
+    std::vector<double> sigma(count, 1.0), rate(static_cast<std::size_t>(dimension)), g(2 * count);
+    system.rates(t, y, sigma.data(), rate.data());
+    system.values(t, y, sigma.data(), rate.data(), g.data());
+    std::vector<int> sides(count);
+    for (std::size_t k = 0; k < count; ++k) sides[k] = std::abs(g[k]) <= on_it * sizes[k] ? 0 : g[k] > 0 ? 1 : -1;
+    return consistent_signs(system, sides, t, y, dimension);
+}
+
+}  // namespace alembert

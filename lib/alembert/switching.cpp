@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/switching.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "alembert/run.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_at_once = 6;        // signs that are undecided together: 3⁶ choices are tried
+constexpr int most_in_one_place = 50;  // changes without the time moving on
+constexpr double slack = 1e-9;         // of a consistent choice, relative to the rates of g on both sides
+constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
+
+/// f and σ for given sides; σ of those that slide follows from ġ = 0.
+class Sides {
+public:
+    Sides(const Switching& system, std::vector<int> sides, int dimension)
+        : system_(system), sides_(std::move(sides)), f_(dimension), g_(2 * system.count()) {
+        for (int k = 0; k < system.count(); ++k)
+            if (sides_[k] == 0) sliding_.push_back(k);
+        sigma_.assign(sides_.begin(), sides_.end());
+    }
+
+    const std::vector<int>& sides() const { return sides_; }
+    const std::vector<int>& sliding() const { return sliding_; }
+    const std::vector<double>& sigma() const { return sigma_; }
+    double value(int k) const { return g_[k]; }
+    double slope(int k) const { return g_[system_.count() + k]; }
+    const std::vector<double>& rate() const { return f_; }
+    /// ∂ġ_k/∂σ_k by the last evaluation, for one that slides.
+    double steepness(std::size_t position) const {
+        return B_(static_cast<Index>(position), static_cast<Index>(position));
+    }
+
+    void evaluate(double t, const double* y) {
+        const auto s = static_cast<Index>(sliding_.size());
+        for (const int k : sliding_) sigma_[k] = 0;
+        rates(t, y);
+        if (s == 0) return;
+        const VectorXd none = slopes();
+        B_.resize(s, s);
+        for (Index j = 0; j < s; ++j) {
+            sigma_[sliding_[j]] = 1;
+            rates(t, y);
+            B_.col(j) = slopes() - none;
+            sigma_[sliding_[j]] = 0;
+        }
+        const Eigen::ColPivHouseholderQR<MatrixXd> solver(B_);
+        VectorXd alpha = VectorXd::Zero(s), slope = none;
+        for (int round = 0; round < 10; ++round) {  // once, where σ enters linearly
+            alpha -= solver.solve(slope);
+            for (Index j = 0; j < s; ++j) sigma_[sliding_[j]] = alpha[j];
+            rates(t, y);
+            slope = slopes();
+            if (!(slope.cwiseAbs().maxCoeff() > 1e-13 * B_.cwiseAbs().maxCoeff())) break;
+        }
+    }
+
+private:
+    void rates(double t, const double* y) {
+        system_.rates(t, y, sigma_.data(), f_.data());
+        system_.values(t, y, sigma_.data(), f_.data(), g_.data());
+    }
+    VectorXd slopes() const {
+        VectorXd result(static_cast<Index>(sliding_.size()));
+        for (Index j = 0; j < result.size(); ++j) result[j] = slope(sliding_[j]);
+        return result;
+    }
+
+    const Switching& system_;
+    std::vector<int> sides_, sliding_;
+    std::vector<double> sigma_, f_, g_;
+    MatrixXd B_;
+};
+
+/// How one g_k or α_k is watched in a piece.
+struct Watched {
+    int index;
+    double sign;  ///< the event's value is sign·(g or α) + offset
+    double offset = 0;
+    double open_until = -HUGE_VAL;  ///< before, it counts as positive, whatever rounding says
+};
+
+class SwitchedRun {
+public:
+    SwitchedRun(const Switching& system, const std::vector<double>& initial, const Options& options,
+                const Events& events)
+        : system_(system),
+          options_(options),
+          events_(events),
+          end_(options.start + options.duration),
+          t_(options.start),
+          state_(initial),
+          sizes_(static_cast<std::size_t>(system.count())) {}
+
+    Trajectory go() {
+        if (begin())
+            while (piece()) {
+            }
+        return std::move(result_);
+    }
+
+private:
+    int dimension() const { return static_cast<int>(state_.size()); }
+
+    /// The sides at the start.
+    bool begin() {
+        sides_.assign(system_.count(), 1);
+        Sides here(system_, sides_, dimension());
+        here.evaluate(t_, state_.data());
+        std::vector<int> open;
+        for (int k = 0; k < system_.count(); ++k) {
+            sizes_[k] = std::abs(here.value(k));
+            if (here.value(k) == 0)
+                open.push_back(k);
+            else
+                sides_[k] = here.value(k) > 0 ? 1 : -1;
+        }
+        result_.dimension = dimension();
+        if (options_.duration == 0 || choose(open)) return true;
+        result_.times = {t_};
+        result_.states = state_;
+        return false;
+    }
+
+    /// Integrates until a sign changes; is there more to come?
+    bool piece() {
+        Sides now(system_, sides_, dimension());
+        now.evaluate(t_, state_.data());
+        const std::vector<Watched> watched = watches(now);
+        const std::size_t scene = events_.list.size();
+        Options here = options_;
+        here.start = t_;
+        here.duration = end_ - t_ > 16 * epsilon * std::abs(end_) ? end_ - t_ : 0;
+        here.sample = sample_interval(options_);
+        here.grid = options_.grid.value_or(options_.start);
+        here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
+        here.rhs_when_stiff = {};
+        if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
+        here.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
+            if (system_.before_step) {
+                if (!now.sliding().empty()) now.evaluate(t, y.data());
+                system_.before_step(now.sigma());
+            }
+            if (options_.on_step) options_.on_step(t, y, rate);
+        };
+        Trajectory motion = integrate(right_hand_side(), state_, here, with_watches(watched));
+        std::erase_if(motion.events, [&](const EventRecord& e) { return e.index >= static_cast<int>(scene); });
+        const std::vector<LastZero> zeros = motion.last_zeros;
+        std::erase_if(motion.last_zeros, [&](const LastZero& z) { return z.event >= static_cast<int>(scene); });
+        join(std::move(motion), here);
+        t_ = result_.times.back();
+        const auto last = result_.final_state();
+        state_.assign(last.begin(), last.end());
+        if (result_.ending != Ending::stopped_by_event) return false;
+        const auto stops = [&](const LastZero& z) {
+            return z.event < static_cast<int>(scene) && z.counts && events_.list[z.event].stop;
+        };
+        if (std::any_of(zeros.begin(), zeros.end(), stops)) return false;
+        result_.ending = Ending::completed;
+        std::vector<int> hit;
+        for (const LastZero& zero : zeros)
+            if (zero.event >= static_cast<int>(scene)) hit.push_back(zero.event - static_cast<int>(scene));
+        return pass(watched, hit);
+    }
+
+    Rhs right_hand_side() const {
+        if (std::find(sides_.begin(), sides_.end(), 0) == sides_.end())
+            return system_.smooth({sides_.begin(), sides_.end()});
+        const Rhs any = system_.smooth(std::vector<double>(sides_.size(), 1.0));
+        auto sides = std::make_shared<Sides>(system_, sides_, dimension());
+        Rhs rhs = make_rhs(
+            dimension(),
+            [sides](double t, const double* y, double* rate) {
+                sides->evaluate(t, y);
+                std::copy(sides->rate().begin(), sides->rate().end(), rate);
+            },
+            any.extra);
+        rhs.names = any.names;
+        return rhs;
+    }
+
+    /// Each g on its side, and each α between its bounds.
+    std::vector<Watched> watches(const Sides& now) {
+        std::vector<Watched> list;
+        for (int k = 0; k < system_.count(); ++k) {
+            if (sides_[k] == 0) {
+                list.push_back({.index = k, .sign = -1, .offset = 1 + 1e-12});
+                list.push_back({.index = k, .sign = 1, .offset = 1 + 1e-12});
+                continue;
+            }
+            sizes_[k] = std::max(sizes_[k], std::abs(now.value(k)));
+            Watched one{.index = k, .sign = static_cast<double>(sides_[k])};
+            const double off = std::abs(now.value(k)), speed = one.sign * now.slope(k);
+            const double rounding = 2 * off + 64 * epsilon * sizes_[k];
+            if (one.sign * now.value(k) <= 64 * epsilon * sizes_[k]) {
+                if (speed * (end_ - t_) > 1e6 * rounding)
+                    one.open_until = t_ + rounding / speed;
+                else
+                    one.offset = rounding + 1e-13 * sizes_[k] + std::numeric_limits<double>::min();
+            }
+            list.push_back(one);
+        }
+        return list;
+    }
+
+    Events with_watches(const std::vector<Watched>& watched) const {
+        std::vector<Event> list = events_.list;
+        for (const Watched& w : watched)
+            list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
+        auto sides = std::make_shared<Sides>(system_, sides_, dimension());
+        return make_events(
+            std::move(list), [this, watched, sides](double t, const double* y, const double* rate, double* out) {
+                if (!events_.list.empty()) events_(t, y, rate, out);
+                sides->evaluate(t, y);
+                for (std::size_t i = 0; i < watched.size(); ++i) {
+                    const Watched& w = watched[i];
+                    double& value = out[events_.list.size() + i];
+                    value = w.sign * (sides_[w.index] == 0 ? sides->sigma()[w.index] : sides->value(w.index)) +
+                            w.offset;
+                    if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
+                }
+            });
+    }
+
+    /// What follows where the functions watched at `hit` have come to zero.
+    bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
+        in_one_place_ =
+            t_ - last_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
+        last_change_ = t_;
+        if (in_one_place_ > most_in_one_place)
+            return fail(fmt::format("the sign of {} changes without end at t = {}: no side of it is consistent",
+                                    system_.names[watched[hit.front()].index], t_));
+        std::vector<int> open;
+        for (const int i : hit) {
+            const Watched& w = watched[i];
+            if (sides_[w.index] == 0) {  // α has come to a bound: the motion leaves to that side
+                sides_[w.index] = w.sign < 0 ? 1 : -1;
+                tell(w.index, SideChange::Kind::leaving);
+            } else if (std::find(open.begin(), open.end(), w.index) == open.end()) {
+                open.push_back(w.index);
+            }
+        }
+        if (open.empty()) return true;
+        for (int k = 0; k < system_.count(); ++k)
+            if (sides_[k] == 0) open.push_back(k);
+        return choose(open);
+    }
+
+    struct Choice {
+        std::vector<int> sides;
+        double margin;  ///< above 0: consistent
+        bool jumps;     ///< f differs on the sides of those that are open
+    };
+
+    /// Sides for those that are open, the others as they are.
+    bool choose(const std::vector<int>& open) {
+        if (open.empty()) return true;
+        if (open.size() > most_at_once)
+            return fail(
+                fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
+                            system_.names[open.front()], open.size() - 1, t_, most_at_once));
+        std::vector<Choice> found;
+        std::vector<int> sides = sides_;
+        std::size_t count = 1;
+        for (std::size_t i = 0; i < open.size(); ++i) count *= 3;
+        for (std::size_t code = 0; code < count; ++code) {
+            std::size_t rest = code;
+            for (const int k : open) {
+                sides[k] = static_cast<int>(rest % 3) - 1;
+                rest /= 3;
+            }
+            found.push_back(judged(sides, open));
+        }
+        std::stable_sort(found.begin(), found.end(),
+                         [](const Choice& a, const Choice& b) { return a.margin > b.margin; });
+        std::string names;
+        for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
+        if (!(found[0].margin > -slack))
+            return fail(
+                fmt::format("at t = {} the sign of {} has no consistent side: the equations have no motion "
+                            "that goes on from there",
+                            t_, names));
+        if (found.size() > 1 && found[1].margin > clear_margin && found[0].jumps)
+            return fail(
+                fmt::format("at t = {} the motion may go on to either side of {} = 0: the equations do not "
+                            "say which; begin a little beside it",
+                            t_, names));
+        const std::vector<int> before = sides_;
+        sides_ = found[0].sides;
+        for (const int k : open)
+            if (before[k] != sides_[k])
+                tell(k, sides_[k] == 0   ? SideChange::Kind::sliding
+                        : before[k] == 0 ? SideChange::Kind::leaving
+                                         : SideChange::Kind::crossing);
+        return true;
+    }
+
+    /// How consistent a choice is: every g moves to the side that it has, every α lies between −1 and 1.
+    Choice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
+        Sides at(system_, sides, dimension());
+        at.evaluate(t_, state_.data());
+        Choice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
+        for (const int k : open) {
+            std::vector<int> one = sides, other = sides;
+            one[k] = 1;
+            other[k] = -1;
+            const double up = slope_of(one, k), down = slope_of(other, k);
+            const double size = std::abs(up) + std::abs(down);
+            const bool jump = std::abs(up - down) > 1e-9 * size;
+            choice.jumps = choice.jumps || jump;
+            double margin;
+            if (sides[k] != 0)
+                margin = size > 0 ? sides[k] * at.slope(k) / size : 0;
+            else if (!jump || up > down)
+                margin = -HUGE_VAL;  // nothing to slide along, or it repels
+            else
+                margin = 1 - std::abs(at.sigma()[k]);
+            choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
+        }
+        return choice;
+    }
+
+    double slope_of(const std::vector<int>& sides, int k) const {
+        Sides at(system_, sides, dimension());
+        at.evaluate(t_, state_.data());
+        return at.slope(k);
+    }
+
+    void tell(int k, SideChange::Kind kind) const {
+        if (system_.on_change) system_.on_change({.time = t_, .index = k, .kind = kind, .side = sides_[k]});
+    }
+
+    bool fail(const std::string& message) {
+        result_.ending = Ending::failed;
+        result_.failure = Failure{.kind = FailureKind::no_side, .message = message, .time = t_, .state = state_};
+        return false;
+    }
+
+    void join(Trajectory next, const Options& here) {
+        const bool first = result_.times.empty();
+        if (first) {
+            result_ = std::move(next);
+            return;
+        }
+        append(result_, std::move(next), *here.grid, here.sample);
+    }
+
+    const Switching& system_;
+    const Options& options_;
+    const Events& events_;
+    double end_, t_;
+    std::vector<double> state_;
+    std::vector<int> sides_;
+    std::vector<double> sizes_;  ///< the largest |g_k| so far
+    int in_one_place_ = 0;
+    double last_change_ = -HUGE_VAL;
+    Trajectory result_;
+};
+
+}  // namespace
+
+Trajectory integrate(const Switching& system, const std::vector<double>& initial, const Options& options,
+                     const Events& events) {
+    return SwitchedRun(system, initial, options, events).go();
+}
+
+std::vector<double> consistent_signs(const Switching& system, std::vector<int> sides, double t, const double* y,
+                                     int dimension) {
+    for (bool again = true; again;) {
+        again = false;
+        Sides at(system, sides, dimension);
+        at.evaluate(t, y);
+        for (std::size_t i = 0; i < at.sliding().size() && !again; ++i) {
+            const int k = at.sliding()[i];
+            const double alpha = at.sigma()[static_cast<std::size_t>(k)];
+            if (at.steepness(i) < 0 && std::abs(alpha) <= 1) continue;
+            sides[static_cast<std::size_t>(k)] =
+                at.steepness(i) < 0 ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1);
+            again = true;
+        }
+        if (!again) return at.sigma();
+    }
+    return {};
+}
+
+}  // namespace alembert

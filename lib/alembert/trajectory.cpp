@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/trajectory.hpp"
+
+#include <cmath>
+
+namespace alembert {
+
+void append(Trajectory& first, Trajectory next, double grid, double sample) {
+    const auto width = static_cast<std::size_t>(first.dimension);
+    const double rows = (first.times.back() - grid) / sample;
+    if (std::abs(rows - std::round(rows)) > 1e-9 && first.rows() > 1 && next.rows() > 1) {
+        first.times.pop_back();
+        first.states.resize(first.states.size() - width);
+    }
+    first.times.insert(first.times.end(), next.times.begin() + 1, next.times.end());
+    first.states.insert(first.states.end(), next.states.begin() + static_cast<std::ptrdiff_t>(width),
+                        next.states.end());
+    first.events.insert(first.events.end(), next.events.begin(), next.events.end());
+    first.statistics.steps += next.statistics.steps;
+    first.statistics.rejected += next.statistics.rejected;
+    first.statistics.evaluations += next.statistics.evaluations;
+    first.last_zeros = std::move(next.last_zeros);
+    first.ending = next.ending;
+    first.failure = std::move(next.failure);
+}
+
+}  // namespace alembert
