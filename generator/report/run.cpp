@@ -225,11 +225,11 @@ Json as_json(const Run& run) {
     result["events"] = Json::array();
     for (const EventRecord& event : run.motion.events) result["events"].push_back(json_of(event, run.mechanism));
     if (run.mechanism.has_kicks()) result["impulse_work"] = energy.impulse_work;
+    for (const Run::Side& change : run.side_changes)
+        result["switches"].push_back(
+            {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
     if (!run.contacts.empty()) {
         result["contacts"] = json_of(run.motion.contacts, run.contacts);
-        for (const Run::Side& change : run.side_changes)
-            result["switches"].push_back(
-                {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
         result["impact_loss"] = energy.impact_loss;
     }
     result["seconds"] = {{"derive", run.timings.derive},

@@ -13,6 +13,7 @@
 #include "emit/taylor.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
+#include "program/switches.hpp"
 #include "run/bounces.hpp"
 #include "run/canonical.hpp"
 #include "run/method.hpp"
@@ -147,7 +148,7 @@ public:
                                                failure_at(result_, first).value_or("the mass matrix is singular")),
                                    start_.t, start_.q);
         const double duration = wishes_.duration >= 0 ? wishes_.duration : start_.duration;
-        if (has_jumps(m)) return measure_jumps(program, first);
+        if (has_jumps(m) || switched(program)) return measure_jumps(program, first);
 
         const Compilation c = compilation_of(result_, program, start_, energy.conserved, wishes_);
         result_.formulation = c.source.formulation;

@@ -28,15 +28,67 @@ const double* HeldParameters::with(const double* sigma) {
     return par_.data();
 }
 
+namespace {
+
+/// A node as people would type it, as far as it is short.
+std::string text_of(const Program& p, int id, int depth = 0) {
+    const Node& node = p[id];
+    if (depth > 4) return "…";
+    const auto inner = [&](int arg) { return text_of(p, arg, depth + 1); };
+    const auto rational = [](const Rational& r) { return fmt::format("{:g}", cln::double_approx(r)); };
+    switch (node.op) {
+        case Op::number:
+            return rational(node.number);
+        case Op::pi:
+            return "pi";
+        case Op::variable: {
+            const auto k = static_cast<std::size_t>(node.variable.index);
+            switch (node.variable.kind) {
+                case Variable::Kind::parameter:
+                    return p.parameters[k].name;
+                case Variable::Kind::coordinate:
+                    return p.coordinates[k].name;
+                case Variable::Kind::rate:
+                    return p.speeds.empty() ? p.coordinates[k].name + "'" : p.speeds[k].name;
+                default:
+                    return "t";
+            }
+        }
+        case Op::sum: {
+            std::string text = cln::zerop(node.number) ? "" : rational(node.number);
+            for (std::size_t k = 0; k < node.args.size(); ++k) {
+                const Rational c = node.coefficients[k];
+                text += c < 0 ? "-" : text.empty() ? "" : "+";
+                if (cln::abs(c) != 1) text += rational(cln::abs(c)) + "*";
+                text += inner(node.args[k]);
+            }
+            return depth == 0 ? text : "(" + text + ")";
+        }
+        case Op::product: {
+            std::string text;
+            for (std::size_t k = 0; k < node.args.size(); ++k) {
+                text += node.exponents[k] < 0 ? (text.empty() ? "1/" : "/") : text.empty() ? "" : "*";
+                text += inner(node.args[k]);
+                if (std::abs(node.exponents[k]) != 1) text += fmt::format("^{}", std::abs(node.exponents[k]));
+            }
+            return text;
+        }
+        default: {
+            std::string text;
+            for (const int arg : node.args) text += (text.empty() ? "" : ", ") + text_of(p, arg, 0);
+            return fmt::format("{}({})", name_of(node.op), text);
+        }
+    }
+}
+
+}  // namespace
+
 std::vector<std::string> names_of_sides(const Program& program, const std::vector<int>& functions) {
+    constexpr std::size_t longest = 60;
     std::vector<std::string> names;
     for (const int id : functions) {
-        const Node& node = program[id];
-        std::string of;
-        for (const int source : node.sources)
-            if (source > 0 && static_cast<std::size_t>(source) < program.source_labels.size() && of.empty())
-                of = " of " + program.source_labels[static_cast<std::size_t>(source)];
-        names.push_back(fmt::format("{}(…){}", name_of(node.op), of));
+        const std::string text = text_of(program, id);
+        names.push_back(text.size() <= longest ? text : fmt::format("{}(…)", name_of(program[id].op)));
     }
     return names;
 }

@@ -29,7 +29,7 @@ private:
     std::vector<double> values_, sigma_, par_;
 };
 
-/// Names of the functions whose signs are held, for messages: "sign(…) of force 1".
+/// Names of the functions whose signs are held, for messages: "sign(x'-v)".
 std::vector<std::string> names_of_sides(const Program& program, const std::vector<int>& functions);
 
 /// `smooth` as Switching has it; what is told of steps and changes is for the caller to add.

@@ -302,7 +302,8 @@ private:
         const std::vector<int> before = sides_;
         sides_ = found[0].sides;
         for (const int k : open)
-            if (before[k] != sides_[k])
+            if (before[k] != sides_[k] &&
+                (sides_[k] == 0 || !result_.times.empty()))  // at the start it has no side
                 tell(k, sides_[k] == 0   ? SideChange::Kind::sliding
                         : before[k] == 0 ? SideChange::Kind::leaving
                                          : SideChange::Kind::crossing);
