@@ -247,7 +247,7 @@ function value(column, low, high, part) {
 function plotCursor(root) {
   const [x0, x1] = root.dataset.x.split(",").map(Number), [y0, y1] = root.dataset.y.split(",").map(Number);
   const columns = root.dataset.columns.split(",").map(Number), xColumn = Number(root.dataset.xColumn);
-  const toX = (v) => 58 + (v - x0) / (x1 - x0) * 350, toY = (v) => 210 - (v - y0) / (y1 - y0) * 198;
+  const toX = (v) => 70 + (v - x0) / (x1 - x0) * 328, toY = (v) => 210 - (v - y0) / (y1 - y0) * 198;
   const line = document.createElementNS(SVG, "path");
   line.setAttribute("class", "cursor");
   if (xColumn < 0) root.append(line);
@@ -263,7 +263,7 @@ function plotCursor(root) {
     const seek = (event) => {
       const box = root.getBoundingClientRect();
       const x = (event.clientX - box.left) / box.width * 420;
-      setTime(x0 + (x - 58) / 350 * (x1 - x0));
+      setTime(x0 + (x - 70) / 328 * (x1 - x0));
     };
     root.addEventListener("pointerdown", (event) => { seek(event); root.setPointerCapture(event.pointerId); });
     root.addEventListener("pointermove", (event) => { if (event.buttons) seek(event); });

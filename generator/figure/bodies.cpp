@@ -44,9 +44,21 @@ private:
         std::vector<int> held;
         for (const Sketch::Site& site : s_.sites)
             if (&s_.canonical(site.track) == &site && !s_.same(site.track, body_->centre) &&
-                s_.is_fixed_in(body_->axes, body_->centre, site.track))
+                s_.is_fixed_in(body_->axes, body_->centre, site.track) && is_own(site))
                 held.push_back(site.track);
         return held;
+    }
+
+    /// A body of joints carries its own joints' points and what is given from it: other places may lie on the axis
+    /// about which it turns, and move with it by chance.
+    bool is_own(const Sketch::Site& place) const {
+        bool has_joints = false;
+        for (const Sketch::Site& site : s_.sites) {
+            if (site.of != Sketch::Site::Of::joint || site.from != body_->name) continue;
+            has_joints = true;
+            if (s_.same(site.track, place.track)) return true;
+        }
+        return !has_joints || place.from == body_->name;
     }
 
     Vector3d arm(int place) const { return s_.at(0, place) - s_.at(0, body_->centre); }
@@ -132,7 +144,29 @@ private:
         element(Kind::ring, {centre(), spot_at(u), spot_at(v)}, radius);
     }
 
+    /// In the plane the ground lies below the wheel, at a place that does not move.
+    void add_ground(double radius) {
+        std::optional<Vector3d> along;
+        for (int state = 1; state < Sketch::at_one_time; ++state) {
+            const Vector3d way = s_.at(state, body_->centre) - s_.at(0, body_->centre);
+            if (way.norm() < 1e-9 * s_.scale) continue;
+            if (along && along->cross(way).norm() > 1e-9 * way.norm()) return;
+            along = way.normalized();
+        }
+        if (!along) return;
+        Vector3d below = along->cross(Vector3d::Unit(s_.normal));
+        const Vector3d down = s_.down.norm() > 0 ? s_.down : Vector3d(-Vector3d::Unit(s_.normal == 2 ? 1 : 2));
+        if (below.dot(down) < 0) below = -below;
+        const int origin = s_.place("O");
+        const Vector3d contact = s_.at(0, body_->centre) - s_.at(0, origin) + radius * below;
+        s_.add({.kind = Kind::floor,
+                .points = {s_.spot(origin, -1, contact), s_.spot(origin, -1, contact + *along),
+                           s_.spot(origin, -1, contact - below), centre()},
+                .size = 1});
+    }
+
     void add_wheel(double radius) {
+        if (s_.is_plane) add_ground(radius);
         if (const int axis = axis_of_symmetry(); axis >= 0)
             add_ring(axis, radius);
         else
@@ -149,7 +183,9 @@ private:
                 return;
             }
             Vector3d end = Vector3d::Zero();
-            end[s_.normal == 0 ? 1 : 0] = half;
+            // An axle lies across the direction of its wheels.
+            const int x = s_.normal == 0 ? 1 : 0, y = s_.normal == 2 ? 1 : 2;
+            end[body_->weight > 0 ? x : y] = half;
             element(Kind::bar, {spot_at(-end), spot_at(end)});
             return;
         }
@@ -237,7 +273,7 @@ private:
             const Vector3d stem = own(arm(held[0]).normalized()).cwiseAbs();
             for (int k = 0; k < 3; ++k)
                 if (stem[k] > 0.999 && nearly(I[(k + 1) % 3], I[(k + 2) % 3], 1e-6) && I[k] > 0)
-                    add_ring(k, std::min(std::sqrt(2 * I[k]), 0.7 * arm(held[0]).norm()));
+                    add_ring(k, std::min(std::sqrt(2 * I[k]), 0.4 * arm(held[0]).norm()));
             return;
         }
         if (is_flat) return;
@@ -252,7 +288,8 @@ private:
         }
         if (nearly(I[0], I[1], 1e-6) && nearly(I[0], I[2], 1e-6)) {
             const double r = std::sqrt(2.5 * I[0]);
-            element(Kind::ball, {centre(), spot_at({r, 0, 0}), spot_at({0, r, 0}), spot_at({0, 0, r})}, r);
+            element(Kind::ball, {centre(), spot_at({r, 0, 0}), spot_at({0, r, 0}), spot_at({0, 0, r})}, r,
+                    s_.scene.joints.empty() ? "" : "cage");
             return;
         }
         const double all = I.sum();

@@ -27,13 +27,14 @@ struct FigureElement {
         rod,      ///< two ends: a constant distance without a mass of its own
         bar,      ///< two ends: a body along a line
         plate,    ///< corners: a body through several points
-        ring,     ///< centre, two directions to its rim at right angles: a wheel or a disc
-        ball,     ///< centre, two directions to its surface at right angles
-        box,      ///< centre, three directions: half the edges of a body of which only the inertia is known
+        ring,     ///< centre, two points of its rim at right angles: a wheel or a disc
+        ball,     ///< centre, then points of its surface in directions at right angles; label "cage": seen through
+        box,      ///< centre, the middles of three faces: a body of which only the inertia is known
         pin,      ///< point: a hinge
         support,  ///< point: a hinge on the ground
         guide,    ///< where the block is at the start, a point at the distance one along the way, the block
-        floor,    ///< point, direction along it, direction out of the ground
+        floor,    ///< a point of it, others at the distance one along it and out of the ground, what touches it;
+                ///< `size` is 1 where that always touches it
         wall,     ///< point, direction away from it: the end of a spring that is held
         spring,   ///< two ends
         coil,     ///< point: a spring along an angle

@@ -80,6 +80,31 @@ std::optional<Vector3d> direction_of(const Sketch& s, int k, int place) {
     return along;
 }
 
+/// How many coordinates move the place.
+int movers(const Sketch& s, int place) {
+    int count = 0;
+    for (int k = 0; k < s.m.size(); ++k)
+        if ((s.with(1, place, k, s.coordinate(1, k) + 0.1) - s.at(1, place)).norm() > 1e-7 * s.scale) ++count;
+    return count;
+}
+
+/// Between a mass and the place that it reaches where the coordinate is zero: a rope, a radius.
+void add_rope(Sketch& s, int k, const Sketch::Site& end) {
+    if (end.mass < 0 || direction_of(s, k, end.track)) return;
+    for (const Sketch::Site& site : s.sites) {
+        bool is_foot = s.is_finite(site.track);
+        for (int state = 0; state < Sketch::states && is_foot; ++state)
+            is_foot = (s.with(state, end.track, k, 0) - s.at(state, site.track)).norm() <= 1e-7 * s.scale;
+        if (!is_foot) continue;
+        const std::vector<int> points{s.spot(site.track), s.spot(end.track)};
+        const bool is_spring = std::any_of(s.elements.begin(), s.elements.end(), [&](const FigureElement& e) {
+            return (e.kind == Kind::spring || e.kind == Kind::damper) && e.points == points;
+        });
+        if (!is_spring) s.add({.kind = Kind::rope, .points = points});
+        return;
+    }
+}
+
 /// Tracks of the ends of an element, if they are tracks of the scene.
 std::optional<std::pair<int, int>> ends_on(const std::vector<std::pair<int, int>>& known, int a, int b) {
     int from = -1, to = -1;
@@ -130,7 +155,7 @@ void add_hinges(Sketch& s) {
                 (e.kind == Kind::rod || e.kind == Kind::bar || e.kind == Kind::plate || e.kind == Kind::tie ||
                  e.kind == Kind::string || e.kind == Kind::spring || e.kind == Kind::damper))
                 ++ends;
-            if (has && (e.kind == Kind::disc || e.kind == Kind::block)) is_disc = true;
+            if (has && (e.kind == Kind::disc || e.kind == Kind::block || e.kind == Kind::wall)) is_disc = true;
         }
         if (ends == 0 || is_disc) continue;
         if (s.is_fixed(site.track))
@@ -176,10 +201,17 @@ void add_coordinates(Sketch& s) {
                              .coordinate = k});
             continue;
         }
-        const auto moved = std::find_if(s.sites.begin(), s.sites.end(), [&](const Sketch::Site& site) {
-            return s.is_finite(site.track) && shifts_by(s, k, site.track);
-        });
-        if (moved != s.sites.end()) {
+        // Masses before points, and what fewer coordinates move before what more of them do.
+        const Sketch::Site* moved = nullptr;
+        const auto rank = [&](const Sketch::Site& site) {
+            return (site.mass >= 0 ? 0 : 1000) + movers(s, site.track);
+        };
+        for (const Sketch::Site& site : s.sites)
+            if (s.is_finite(site.track) && shifts_by(s, k, site.track) &&
+                (moved == nullptr || rank(site) < rank(*moved)))
+                moved = &site;
+        if (moved != nullptr) {
+            add_rope(s, k, *moved);
             found.push_back({.kind = Kind::length,
                              .points = {s.spot(moved->track, k), s.spot(moved->track)},
                              .label = name,
@@ -213,7 +245,12 @@ void add_coordinates(Sketch& s) {
             if (is_drawn) break;
         }
     }
-    for (FigureElement& e : found) s.add(std::move(e));
+    const auto lengths =
+        std::count_if(found.begin(), found.end(), [](const FigureElement& e) { return e.kind == Kind::length; });
+    constexpr int readable = 6;  // dimension lines beside each other
+    for (FigureElement& e : found)
+        if (lengths <= readable || e.kind != Kind::length) s.add(std::move(e));
+    if (lengths > readable) s.notes.emplace_back("Coordinates that are lengths are too many to be shown.");
     for (FigureElement& e : s.elements) {
         if (e.kind != Kind::coil) continue;
         const auto angle = std::find_if(s.elements.begin(), s.elements.end(), [&](const FigureElement& other) {

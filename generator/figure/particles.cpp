@@ -36,7 +36,10 @@ bool is_part_of_a_body(const Sketch& s, int track) {
 std::vector<const Sketch::Site*> pivots(const Sketch& s, const Sketch::Site& particle) {
     std::vector<const Sketch::Site*> found;
     for (const Sketch::Site& site : s.sites) {
-        if (&site == &particle) break;
+        // Between two particles the later one has the rod.
+        const bool is_later =
+            &site >= &particle && site.mass >= 0 && s.m.masses[site.mass].origin.kind == Origin::Kind::particle;
+        if (is_later || &site == &particle) continue;
         if (&s.canonical(site.track) != &site || !s.is_finite(site.track)) continue;
         const std::optional<double> here = s.distance(site.track, particle.track);
         if (!here) continue;

@@ -165,8 +165,9 @@ private:
             whole.hold(here.high);
             own = std::max(own, here.size().norm());
         }
-        const bool has_floor = std::any_of(d_.elements.begin(), d_.elements.end(),
-                                           [](const FigureElement& e) { return e.kind == Element::floor; });
+        const bool has_floor = std::any_of(d_.elements.begin(), d_.elements.end(), [](const FigureElement& e) {
+            return e.kind == Element::floor && e.size == 0;
+        });
         f_.followed = d_.traced;
         if (poses_.size() > 1 && own > 0 && whole.size().norm() > 4 * own && !has_floor) {
             f_.follows = true;
@@ -276,7 +277,7 @@ private:
                 put(Kind::circle, "dot", {at(p[0])}).size = 2;
                 return;
             case Element::ball: {
-                FigureShape& circle = put(Kind::circle, "ring", {at(p[0])});
+                FigureShape& circle = put(Kind::circle, e.label == "cage" ? "cage" : "ring", {at(p[0])});
                 circle.size = e.size;
                 circle.in_scene = true;
                 put(Kind::ring, "great", {at(p[0]), at(p[1]), at(p[2])});
@@ -336,7 +337,8 @@ private:
         const double r = largest_ > 0 ? 4.5 + 5 * std::cbrt(e.size / largest_) : 6;
         put(Kind::circle, "mass", {at(e.points[0])}).size = r;
         const Vector2d side = free_side(e.points[0]) * (r + 12);
-        text("name", at(e.points[0], side[0], side[1] + 5), mass_label(e));
+        const double longer = 3.5 * std::max(0.0, static_cast<double>(e.label.size()) - 2);
+        text("name", at(e.points[0], side[0] + (side[0] < 0 ? -longer : longer), side[1] + 5), mass_label(e));
     }
 
     /// Left of a rod that points down, above one that points right: where nothing else is.

@@ -120,7 +120,7 @@ std::string symbol(const Mechanism& m, const GiNaC::symbol& s) {
 }
 
 std::string number(double x) {
-    return fmt::format("{:.6g}", x);
+    return std::abs(x) < 1e-14 ? "0" : fmt::format("{:.6g}", x);
 }
 
 void table(std::string& page, const std::string& caption, const std::vector<std::string>& columns) {
@@ -143,14 +143,14 @@ void add_mechanism(PageParts& page, const Overview& all) {
     table(body, "Coordinates", {"symbol", "at the start", "rate at the start", "unit", "meaning"});
     for (std::size_t k = 0; k < m.q.size(); ++k)
         put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            symbol(m, m.q[k]), number(all.start.q[k]), number(all.start.qdot[k]), html(m.units[k]),
+            symbol(m, m.q[k]), number(all.start.q[k]), number(all.start.qdot[k]), html(unit_text(m.units[k])),
             html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
     put(body, "</tbody></table></div>\n");
     if (!m.speeds.empty()) {
         table(body, "Generalized speeds", {"symbol", "form", "unit", "meaning"});
         for (std::size_t k = 0; k < m.speeds.size(); ++k)
             put(body, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text), html(m.speeds[k].unit),
+                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text), html(unit_text(m.speeds[k].unit)),
                 html(all.scene.speeds[k].about));
         put(body, "</tbody></table></div>\n");
     }
@@ -159,7 +159,8 @@ void add_mechanism(PageParts& page, const Overview& all) {
         for (std::size_t k = 0; k < m.parameters.size(); ++k) {
             const Parameter& given = all.scene.parameters[k];
             put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                symbol(m, m.parameters[k].symbol), html(given.value.text), html(given.unit), html(given.about));
+                symbol(m, m.parameters[k].symbol), html(given.value.text), html(unit_text(given.unit)),
+                html(given.about));
         }
         put(body, "</tbody></table></div>\n");
     }
@@ -169,7 +170,8 @@ void add_mechanism(PageParts& page, const Overview& all) {
             put(body,
                 "<tr><th scope=\"row\"><span class=\"letters\">{}</span></th><td><code>{}</code></td><td>{}</td>"
                 "<td>{}</td></tr>\n",
-                html_letters(input.name.text), html(input.value.text), html(input.unit), html(input.about));
+                html_letters(input.name.text), html(input.value.text), html(unit_text(input.unit)),
+                html(input.about));
         put(body, "</tbody></table></div>\n");
     }
     page.end();

@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::size_t lines_in_plot = 6, plots_of_a_kind = 4, portraits = 4;
 
-/// "m^2" as m².
-std::string unit_text(std::string unit) {
-    for (const auto& [typed, print] : {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("*", "·")})
-        for (std::size_t at = unit.find(typed); at != std::string::npos; at = unit.find(typed))
-            unit.replace(at, std::string(typed).size(), print);
-    return unit;
-}
-
 /// Are the scene's units those of SI, as far as it gives any? Then the time is in s and energies are in J.
 bool is_in_SI(const Scene& scene) {
     static const std::vector<std::string> known{"m", "kg", "s",  "rad", "N", "J",   "W", "Pa", "V", "T",

@@ -23,6 +23,9 @@ struct PageParts {
     void problem(const std::string& message);
 };
 
+/// "m^2" as m².
+std::string unit_text(std::string unit);
+
 void add_figure(PageParts& page, const Overview& all);
 void add_mechanism(PageParts& page, const Overview& all);
 void add_derivation(PageParts& page, const Overview& all);

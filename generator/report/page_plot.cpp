@@ -14,7 +14,7 @@ namespace alembert {
 
 namespace {
 
-constexpr double width = 420, height = 250, left = 58, right = 12, top = 12, bottom = 40;
+constexpr double width = 420, height = 250, left = 70, right = 22, top = 12, bottom = 40;
 
 struct Range {
     double low, high;
@@ -124,7 +124,7 @@ std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x
     put(page, "<text class=\"axis-label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
         (left + width - right) / 2, height - 6, axis_label(labels.x_name, labels.x_unit));
     put(page,
-        "<text class=\"axis-label\" transform=\"translate(13 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+        "<text class=\"axis-label\" transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
         (top + height - bottom) / 2, axis_label(labels.y_name, labels.y_unit));
     for (std::size_t k = 0; k < lines.size(); ++k)
         put(page, "<path class=\"line c{}{}\" d=\"{}\"/>\n", k % 7, k >= 7 ? " dashed" : "",

@@ -25,6 +25,13 @@ std::string head(const std::string& title, bool has_script) {
 
 }  // namespace
 
+std::string unit_text(std::string unit) {
+    for (const auto& [typed, print] : {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("*", "·")})
+        for (std::size_t at = unit.find(typed); at != std::string::npos; at = unit.find(typed))
+            unit.replace(at, std::string(typed).size(), print);
+    return unit;
+}
+
 void PageParts::section(const std::string& id, const std::string& heading) {
     contents.emplace_back(id, heading);
     put(body, "<section id=\"{0}\" aria-labelledby=\"{0}-heading\">\n<h2 id=\"{0}-heading\">{1}</h2>\n", id,
