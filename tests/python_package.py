@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Tests of the Python package: python3 tests.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy)."""
+"""Tests of the Python package: python3 python_package.py PROGRAM, with the package on PYTHONPATH (exit 77 without NumPy)."""
 
 import json
 import math
