@@ -3,7 +3,7 @@
 /// the program prints, and two classes whose numbers Python reads without a copy. The package's Python part gives
 /// them names, units and documentation (alembert/__init__.py).
 ///
-/// GiNaC is for one thread alone: everything symbolic keeps the interpreter's lock. System's functions of many
+/// GiNaC is for one thread alone: everything symbolic keeps the interpreter's lock. The functions of many
 /// states release it and use all cores.
 
 #include <fmt/format.h>
@@ -72,10 +72,10 @@ py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssiz
     return array;
 }
 
-System system_of(const std::string& text, const std::string& file, const std::string& by, bool jacobian) {
+CompiledSystem system_of(const std::string& text, const std::string& file, const std::string& by, bool jacobian) {
     const Emission emitted =
         emission(parse_scene(text, file), {.by = by, .jacobian = jacobian, .batch = true});
-    return System(load(compile(emitted.source.text, "python", {}).object), emitted.source.text);
+    return CompiledSystem(load(compile(emitted.source.text, "python", {}).object), emitted.source.text);
 }
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
@@ -127,7 +127,7 @@ py::array_t<double> mapped(const Numbers& t, const Numbers& states, int width, s
 }
 
 /// The case that solvers of ordinary differential equations call: one state, in as few instructions as possible.
-py::array_t<double> right_hand_side(const System& s, const py::object& t, const Numbers& states) {
+py::array_t<double> right_hand_side(const CompiledSystem& s, const py::object& t, const Numbers& states) {
     const int n = s.dimension();
     if (states.ndim() == 1 && states.shape(0) == n && PyFloat_Check(t.ptr())) {
         py::array_t<double> result(n);
@@ -227,30 +227,30 @@ void add_classes(py::module_& module) {
             return view(rows.values,
                         {static_cast<py::ssize_t>(rows.rows()), static_cast<py::ssize_t>(rows.columns.size())}, self);
         });
-    py::class_<System>(module, "System")
-        .def_property_readonly("dimension", &System::dimension)
-        .def_property_readonly("coordinates", &System::coordinates)
-        .def_property_readonly("speeds", &System::speeds)
-        .def_property_readonly("parameter_names", &System::parameter_names)
-        .def_property_readonly("parameter_values", &System::parameter_values)
-        .def_property_readonly("source", &System::source)
-        .def("set_parameters", &System::set_parameters)
+    py::class_<CompiledSystem>(module, "System")
+        .def_property_readonly("dimension", &CompiledSystem::dimension)
+        .def_property_readonly("coordinates", &CompiledSystem::coordinates)
+        .def_property_readonly("speeds", &CompiledSystem::speeds)
+        .def_property_readonly("parameter_names", &CompiledSystem::parameter_names)
+        .def_property_readonly("parameter_values", &CompiledSystem::parameter_values)
+        .def_property_readonly("source", &CompiledSystem::source)
+        .def("set_parameters", &CompiledSystem::set_parameters)
         .def("rhs", right_hand_side)
         .def("jacobian",
-             [](const System& s, const Numbers& t, const Numbers& states) {
+             [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
                  const int n = s.dimension();
                  return mapped(t, states, n, {n, n},
                                [&](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.jacobian_of_many(times, in, count, out); });
              })
         .def("mass_matrix",
-             [](const System& s, const Numbers& t, const Numbers& states) {
+             [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
                  const int k = s.speed_count();
                  return mapped(t, states, s.dimension(), {k, k},
                                [&](const std::vector<double>& times, const double* in, std::size_t count,
                                    double* out) { s.mass_of_many(times, in, count, out, nullptr); });
              })
-        .def("energy", [](const System& s, const Numbers& t, const Numbers& states) {
+        .def("energy", [](const CompiledSystem& s, const Numbers& t, const Numbers& states) {
             return mapped(t, states, s.dimension(), {3},
                           [&](const std::vector<double>& times, const double* in, std::size_t count, double* out) {
                               s.energy_of_many(times, in, count, out);

@@ -48,7 +48,7 @@ void on_all_cores(std::size_t count, const Part& part) {
 
 }  // namespace
 
-System::System(Module module, std::string source)
+CompiledSystem::CompiledSystem(Module module, std::string source)
     : module_(std::move(module)),
       source_(std::move(source)),
       n_(module_.table().coordinates),
@@ -57,20 +57,20 @@ System::System(Module module, std::string source)
               module_.table().parameter_values + module_.table().parameters),
       par_(prepared(module_)) {}
 
-std::vector<std::string> System::coordinates() const { return strings(module_.table().coordinate_names, n_); }
-std::vector<std::string> System::speeds() const { return strings(module_.table().speed_names, s_); }
-std::vector<std::string> System::parameter_names() const {
+std::vector<std::string> CompiledSystem::coordinates() const { return strings(module_.table().coordinate_names, n_); }
+std::vector<std::string> CompiledSystem::speeds() const { return strings(module_.table().speed_names, s_); }
+std::vector<std::string> CompiledSystem::parameter_names() const {
     return strings(module_.table().parameter_names, module_.table().parameters);
 }
 
-void System::set_parameters(const std::vector<double>& values) {
+void CompiledSystem::set_parameters(const std::vector<double>& values) {
     if (values.size() != values_.size())
         throw std::invalid_argument(fmt::format("{} values for {} parameters", values.size(), values_.size()));
     par_ = prepared(module_, values);
     values_ = values;
 }
 
-void System::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
+void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
                           double* rates) const {
     const auto width = static_cast<std::size_t>(dimension());
     const alembert_pack_table* const pack = module_.pack();
@@ -94,13 +94,13 @@ void System::rhs_of_range(const std::vector<double>& times, const double* states
     for (; k < to; ++k) rhs(time_of(times, k), states + k * width, rates + k * width);
 }
 
-void System::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+void CompiledSystem::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                          double* rates) const {
     on_all_cores(count,
                  [&](std::size_t from, std::size_t to) { rhs_of_range(times, states, from, to, rates); });
 }
 
-void System::jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+void CompiledSystem::jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                               double* values) const {
     const alembert_derivative_table* const table = module_.derivatives();
     if (table == nullptr) throw std::invalid_argument("this system was compiled without derivatives");
@@ -119,7 +119,7 @@ void System::jacobian_of_many(const std::vector<double>& times, const double* st
     });
 }
 
-void System::mass_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* mass,
+void CompiledSystem::mass_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* mass,
                           double* forcing) const {
     if (module_.table().mass_forcing == nullptr)
         throw std::invalid_argument("the mass matrix of this system is not emitted: it has too many joints");
@@ -132,7 +132,7 @@ void System::mass_of_many(const std::vector<double>& times, const double* states
     });
 }
 
-void System::energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+void CompiledSystem::energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                             double* energies) const {
     const auto width = static_cast<std::size_t>(dimension());
     on_all_cores(count, [&](std::size_t from, std::size_t to) {

@@ -3,7 +3,7 @@
 
 /// Emitted and compiled functions of a scene, for one state or for many at once.
 ///
-///     const System system(load(compile(text, "pendulum", {}).object), text);
+///     const CompiledSystem system(load(compile(text, "pendulum", {}).object), text);
 ///     system.rhs(0, state, rate);                        // state: coordinates, then speeds; rate: their derivatives
 ///     system.rhs_of_many({0}, states, 1000, rates);      // rows of 1000 states; packs of eight on all cores
 ///
@@ -16,9 +16,9 @@
 
 namespace alembert {
 
-class System {
+class CompiledSystem {
 public:
-    System(Module module, std::string source);
+    CompiledSystem(Module module, std::string source);
 
     int dimension() const { return n_ + s_; }
     int speed_count() const { return s_; }

@@ -243,3 +243,91 @@ TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, 
               .err.find("the slope -3 in x where x grows, and -1 where it falls") != std::string::npos);
     CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
 }
+
+TEST_CASE("linearize: a state that is none names one that is") {
+    const auto result = run({"linearize", source_path("scenes/textbook/rotating_hoop.toml"), "--at", "theta=0.8"});
+    CHECK(result.exit == 3);
+    CHECK(result.err.find("theta'' = ") != std::string::npos);
+    CHECK(result.err.find("--at theta=0.99440721205869") != std::string::npos);
+}
+
+// M x'' = F − m g θ − b x', l θ'' = g θ − x''; the outputs see accelerations and the force itself.
+TEST_CASE("linearize: a cart's matrices of inputs and outputs are those by hand") {
+    const std::string cart = temporary("cart.toml", R"toml(
+gravity = [0, "-g"]
+[parameters]
+M = 2
+m = 0.3
+l = 0.5
+b = 0.2
+g = 9.81
+[inputs]
+F = "0*t"
+[coordinates]
+x = 0
+theta = 0
+[[particle]]
+name = "cart"
+mass = "M"
+position = ["x", 0]
+[[particle]]
+name = "bob"
+mass = "m"
+from = "cart"
+position = ["l*sin(theta)", "l*cos(theta)"]
+[[force]]
+at = "cart"
+vector = ["F", 0]
+[[damper]]
+along = "x"
+damping = "b"
+[outputs]
+place = "x + l*sin(theta)"
+push = "x'' + 3*F"
+)toml");
+    const Json near = json_of({"linearize", cart, "--json"});
+    REQUIRE(near["states"] == Json{"x", "theta", "x'", "theta'"});
+    REQUIRE(near["inputs"] == Json{"F"});
+    REQUIRE(near["outputs"] == Json{"place", "push"});
+    const Eigen::MatrixXd B = matrix(near["matrices"]["B"]), C = matrix(near["matrices"]["output_state"]),
+                          D = matrix(near["matrices"]["output_input"]);
+    const double M = 2, m = 0.3, l = 0.5, b = 0.2, g = 9.81;
+    CHECK((B - Eigen::Vector4d(0, 0, 1 / M, -1 / (M * l))).norm() < 1e-15);
+    Eigen::MatrixXd by_hand(2, 4);
+    by_hand << 1, l, 0, 0, 0, -m * g / M, -b / M, 0;
+    CHECK((C - by_hand).norm() < 1e-15);
+    CHECK((D - Eigen::Vector2d(0, 1 / M + 3)).norm() < 1e-15);
+}
+
+// On the line y = x: 2 m x'' = F − k x − m g,  N = m y'' + m g = (F − k x + m g)/2.
+TEST_CASE("linearize: multipliers among the outputs follow state and input") {
+    const std::string bead = temporary("incline.toml", R"toml(
+[parameters]
+m = 2
+g = 10
+k = 5
+[inputs]
+F = "20 + 0*t"
+[coordinates]
+x = 0
+y = 0
+[[particle]]
+name = "P"
+mass = "m"
+position = ["x", "y"]
+[forces]
+x = "F - k*x"
+y = "-m*g"
+[[constraint]]
+name = "line"
+holonomic = "y - x"
+multiplier = "N"
+[outputs]
+normal = "N"
+)toml");
+    const Json near = json_of({"linearize", bead, "--json"});
+    REQUIRE(near["states"].size() == 2);
+    CHECK(matrix(near["matrices"]["output_state"])(0, 0) == doctest::Approx(-2.5).epsilon(1e-14));
+    CHECK(matrix(near["matrices"]["output_input"])(0, 0) == doctest::Approx(0.5).epsilon(1e-14));
+    CHECK(matrix(near["matrices"]["B"])(1, 0) == doctest::Approx(0.25).epsilon(1e-14));
+}

@@ -71,8 +71,8 @@ every() { # SCENE
     run derive "$scene" --json --reactions
     run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
-    for verb in agree audit check eval linearize inverse impact; do run "$verb" "$scene"; done
-    for verb in agree audit check linearize; do run "$verb" "$scene" --json; done
+    for verb in agree audit check eval equilibrium linearize inverse impact; do run "$verb" "$scene"; done
+    for verb in agree audit check equilibrium linearize; do run "$verb" "$scene" --json; done
     run emit "$scene" -o "$folder"
     run emit "$scene" -o "$folder" --fold --jacobian --batch --json
     run simulate "$scene" "${short[@]}" --json --reactions -o "$folder/motion.csv" --sample 0.01

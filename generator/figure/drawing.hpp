@@ -34,7 +34,7 @@ struct FigureElement {
         support,  ///< point: a hinge on the ground
         guide,    ///< where the block is at the start, a point at the distance one along the way, the block
         floor,    ///< a point of it, others at the distance one along it and out of the ground, what touches it;
-                ///< `size` is 1 where that always touches it
+                  ///< `size` is 1 where that always touches it
         wall,     ///< point, direction away from it: the end of a spring that is held
         spring,   ///< two ends
         coil,     ///< point: a spring along an angle

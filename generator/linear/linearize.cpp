@@ -6,11 +6,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "alembert/error.hpp"
+#include "linear/dependence.hpp"
 #include "linear/kinks.hpp"
+#include "linear/outputs.hpp"
 #include "linear/paths.hpp"
+#include "linear/steady.hpp"
 #include "linear/tangent.hpp"
 
 namespace alembert {
@@ -19,56 +21,6 @@ using Index = Eigen::Index;
 using Matrix = Eigen::MatrixXd;
 
 namespace {
-
-constexpr long double nothing = 1e-9L;  // of the largest element: what does not count as a dependence
-constexpr int random_states = 3;
-
-template <typename Real>
-Instant<Real> instant_of(const Residuals& residuals, const State<double>& state) {
-    Instant<Real> at{.parameters = {state.parameters.begin(), state.parameters.end()},
-                     .q = {state.q.begin(), state.q.end()},
-                     .u = {state.qdot.begin(), state.qdot.end()},
-                     .inputs = {},
-                     .t = state.t};
-    State<Real> only{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
-    only.unknown.resize(residuals.inputs.empty() ? 0 : residuals.inputs.back() + 1);
-    const std::vector<Real> value = interpret(residuals.program, only);
-    for (const int k : residuals.inputs) at.inputs.push_back(value[residuals.input_values[k]]);
-    return at;
-}
-
-/// Which element of (w', r') depends on which of (r, w, t): not zero at one of a few states near the given one.
-Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> dependences(const Residuals& residuals, const Split& split,
-                                                                const Instant<long double>& at) {
-    const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size()),
-                columns = nr + p + 1;
-    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> result(p + nr, columns);
-    result.setConstant(false);
-    const auto note = [&](const Tangent<long double>& here) {
-        MatrixOf<long double> all(p + nr, columns);
-        all.topRows(p) = here.speed_rates_by.leftCols(columns);
-        all.bottomRows(nr) = here.rates_by.leftCols(columns);
-        if (all.size() == 0 || !all.allFinite()) return false;
-        const long double scale = std::max(1.0L, all.cwiseAbs().maxCoeff());
-        result = result.array() || (all.array().abs() > nothing * scale);
-        return true;
-    };
-    note(tangent(residuals, split, at));
-    std::mt19937_64 random(20260);
-    const auto about = [&](long double x, long double size) {
-        const long double unit = static_cast<long double>(random() >> 11) / 4503599627370496.0L - 1;
-        return x + size * std::max(1.0L, std::abs(x)) * unit;
-    };
-    for (int found = 0, tries = 0; found < random_states && tries < 8 * random_states; ++tries) {
-        const long double size = 0.3L / (1 + tries);
-        Instant<long double> other = at;
-        for (const int i : split.q) other.q[i] = about(at.q[i], size);
-        for (const int i : split.u) other.u[i] = about(at.u[i], size);
-        other.t = about(at.t, size);
-        if (settle(residuals, split, other) && note(tangent(residuals, split, other))) ++found;
-    }
-    return result;
-}
 
 /// Rounding instead of zero: what differs between two precisions as much as it amounts to.
 Matrix clean(const MatrixOf<long double>& exact, const Matrix& rough) {
@@ -150,6 +102,7 @@ public:
     Linearizing(const Mechanism& m, const Equations& e, const Start& start)
         : m_(m),
           e_(e),
+          start_(start),
           residuals_(m, e),
           state_(state_of(start, m, e)),
           at_(instant_of<long double>(residuals_, state_)) {}
@@ -171,7 +124,7 @@ public:
                 "the mass matrix, constraints eliminated, is singular or not finite at this state", state_.t,
                 state_.q);
         depends_ = dependences(residuals_, split_, at_);
-        const std::vector<bool> essential = held();
+        const std::vector<bool> essential = essential_coordinates(depends_, p_);
         check_time(essential);
         find_motion(essential);
         fill();
@@ -191,20 +144,15 @@ private:
                     i < p_ ? speed(i) : coordinate(i - p_)));
     }
 
-    /// Coordinates that the speeds' rates hold, and those that the rates of these hold, and so on.
-    std::vector<bool> held() const {
-        std::vector<bool> result(nr_, false);
-        for (bool again = true; again;) {
-            again = false;
-            for (Index j = 0; j < nr_; ++j) {
-                if (result[j]) continue;
-                bool is_held = false;
-                for (Index i = 0; i < p_ + nr_; ++i)
-                    is_held = is_held || ((i < p_ || result[i - p_]) && depends_(i, j));
-                if (is_held) result[j] = again = true;
-            }
-        }
-        return result;
+    [[noreturn]] void refuse(const std::string& residual) const {
+        const std::string nearby = steady_nearby(m_, e_, start_);
+        throw ModelError(fmt::format(
+            "this state is no equilibrium and no steady motion: {}; expected zeros. {}", residual,
+            nearby.empty()
+                ? "Ask at a state where they are, or give it as initial values; `equilibrium` finds them"
+                : fmt::format("One that is, reached from here by Newton's method: {}; `equilibrium` finds "
+                              "them all",
+                              nearby)));
     }
 
     void find_motion(const std::vector<bool>& essential) {
@@ -230,11 +178,7 @@ private:
             else if (moves[j])
                 result_.moving.push_back(coordinate(j));
         }
-        if (!residual.empty())
-            throw ModelError(fmt::format(
-                "this state is no equilibrium and no steady motion: {}; expected zeros. Ask at a state where "
-                "they are, or give it as initial values",
-                fmt::join(residual, "; ")));
+        if (!residual.empty()) refuse(fmt::format("{}", fmt::join(residual, "; ")));
         // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
         // only what is held is a state.
         bool constant = true;
@@ -316,6 +260,7 @@ private:
         };
         r.A = both(A);
         r.B = both([&](const auto& t) { return rows(t).rightCols(inputs).eval(); });
+        fill_outputs(near, rough, inputs);
         MatrixOf<long double> exact = A(here_);
         for (Index i = 0; i < size; ++i)
             for (Index j = 0; j < size; ++j)
@@ -323,8 +268,21 @@ private:
         r.eigenvalues = eigenvalues_of(exact);
     }
 
+    void fill_outputs(const Instant<double>& near, const Tangent<double>& rough, Index inputs) {
+        const OutputProgram program(m_, e_, residuals_);
+        const MatrixOf<long double> exact = program.by(residuals_, at_, here_);
+        const Matrix all = clean(exact, program.by(residuals_, near, rough));
+        result_.outputs = program.names();
+        result_.output_state.resize(all.rows(), static_cast<Index>(kept_.size()) + p_);
+        for (std::size_t j = 0; j < kept_.size(); ++j)
+            result_.output_state.col(static_cast<Index>(j)) = all.col(kept_[j]);
+        result_.output_state.rightCols(p_) = all.middleCols(nr_, p_);
+        result_.output_input = all.rightCols(inputs);
+    }
+
     const Mechanism& m_;
     const Equations& e_;
+    const Start& start_;
     Residuals residuals_;
     State<double> state_;
     Instant<long double> at_;
@@ -332,7 +290,7 @@ private:
     Tangent<long double> here_;
     Index p_ = 0, nr_ = 0;
     bool at_kink_ = false;
-    Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> depends_;
+    Dependences depends_;
     std::vector<Index> kept_;
     Linearization result_;
 };

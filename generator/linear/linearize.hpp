@@ -40,12 +40,14 @@ struct Linearization {
     std::vector<std::string> coordinates;  ///< independent ones, r: columns of P
     std::vector<std::string> dependent;    ///< coordinates and speeds that have been eliminated
     Eigen::MatrixXd M, D, P;
-    Eigen::MatrixXd C, G;               ///< D = C + G, symmetric and skew
-    bool paired = false;                ///< each column of P that is not zero belongs to a speed that is its rate
-    Eigen::MatrixXd K, N;               ///< then P = K + N over the speeds' coordinates, symmetric and skew
-    std::vector<std::string> states;    ///< r and w; without cyclic coordinates where these move others
-    std::vector<std::string> inputs;    ///< that occur, derivatives too ("F''")
-    Eigen::MatrixXd A, B;               ///< δx' = A δx + B δinputs
+    Eigen::MatrixXd C, G;              ///< D = C + G, symmetric and skew
+    bool paired = false;               ///< each column of P that is not zero belongs to a speed that is its rate
+    Eigen::MatrixXd K, N;              ///< then P = K + N over the speeds' coordinates, symmetric and skew
+    std::vector<std::string> states;   ///< r and w; without cyclic coordinates where these move others
+    std::vector<std::string> inputs;   ///< that occur, derivatives too ("F''")
+    Eigen::MatrixXd A, B;              ///< δx' = A δx + B δinputs
+    std::vector<std::string> outputs;  ///< of the scene, but for those that are not known at this state
+    Eigen::MatrixXd output_state, output_input;  ///< δy = output_state δx + output_input δinputs
     std::vector<std::string> moving;    ///< cyclic coordinates whose rates are not zero; none: an equilibrium
     std::vector<std::string> left_out;  ///< coordinates without a state
     std::vector<std::complex<double>> eigenvalues;  ///< of A; by real part, then imaginary part

@@ -241,7 +241,8 @@ Split split_of(const Residuals& r, const Instant<long double>& at, const std::ve
 }
 
 template <typename Real>
-Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink) {
+Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real>& at, bool at_kink,
+                      Undisturbed motion) {
     using Matrix = MatrixOf<Real>;
     using Vector = VectorOf<Real>;
     const Values<Real> value(r, at, at_kink);
@@ -279,8 +280,12 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
     const Vector f = value.vector(r.forcing), gamma = value.vector(r.gamma);
     Vector udot = particular(gamma).col(0);
     result.mass = U.transpose() * M * U;
-    result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, U.transpose() * (f - M * udot))) : Vector(0);
-    udot += U * result.speed_rates;
+    result.balance = U.transpose() * (f - M * udot);
+    const bool is_forced = motion == Undisturbed::as_forced;
+    if (is_forced) {
+        result.speed_rates = p > 0 ? Vector(solution<Real>(result.mass, result.balance)) : Vector(0);
+        udot += U * result.speed_rates;
+    }
     Vector lambda(r.kept);
     if (r.kept > 0) {
         const Vector reaction = M * udot - f;
@@ -312,7 +317,17 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         }
     const Matrix forced = particular(-Gamma * along);
     result.force = U.transpose() * (R * along + M * forced);
-    result.speed_rates_by = p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
+    if (is_forced)
+        result.speed_rates_by =
+            p > 0 ? Matrix(-solution<Real>(result.mass, result.force)) : Matrix(0, along.cols());
+
+    if (is_forced) {
+        result.udot_by = forced + U * result.speed_rates_by;
+        const Matrix excess = R * along + M * result.udot_by;  // = Aᵀ δλ
+        Matrix on_dependent(r.kept, along.cols());
+        for (Index k = 0; k < r.kept; ++k) on_dependent.row(k) = excess.row(split.u_dependent[k]);
+        result.lambda_by = r.kept > 0 ? solution<Real>(dependent.transpose(), on_dependent) : on_dependent;
+    }
 
     result.along = along;
     result.udot = udot;
@@ -344,8 +359,24 @@ bool settle(const Residuals& r, const Split& split, Instant<Real>& at) {
     return split.q_dependent.empty() && split.u_dependent.empty();
 }
 
-template Tangent<double> tangent(const Residuals&, const Split&, const Instant<double>&, bool);
-template Tangent<long double> tangent(const Residuals&, const Split&, const Instant<long double>&, bool);
+template <typename Real>
+Instant<Real> instant_of(const Residuals& r, const State<double>& state) {
+    Instant<Real> at{.parameters = {state.parameters.begin(), state.parameters.end()},
+                     .q = {state.q.begin(), state.q.end()},
+                     .u = {state.qdot.begin(), state.qdot.end()},
+                     .inputs = {},
+                     .t = state.t};
+    State<Real> only{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
+    only.unknown.resize(r.inputs.empty() ? 0 : r.inputs.back() + 1);
+    const std::vector<Real> value = interpret(r.program, only);
+    for (const int k : r.inputs) at.inputs.push_back(value[r.input_values[k]]);
+    return at;
+}
+
+template Tangent<double> tangent(const Residuals&, const Split&, const Instant<double>&, bool, Undisturbed);
+template Tangent<long double> tangent(const Residuals&, const Split&, const Instant<long double>&, bool,
+                                      Undisturbed);
+template Instant<long double> instant_of(const Residuals&, const State<double>&);
 template bool settle(const Residuals&, const Split&, Instant<long double>&);
 
 }  // namespace alembert

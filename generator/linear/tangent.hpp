@@ -36,6 +36,10 @@ struct Instant {
     Real t = 0;
 };
 
+/// The instant of a state of the equations; inputs have the values of its time.
+template <typename Real>
+Instant<Real> instant_of(const Residuals& residuals, const State<double>& state);
+
 /// Positions of independent and dependent ones.
 struct Split {
     std::vector<int> q, q_dependent, u, u_dependent;
@@ -52,12 +56,14 @@ struct Tangent {
     VectorOf<Real> position, velocity;        ///< φ, ν: what is to be zero
     VectorOf<Real> speed_rates;               ///< w'
     VectorOf<Real> rates;                     ///< r'
+    VectorOf<Real> balance;                   ///< Uᵀ(f − M c), the forces left over at w' = 0
     MatrixOf<Real> mass, force;               ///< mass δw' + force δ = 0
     MatrixOf<Real> speed_rates_by;            ///< δw' = −mass⁻¹ force δ
     MatrixOf<Real> rates_by;                  ///< δr'
     VectorOf<Real> to_position, to_velocity;  ///< Newton's step of the dependent coordinates, then speeds
     MatrixOf<Real> along;                     ///< rows q, u, t, inputs: what a change of each column moves
     VectorOf<Real> udot, lambda;              ///< u' and multipliers of the undisturbed motion
+    MatrixOf<Real> udot_by, lambda_by;        ///< their derivatives
 };
 
 /// Dependent: by the largest pivot of φ_q among `preferred_q`, of all where none of these will do; of ν_u
@@ -66,11 +72,15 @@ struct Tangent {
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 
+/// Which motion is undisturbed: the one that the forces make, or w' = 0 whatever they are. Then no inertia is
+/// needed, −force is the derivative of `balance`, and what holds w' is empty.
+enum class Undisturbed { as_forced, steady };
+
 /// `at_kink`: a function is at a critical point (is_at_kink of paths.hpp). Then derivatives that the chain rule
 /// does not give node by node, as of sqrt(x^2)^3 at 0, are those of one-sided series.
 template <typename Real>
 Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at,
-                      bool at_kink = false);
+                      bool at_kink = false, Undisturbed motion = Undisturbed::as_forced);
 
 /// Moves dependent coordinates and speeds until the constraints hold to rounding; false if they do not.
 template <typename Real>

@@ -25,7 +25,8 @@ Json json_of(const Matrix& matrix) {
 /// Columns of equal width, under their names where these are given.
 void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows,
          const std::vector<std::string>& columns) {
-    std::size_t label = 0, width = 10;
+    const std::size_t title = std::string_view(letter).size();
+    std::size_t label = title > 2 ? title - 2 : 0, width = 10;
     for (const std::string& name : rows) label = std::max(label, name.size());
     for (const std::string& name : columns) width = std::max(width, name.size());
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
@@ -74,6 +75,11 @@ void add_matrices(std::string& page, const Linearization& near) {
     put(page, "x' = A x{}, with\n\n", near.inputs.empty() ? "" : " + B (inputs)");
     add(page, "A", near.A, near.states, near.states);
     if (!near.inputs.empty()) add(page, "B", near.B, near.states, near.inputs);
+    if (near.outputs.empty()) return;
+    put(page, "the outputs change by output_state x{}, with\n\n",
+        near.inputs.empty() ? "" : " + output_input (inputs)");
+    add(page, "output_state", near.output_state, near.outputs, near.states);
+    if (!near.inputs.empty()) add(page, "output_input", near.output_input, near.outputs, near.inputs);
 }
 
 void add_eigenvalues(std::string& page, const Linearization& near) {
@@ -142,6 +148,9 @@ Json as_json(const LinearizedScene& d) {
     matrices["P"] = json_of(near.P);
     matrices["A"] = json_of(near.A);
     matrices["B"] = json_of(near.B);
+    matrices["output_state"] = json_of(near.output_state);
+    matrices["output_input"] = json_of(near.output_input);
+    result["outputs"] = near.outputs;
     result["eigenvalues"] = Json::array();
     for (const std::complex<double>& value : near.eigenvalues)
         result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
+#include <charconv>
+#include <iostream>
+
+#include "alembert/error.hpp"
+#include "commands/output.hpp"
+#include "commands/progress.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "commands/verb.hpp"
+#include "report/branches.hpp"
+#include "report/equilibria.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int undecided = 2;
+
+struct EquilibriumVerb : SceneOptions {
+    std::vector<std::string> at;
+    std::string follow, output, svg;
+};
+
+/// NAME=FROM:TO
+void read_range(const std::string& item, FollowOptions& options) {
+    const std::size_t equals = item.find('='), colon = item.find(':', equals == item.npos ? 0 : equals);
+    const auto read = [](std::string_view text, double& value) {
+        const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return failure == std::errc() && end == text.data() + text.size();
+    };
+    const std::string_view all = item;
+    if (equals == item.npos || equals == 0 || colon == item.npos ||
+        !read(all.substr(equals + 1, colon - equals - 1), options.from) ||
+        !read(all.substr(colon + 1), options.to))
+        throw ModelError(
+            fmt::format("--follow {}: expected NAME=FROM:TO with two numbers, as in --follow Omega=0:20", item));
+    options.name = item.substr(0, equals);
+}
+
+int follow(const EquilibriumVerb& verb) {
+    FollowOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    read_range(verb.follow, options);
+    Progress progress;
+    options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    const Branches found = branches(scene_of(verb.scene), options);
+    progress.wipe();
+    warn(found.warnings);
+    if (!verb.output.empty()) write_file(verb.output, as_csv(found), {verb.scene});
+    if (!verb.svg.empty()) write_file(verb.svg, as_svg(found), {verb.scene, verb.output});
+    if (verb.json)
+        show(as_json(found));
+    else
+        show(as_text(found));
+    if (!found.branches.empty()) return 0;
+    std::cout.flush();
+    warn(
+        {fmt::format("{}: no equilibrium or steady motion was found for {} from {} to {}. This is no proof that "
+                     "there is none\n",
+                     verb.scene, found.parameter, found.from, found.to)});
+    return undecided;
+}
+
+int run(const EquilibriumVerb& verb) {
+    check_output(verb.output, {verb.scene});
+    check_output(verb.svg, {verb.scene});
+    if (!verb.follow.empty()) return follow(verb);
+    if (!verb.output.empty() || !verb.svg.empty())
+        throw ModelError("-o and --svg show branches; expected --follow NAME=FROM:TO with them");
+    EquilibriumOptions options{.by = verb.by, .at = overrides_of(verb.at)};
+    Progress progress;
+    options.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    const Equilibria found = equilibria(scene_of(verb.scene), options);
+    progress.wipe();
+    warn(found.warnings);
+    if (verb.json)
+        show(as_json(found));
+    else
+        show(as_text(found));
+    if (!found.list.empty()) return 0;
+    std::cout.flush();
+    warn({fmt::format("{}: {}\n", verb.scene, found.nothing)});
+    return undecided;
+}
+
+}  // namespace
+
+void add_equilibrium(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<EquilibriumVerb>(
+        app, chosen,
+        {.name = "equilibrium",
+         .about = "finds where the system can stay at rest, or move steadily",
+         .example = "alembert equilibrium scenes/textbook/double_pendulum.toml"},
+        run, [](CLI::App& verb, EquilibriumVerb& options) {
+            add_by_option(verb, options.by);
+            add_at_option(verb, options.at);
+            verb.add_option("--follow", options.follow,
+                            "follows all over a parameter, with folds and bifurcations")
+                ->type_name(values::interval);
+            verb.add_option("-o,--output", options.output, "CSV file of the branches")->type_name(values::file);
+            verb.add_option("--svg", options.svg, "picture of the branches")->type_name(values::file);
+        });
+}
+
+}  // namespace alembert

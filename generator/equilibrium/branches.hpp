@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// How equilibria and steady motions change with a parameter: `equilibrium --follow`.
+///
+///     const Branches found = branches(read_scene("scenes/textbook/rotating_hoop.toml"), {.name = "Omega",
+///                                     .from = 0, .to = 10});
+///     found.points[0].kind, found.points[0].parameter;       // pitchfork, sqrt(g/R)
+///
+/// All equilibria are searched at several values of the parameter; each that lies on no curve yet is followed both
+/// ways, and so is what branches off. A closed curve between two of these values that nothing branches from to is
+/// not seen.
+
+#include "equilibrium/crossing.hpp"
+#include "equilibrium/equilibria.hpp"
+
+namespace alembert {
+
+struct FollowOptions {
+    std::string by = {};
+    Overrides at = {};
+    std::string name = {};  ///< a parameter, or the rate of a cyclic coordinate: "phi'"
+    double from = 0, to = 1;
+    std::function<void(std::string_view, double)> progress = {};
+};
+
+struct BranchPoint {
+    double parameter = 0;
+    std::vector<double> q;
+    Stable stable = Stable::undecided;
+    std::optional<PointKind> kind = {};  ///< of a special point
+};
+
+struct Branch {
+    std::vector<BranchPoint> points;
+    bool closed = false;
+};
+
+struct SpecialPoint {
+    PointKind kind;
+    double parameter;
+    std::vector<double> q;
+    std::size_t branch;  ///< on which it was found
+};
+
+struct Branches : Derived {
+    std::string parameter = {};
+    double from = 0, to = 1;
+    std::vector<Branch> branches = {};
+    std::vector<SpecialPoint> points = {};  ///< by parameter
+    std::vector<bool> is_angle = {}, essential = {};
+    bool cut = false;  ///< a curve was given up before its end
+};
+
+/// Throws as `equilibria`, and ModelError for a name that is neither a parameter nor a cyclic rate, or a range of
+/// no length.
+Branches branches(Scene scene, const FollowOptions& options);
+
+}  // namespace alembert

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// What happens where curves of equilibria cross.
+///
+///     const Crossing crossing = crossing_at(tracer, point);
+///     crossing.kind, crossing.directions          // two tangents
+///
+/// F_y has two null vectors v₁, v₂ there and one on the left, ψ. With b_ij = ψᵀ F_yy v_i v_j, the tangents α v₁ +
+/// β v₂ obey b₁₁ α² + 2 b₁₂ α β + b₂₂ β² = 0. One along which the parameter does not change belongs to a
+/// pitchfork. (Keller, Lectures on Numerical Methods in Bifurcation Problems (1987), §5.20.)
+
+#include "equilibrium/tracer.hpp"
+
+namespace alembert {
+
+enum class PointKind { fold, pitchfork, transcritical, touching, hopf, hamiltonian_hopf };
+const char* name_of(PointKind kind);
+
+struct Crossing {
+    PointKind kind = PointKind::touching;
+    std::vector<VectorOf<long double>> directions;  ///< of y, of length 1
+};
+
+Crossing crossing_at(const Tracer& tracer, const TracedPoint& point);
+
+}  // namespace alembert

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equilibrium/equilibria.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/error.hpp"
+#include "contact/contacts.hpp"
+#include "formalism/elements.hpp"
+#include "lower/lower.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double closed_gap = 1e-9;  // · max(1, |q|)
+
+/// Inputs keep still: an equilibrium under a force that changes is none.
+void check_inputs(const Mechanism& m, const Residuals& residuals, const Start& start) {
+    for (std::size_t k = 0; k < residuals.inputs.size(); ++k)
+        for (const double later : {0.37, 1.0, 2.71}) {
+            State<double> now = start.state(), then = now;
+            then.t += later;
+            const int node = residuals.input_values[static_cast<std::size_t>(residuals.inputs[k])];
+            now.unknown.resize(static_cast<std::size_t>(residuals.inputs.back()) + 1);
+            then.unknown = now.unknown;
+            const double a = interpret(residuals.program, now)[node], b = interpret(residuals.program, then)[node];
+            if (std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b))) continue;
+            const std::string name =
+                m.inputs[static_cast<std::size_t>(residuals.inputs[k]) / 3].derivative[0].get_name();
+            throw ModelError(fmt::format(
+                "the input {} changes with time ({:.6g} at t = {:.6g}, {:.6g} at t = {:.6g}), so nothing stays at "
+                "rest; expected inputs that are constant. Give its amplitude the value 0 by --at, or write a "
+                "constant into [inputs]",
+                name, a, now.t, b, then.t));
+        }
+}
+
+void check_contacts(const Derived& d, const Start& start) {
+    if (d.mechanism.unilateral.empty()) return;
+    const ContactView view(d.mechanism);
+    const State<double> state = start.state();
+    const Lasting lasting = contacts_at_rest(view, state, closed_gap);
+    if (lasting.closed.empty()) return;
+    std::vector<std::string> names;
+    for (const int k : lasting.closed) names.push_back(d.mechanism.unilateral[k].gap.name);
+    throw ModelError(
+        fmt::format("contact {} is closed at this state; equilibria are searched with all contacts open. Give a "
+                    "state by --at in "
+                    "which it is open, or write it as a [[constraint]] in place of the [[contact]]",
+                    fmt::join(names, ", ")));
+}
+
+std::vector<double> multipliers_at(const SteadyProblem& problem, const Instant<long double>& at) {
+    const SteadySystem here = problem.linearized_at(at, at.u);
+    return {here.tangent.lambda.data(), here.tangent.lambda.data() + here.tangent.lambda.size()};
+}
+
+/// Does the state pass through a contact?
+bool penetrates(const Derived& d, const Start& start) {
+    if (d.mechanism.unilateral.empty()) return false;
+    Program program;
+    std::vector<GiNaC::ex> gaps;
+    for (const Mechanism::Unilateral& contact : d.mechanism.unilateral) gaps.push_back(*contact.gap.position);
+    const std::vector<int> nodes = lower_expressions(program, d.mechanism, gaps);
+    const std::vector<double> value = interpret(program, start.state());
+    return std::any_of(nodes.begin(), nodes.end(), [&](int node) { return value[node] < -closed_gap; });
+}
+
+std::string searched(const Equilibria& found) {
+    std::vector<std::string> where;
+    const Mechanism& m = found.mechanism;
+    for (int i = 0; i < m.size(); ++i)
+        if (std::find(found.cyclic.begin(), found.cyclic.end(), m.q[i].get_name()) == found.cyclic.end())
+            where.push_back(m.q[i].get_name() +
+                            (found.search.is_angle[i] ? " in one turn" : " near the scene's lengths"));
+    std::string text = fmt::format("no equilibrium or steady motion was found from {} start{}",
+                                   found.search.starts, found.search.starts == 1 ? "" : "s");
+    if (!where.empty()) text += fmt::format(" ({})", fmt::join(where, ", "));
+    if (!found.search.left_over.empty()) {
+        std::vector<std::string> forces;
+        for (const long double x : found.search.left_over)
+            forces.push_back(fmt::format("{:.6g}", static_cast<double>(x)));
+        std::vector<std::string> state;
+        for (int i = 0; i < m.size(); ++i)
+            state.push_back(
+                fmt::format("{} = {:.6g}", m.q[i].get_name(), static_cast<double>(found.search.nearest.q[i])));
+        text += fmt::format("; the least forces left over were {} at {}", fmt::join(forces, ", "),
+                            fmt::join(state, ", "));
+    } else {
+        text += "; at none of them did the constraints and forces have values";
+    }
+    return text + ". This is no proof that there is none";
+}
+
+/// Throws where a force is the same at every state and nothing balances it.
+void check_balance(const Equilibria& found, const SteadyProblem& problem) {
+    for (std::size_t i = 0; i < found.search.constant.size(); ++i)
+        if (found.search.constant[i]) {
+            const SteadySystem here = problem.linearized_at(problem.start(), problem.start().u);
+            throw ModelError(fmt::format(
+                "there is no equilibrium or steady motion: the force along {} is {:.6g} at every state, and "
+                "nothing "
+                "balances it. Add what holds it (a spring, a damper, a constraint), or set the force to 0 by --at",
+                found.equations.u[here.split.u[i]].get_name(), static_cast<double>(here.tangent.balance[i])));
+        }
+}
+
+/// Where rates do not stay constant, Kane's speeds may: a sledge that runs on a circle.
+bool may_try_kane(const Derived& d) {
+    const auto& all = d.mechanism.constraints;
+    return d.by.empty() && d.mechanism.speeds.empty() && masses_are_known(d.mechanism) &&
+           std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
+}
+
+/// Values of expressions in parameters and given rates.
+std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& list, const Start& start) {
+    Program program;
+    const std::vector<int> nodes = lower_expressions(program, m, list);
+    const std::vector<double> value = interpret(program, start.state());
+    std::vector<double> result;
+    for (const int node : nodes) result.push_back(value[node]);
+    return result;
+}
+
+/// Holds the solutions in the parameters against those that Newton's method has found: each of these must be one
+/// of them, and each that is real at these parameters must be a root.
+void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const Start& start,
+                      const std::function<void(const SteadyRoot&)>& add) {
+    constexpr long double same = 1e-9L, same_if_multiple = 1e-4L;
+    const Mechanism& m = result.mechanism;
+    const auto vanishes = [&](const GiNaC::ex& e) { return !(std::abs(numbers(m, {e}, start)[0]) > 1e-13); };
+    auto roots = closed_form(m, result.equations, problem.essential(), vanishes);
+    if (!roots) return;
+    bool agrees = true;
+    for (ClosedRoot& root : *roots) {
+        const std::vector<double> q = numbers(m, root.value, start);
+        if (!std::all_of(q.begin(), q.end(), [](double x) { return std::isfinite(x); })) {
+            result.absent.push_back(std::move(root));
+            continue;
+        }
+        Instant<long double> at = problem.start();
+        for (std::size_t i = 0; i < q.size(); ++i)
+            if (problem.essential()[i]) at.q[i] = q[i];
+        wrap_angles(at, result.search.is_angle);
+        const auto find = [&](long double tolerance) {
+            return std::find_if(result.list.begin(), result.list.end(), [&](const Equilibrium& one) {
+                Instant<long double> other = at;
+                other.q.assign(one.start.q.begin(), one.start.q.end());
+                return distance(problem, result.search.is_angle, at, other) < tolerance;
+            });
+        };
+        auto found = find(same);
+        if (found == result.list.end()) found = find(same_if_multiple);
+        if (found == result.list.end()) {
+            if (const auto more = problem.solve(at)) add(*more);
+            found = find(same_if_multiple);
+        }
+        agrees = agrees && found != result.list.end();
+        if (found == result.list.end() || found->exact) continue;
+        for (std::size_t i = 0; i < q.size(); ++i)
+            if (problem.essential()[i]) found->start.q[i] = static_cast<double>(at.q[i]);
+        found->exact = std::move(root);
+    }
+    for (const Equilibrium& one : result.list) agrees = agrees && one.exact;
+    result.closed = agrees;
+    std::sort(result.absent.begin(), result.absent.end(),
+              [](const ClosedRoot& a, const ClosedRoot& b) { return a.text < b.text; });
+}
+
+void search_in(Equilibria& result, const Start& start, const EquilibriumOptions& options) {
+    SteadyProblem problem(result.mechanism, result.equations, start);
+    check_inputs(result.mechanism, problem.residuals(), start);
+    SearchOptions wishes;
+    if (options.progress) wishes.progress = [&](double part) { options.progress("searching", part); };
+    result.search = search_steady(problem, result.mechanism, start, wishes);
+    result.cyclic.clear();
+    for (int i = 0; i < result.mechanism.size(); ++i)
+        if (!problem.essential()[i]) result.cyclic.push_back(result.mechanism.q[i].get_name());
+    const bool conservative = is_conservative(result.mechanism, problem.residuals());
+    const auto add = [&](const SteadyRoot& root) {
+        Equilibrium one{.start = problem.start_at(start, root.at),
+                        .moving = {},
+                        .residual = static_cast<double>(root.residual),
+                        .isolated = root.isolated,
+                        .multipliers = multipliers_at(problem, root.at),
+                        .judgement = judge(problem, conservative, root.at)};
+        if (penetrates(result, one.start)) return;
+        for (const std::string& name : result.cyclic)
+            for (int i = 0; i < result.mechanism.size(); ++i)
+                if (result.mechanism.q[i].get_name() == name && std::abs(one.start.qdot[i]) > 1e-12)
+                    one.moving.push_back(name);
+        result.list.push_back(std::move(one));
+    };
+    for (const SteadyRoot& root : result.search.roots) add(root);
+    if (result.search.rates == Rates::given && result.mechanism.unilateral.empty())
+        solve_in_symbols(result, problem, start, add);
+    if (!result.list.empty()) return;
+    check_balance(result, problem);
+    result.nothing = result.search.roots.empty()
+                         ? searched(result)
+                         : "at each equilibrium that was found a contact would be open by less "
+                           "than nothing; those that rest on a contact are not searched";
+}
+
+}  // namespace
+
+Equilibria equilibria(Scene scene, const EquilibriumOptions& options) {
+    Equilibria result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    Start start = start_of(result.mechanism, options.at);
+    assemble(start, result.mechanism, lower_constraints(result.mechanism), options.at, false);
+    check_contacts(result, start);
+    search_in(result, start, options);
+    if (result.list.empty() && may_try_kane(result)) {
+        Equilibria other{derived_again(result, result.mechanism, "kane")};
+        search_in(other, start, options);
+        if (!other.list.empty()) return other;
+    }
+    return result;
+}
+
+}  // namespace alembert

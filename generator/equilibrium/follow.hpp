@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// One branch from end to end, with what happens on it.
+///
+///     const Followed followed = follow(tracer, start, {.from = 0, .to = 10}, judged);
+
+#include <functional>
+
+#include "equilibrium/branches.hpp"
+
+namespace alembert {
+
+struct FollowRange {
+    double from = 0, to = 1;
+};
+
+struct FollowedPoint {
+    TracedPoint point;
+    StabilityHint judgement;
+    std::optional<PointKind> kind = {};
+};
+
+struct Followed {
+    std::vector<FollowedPoint> points;
+    std::vector<std::pair<TracedPoint, Crossing>> crossings;
+    bool closed = false, cut = false;
+};
+
+/// From the start to where the parameter leaves the range, both ways; or once round.
+Followed follow(const Tracer& tracer, const TracedPoint& start, const FollowRange& range,
+                const std::vector<bool>& is_angle, bool conservative);
+
+}  // namespace alembert

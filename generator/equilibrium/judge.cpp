@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Routh: cyclic speeds eliminated by their momenta, M_cc δw_c = −M_ce δw_e − D_ce δr_e + constant, leave
+//   K = P_ee − D_ec M_cc⁻¹ D_ce
+// as the stiffness of the reduced system. (Pars, A Treatise on Analytical Dynamics (1965), §9.6.)
+#include "equilibrium/judge.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "linear/paths.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+using Index = Eigen::Index;
+using Matrix = MatrixOf<long double>;
+
+namespace {
+
+constexpr long double on_axis = 1e-8L;  // of the largest eigenvalue: double ones are known to the root of rounding
+
+struct Reduced {
+    std::vector<Index> e;            ///< columns of essential coordinates
+    std::vector<Index> own, others;  ///< speeds: the rates of these, the rest
+    Matrix A;
+};
+
+Reduced reduced(const SteadyProblem& problem, const Split& split, const Tangent<long double>& t) {
+    Reduced result;
+    const Index nr = static_cast<Index>(split.q.size()), p = static_cast<Index>(split.u.size());
+    for (Index j = 0; j < nr; ++j)
+        if (problem.essential()[split.q[j]]) result.e.push_back(j);
+    if (problem.residuals().rates_are_speeds) {
+        for (const Index j : result.e)
+            for (Index i = 0; i < p; ++i)
+                if (split.u[i] == split.q[j]) result.own.push_back(i);
+    }
+    for (Index i = 0; i < p; ++i)
+        if (std::find(result.own.begin(), result.own.end(), i) == result.own.end()) result.others.push_back(i);
+    const Index n = static_cast<Index>(result.e.size());
+    result.A.resize(n + p, n + p);
+    for (Index j = 0; j < n; ++j) {
+        result.A.row(j).tail(p) = t.rates_by.row(result.e[j]).middleCols(nr, p);
+        for (Index k = 0; k < n; ++k) result.A(j, k) = t.rates_by(result.e[j], result.e[k]);
+        result.A.col(j).tail(p) = t.speed_rates_by.col(result.e[j]);
+    }
+    result.A.bottomRightCorner(p, p) = t.speed_rates_by.middleCols(nr, p);
+    return result;
+}
+
+Matrix part(const Matrix& m, const std::vector<Index>& rows, const std::vector<Index>& columns) {
+    Matrix result(rows.size(), columns.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t j = 0; j < columns.size(); ++j)
+            result(static_cast<Index>(i), static_cast<Index>(j)) = m(rows[i], columns[j]);
+    return result;
+}
+
+/// Is the energy, cyclic momenta held, at a minimum to second order?
+bool is_minimum(const Reduced& r, const Tangent<long double>& t, Index nr) {
+    if (r.own.size() != r.e.size() || r.e.empty()) return false;
+    const Matrix D = t.force.middleCols(nr, t.mass.cols()), P = t.force.leftCols(nr);
+    Matrix K = part(P, r.own, r.e);
+    if (!r.others.empty()) {
+        const Matrix forces = part(P, r.others, r.e);
+        if (forces.cwiseAbs().maxCoeff() > 1e-12L * (1 + K.cwiseAbs().maxCoeff())) return false;
+        K -= part(D, r.own, r.others) *
+             part(t.mass, r.others, r.others).partialPivLu().solve(part(D, r.others, r.own));
+    }
+    const long double size = K.cwiseAbs().maxCoeff();
+    if ((K - K.transpose()).cwiseAbs().maxCoeff() > 1e-12L * size) return false;
+    const Eigen::SelfAdjointEigenSolver<Matrix> values((K + K.transpose()) / 2, Eigen::EigenvaluesOnly);
+    return values.eigenvalues().minCoeff() > 1e-10L * size;
+}
+
+/// Is some inertia nothing here that is something beside this state, as at a pole of spherical coordinates?
+bool is_singular(const SteadyProblem& problem, const Instant<long double>& at, const Matrix& mass) {
+    constexpr long double beside = 0.1L, nothing = 1e-11L;
+    const auto least = [](const Matrix& m) {
+        if (m.rows() == 0) return 1.0L;
+        return Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+    };
+    Instant<long double> other = at;
+    for (std::size_t i = 0; i < other.q.size(); ++i)
+        other.q[i] += beside * problem.scales()[i] / static_cast<long double>(i + 1);
+    if (!problem.settle_at(other)) return false;
+    const SteadySystem there = problem.linearized_at(other, other.u);
+    return least(mass) < nothing * least(there.tangent.mass);
+}
+
+/// Are these zero eigenvalues those of a family of steady motions, one for each value of the cyclic rates?
+bool zeros_are_rates(const SteadyProblem& problem, const Reduced& r, const SteadySystem& here,
+                     const Instant<long double>& at, Index zeros) {
+    constexpr long double no_pivot = 1e-9L, change = 1e-2L;
+    const MatrixOf<long double>& kept = problem.kept_speeds();
+    if (zeros != kept.rows()) return false;
+    Eigen::FullPivLU<Matrix> of_root(here.by), of_motion(r.A);
+    of_root.setThreshold(no_pivot);
+    of_motion.setThreshold(no_pivot);
+    if (of_root.rank() != here.by.cols() || of_motion.dimensionOfKernel() != zeros) return false;
+    for (Index k = 0; k < kept.rows(); ++k)
+        for (const long double sign : {1.0L, -1.0L}) {
+            Instant<long double> other = at;
+            for (std::size_t i = 0; i < other.u.size(); ++i)
+                other.u[i] += sign * change * kept(k, static_cast<Index>(i));
+            if (!problem.solve(other)) return false;
+        }
+    return true;
+}
+
+/// Do the loads follow from a potential: functions Q(q) alone, with ∂Q_i/∂q_j = ∂Q_j/∂q_i?
+bool loads_have_potential(const Mechanism& m) {
+    constexpr double largest_tree = 2000;
+    if (m.loads.empty()) return true;
+    std::vector<GiNaC::ex> Q = m.generalized_forces(false);
+    for (const GiNaC::ex& damping : m.generalized_forces(true)) Q.push_back(damping);
+    for (GiNaC::ex& force : Q) {
+        if (m.z->tree_size(force) > largest_tree) return false;
+        force = m.z->expand(force);
+        if (force.has(m.t)) return false;
+        for (const GiNaC::symbol& rate : m.qdot)
+            if (force.has(rate)) return false;
+    }
+    for (int i = 0; i < m.size(); ++i)
+        for (int j = 0; j < i; ++j) {
+            const auto curl = fourier(Q[i].diff(m.q[j]) - Q[j].diff(m.q[i]), *m.symbols, 500);
+            if (!curl || !is_zero(*curl)) return false;
+        }
+    return true;
+}
+
+}  // namespace
+
+const char* name_of(Stable stable) {
+    return stable == Stable::yes ? "yes" : stable == Stable::no ? "no" : "undecided";
+}
+
+bool is_conservative(const Mechanism& m, const Residuals& residuals) {
+    const bool holonomic = std::all_of(m.constraints.begin(), m.constraints.end(),
+                                       [](const Mechanism::Constraint& c) { return c.position.has_value(); });
+    return loads_have_potential(m) && m.inputs.empty() && !m.has_kicks() && holonomic &&
+           residuals.rates_are_speeds;
+}
+
+StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at) {
+    const Residuals& residuals = problem.residuals();
+    if (is_at_kink(residuals, at)) return {.because = "the equations have a kink here"};
+    const SteadySystem here = problem.linearized_at(at, at.u);
+    const Tangent<long double> t = tangent(residuals, here.split, at);
+    if (!t.speed_rates_by.allFinite() || is_singular(problem, at, t.mass))
+        return {.because = "the mass matrix is singular here"};
+    const Reduced r = reduced(problem, here.split, t);
+    if (r.A.rows() == 0) return {.stable = Stable::yes, .because = "nothing can move"};
+    const Eigen::EigenSolver<Matrix> solver(r.A, false);
+    if (solver.info() != Eigen::Success) return {.because = "the eigenvalues do not converge"};
+    StabilityHint result;
+    std::vector<std::complex<long double>> values(solver.eigenvalues().data(),
+                                                  solver.eigenvalues().data() + r.A.rows());
+    long double size = 0;
+    for (const auto& value : values) size = std::max(size, std::abs(value));
+    const long double zero = on_axis * size;
+    result.exact = values;
+    for (auto& value : values) {
+        if (std::abs(value.real()) < zero) value.real(0);
+        if (std::abs(value.imag()) < zero) value.imag(0);
+        result.eigenvalues.emplace_back(value);
+    }
+    std::sort(result.eigenvalues.begin(), result.eigenvalues.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.real(), a.imag()) < std::pair(b.real(), b.imag());
+    });
+    const auto count = [&](auto is) { return std::count_if(values.begin(), values.end(), is); };
+    const auto growing = count([](const auto& v) { return v.real() > 0; });
+    const auto turning = count([](const auto& v) { return v.real() == 0 && v.imag() != 0; });
+    const auto zeros = count([](const auto& v) { return v.real() == 0 && v.imag() == 0; });
+    if (growing > 0) {
+        result.stable = Stable::no;
+        result.because = "an eigenvalue has a positive real part";
+    } else if (turning == 0 && (zeros == 0 || zeros_are_rates(problem, r, here, at, zeros))) {
+        result.stable = Stable::yes;
+        result.because = zeros == 0 ? "all eigenvalues have negative real parts"
+                                    : "all eigenvalues but those of the cyclic rates have negative real parts";
+    } else if (conservative && is_minimum(r, t, static_cast<Index>(here.split.q.size()))) {
+        result.stable = Stable::yes;
+        result.because = "the energy is at a minimum";
+    } else {
+        result.because = "eigenvalues on the imaginary axis, about which the first approximation says nothing";
+    }
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equilibrium/search.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "alembert/error.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
+constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // by scale
+constexpr int most_starts = 1500;
+
+/// The k-th of a sequence that fills (0, 1) evenly, for the i-th coordinate. (Halton, Numer. Math. 2 (1960) 84.)
+long double halton(int k, std::size_t i) {
+    constexpr std::array primes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
+    const int base = primes[i % primes.size()];
+    long double result = 0, part = 1;
+    for (int n = k + 1 + 409 * static_cast<int>(i / primes.size()); n > 0; n /= base) {
+        part /= base;
+        result += part * (n % base);
+    }
+    return result;
+}
+
+long double wrapped(long double x) {
+    x = std::remainder(x, turn);
+    return x <= -pi + 1e-13L ? x + turn : x;
+}
+
+std::vector<long double> scales_of(const Mechanism& m, const Start& start, const std::vector<bool>& is_angle) {
+    std::vector<long double> result;
+    for (int i = 0; i < m.size(); ++i) {
+        long double size = is_angle[i] ? 1 : std::abs(start.q[i]);
+        std::size_t next = 0;
+        for (const Mechanism::Parameter& p : m.parameters) {
+            if (!p.independent) continue;
+            const long double value = std::abs(start.parameters[next++]);
+            if (!is_angle[i] && !p.unit.empty() && p.unit == m.units[i]) size = std::max(size, value);
+        }
+        result.push_back(size > 0 ? size : 1);
+    }
+    return result;
+}
+
+/// Does a root belong to a curve of roots? Then one starts along the direction that the equations leave free.
+bool is_in_family(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& root,
+                  Rates rates) {
+    constexpr long double apart = 1e-3L;
+    const SteadySystem here = problem.linearized_at(root.at, root.at.u, rates);
+    const Eigen::JacobiSVD<MatrixOf<long double>> svd(here.by, Eigen::ComputeFullV);
+    VectorOf<long double> local = VectorOf<long double>::Zero(here.tangent.along.cols());
+    for (std::size_t j = 0; j < here.unknowns.size(); ++j)
+        local[here.unknowns[j]] = svd.matrixV()(static_cast<Eigen::Index>(j), svd.matrixV().cols() - 1);
+    const VectorOf<long double> whole = here.tangent.along * local;
+    const long double length = problem.size(whole.head(problem.residuals().n));
+    if (!(length > 0)) return false;
+    Instant<long double> beside = root.at;
+    for (std::size_t i = 0; i < beside.q.size(); ++i)
+        beside.q[i] += apart / length * whole[static_cast<Eigen::Index>(i)];
+    const auto other = problem.solve(beside, rates);
+    return other && distance(problem, is_angle, other->at, root.at) > apart / 3;
+}
+
+void sort_roots(std::vector<SteadyRoot>& roots) {
+    std::sort(roots.begin(), roots.end(), [](const SteadyRoot& a, const SteadyRoot& b) {
+        for (std::size_t i = 0; i < a.at.q.size(); ++i)
+            if (std::abs(a.at.q[i] - b.at.q[i]) > 1e-9L) return a.at.q[i] < b.at.q[i];
+        return false;
+    });
+}
+
+/// Keeps the forces that are left over where they are least.
+void note_failure(SteadySearch& found, const SteadyProblem& problem, Instant<long double> at, bool first) {
+    try {
+        if (!problem.settle_at(at)) return;
+        const SteadySystem here = problem.linearized_at(at, at.u);
+        const auto p = static_cast<Eigen::Index>(here.split.u.size());
+        if (!here.residual.head(p).allFinite()) return;
+        const auto constant = [&](Eigen::Index i) {
+            return here.residual[i] != 0 && here.by.row(i).cwiseAbs().maxCoeff() < 1e-12L;
+        };
+        if (first || found.left_over.empty()) found.constant.assign(static_cast<std::size_t>(p), true);
+        long double sum = 0, least = 0;
+        for (Eigen::Index i = 0; i < p && i < static_cast<Eigen::Index>(found.constant.size()); ++i) {
+            found.constant[i] = found.constant[i] && (here.by.cols() == 0 ? here.residual[i] != 0 : constant(i));
+            sum += std::abs(here.residual[i]);
+        }
+        for (const long double x : found.left_over) least += std::abs(x);
+        if (!found.left_over.empty() && sum >= least) return;
+        found.nearest = at;
+        found.left_over.assign(here.residual.data(), here.residual.data() + p);
+    } catch (const IntegrationError&) {  // constraints without rank there
+    }
+}
+
+}  // namespace
+
+void wrap_angles(Instant<long double>& at, const std::vector<bool>& is_angle) {
+    for (std::size_t i = 0; i < at.q.size(); ++i)
+        if (is_angle[i]) at.q[i] = wrapped(at.q[i]);
+}
+
+long double distance(const SteadyProblem& problem, const std::vector<bool>& is_angle,
+                     const Instant<long double>& a, const Instant<long double>& b) {
+    long double result = 0;
+    for (std::size_t i = 0; i < a.q.size(); ++i) {
+        if (!problem.essential()[i]) continue;
+        const long double d = a.q[i] - b.q[i];
+        result = std::max(result, std::abs(is_angle[i] ? std::remainder(d, turn) : d) / problem.scales()[i]);
+    }
+    return result;
+}
+
+std::vector<bool> find_angles(const SteadyProblem& problem) {
+    const Residuals& r = problem.residuals();
+    std::vector<bool> result(static_cast<std::size_t>(r.n), true);
+    std::mt19937_64 random(4711);
+    const auto unit = [&] { return static_cast<long double>(random() >> 11) / 4503599627370496.0L - 1; };
+    for (int trial = 0; trial < 3; ++trial) {
+        State<long double> state{.parameters = problem.start().parameters,
+                                 .t = problem.start().t,
+                                 .q = problem.start().q,
+                                 .qdot = problem.start().u,
+                                 .qddot = {}};
+        if (!r.inputs.empty()) state.unknown.resize(static_cast<std::size_t>(r.inputs.back()) + 1, 0.7L);
+        for (long double& q : state.q) q += unit();
+        for (long double& u : state.qdot) u += unit();
+        const std::vector<long double> here = interpret(r.program, state);
+        for (std::size_t i = 0; i < state.q.size(); ++i) {
+            State<long double> turned = state;
+            turned.q[i] += turn;
+            const std::vector<long double> there = interpret(r.program, turned);
+            for (const Root& root : r.program.roots) {
+                const long double a = here[root.node], b = there[root.node];
+                if (std::isfinite(a) && !(std::abs(a - b) <= 1e-13L * (1 + std::abs(a)))) result[i] = false;
+            }
+        }
+    }
+    return result;
+}
+
+SteadySearch search_steady(SteadyProblem& problem, const Mechanism& m, const Start& start,
+                           const SearchOptions& options) {
+    SteadySearch found;
+    found.is_angle = find_angles(problem);
+    problem.set_scales(scales_of(m, start, found.is_angle));
+    const auto dimension = std::count(problem.essential().begin(), problem.essential().end(), true);
+    found.starts =
+        options.starts > 0 ? options.starts : std::min<int>(most_starts, 40 + 80 * static_cast<int>(dimension));
+    const auto from = [&](int k) {
+        Instant<long double> at = problem.start();
+        std::size_t place = 0;
+        for (std::size_t i = 0; i < at.q.size(); ++i) {
+            if (k == 0 || !problem.essential()[i]) continue;
+            const long double part = 2 * halton(k, place++) - 1;
+            at.q[i] = found.is_angle[i] ? pi * part
+                                        : problem.scales()[i] * (k % 4 == 3 ? std::sinh(3 * part) : 2 * part);
+        }
+        return at;
+    };
+    const auto is_known = [&](const SteadyRoot& root) {
+        return std::any_of(found.roots.begin(), found.roots.end(), [&](const SteadyRoot& other) {
+            const bool sharp = root.isolated && other.isolated;
+            return distance(problem, found.is_angle, root.at, other.at) < (sharp ? same : same_if_singular);
+        });
+    };
+    bool has_family = false;
+    for (const Rates rates : {Rates::given, Rates::free}) {
+        found.rates = rates;
+        for (int k = 0; k < found.starts; ++k) {
+            if (options.progress) options.progress(static_cast<double>(k) / found.starts);
+            auto root = problem.solve(from(k), rates);
+            if (!root) continue;
+            ++found.converged;
+            wrap_angles(root->at, found.is_angle);
+            if (is_known(*root)) continue;
+            if (!root->isolated && !is_in_family(problem, found.is_angle, *root, rates)) root->isolated = true;
+            if (!root->isolated) ++found.in_families;
+            if (root->isolated || !has_family) found.roots.push_back(*root);
+            has_family = has_family || !root->isolated;
+        }
+        if (!found.roots.empty()) break;
+    }
+    if (found.roots.empty()) {
+        found.rates = Rates::given;
+        for (int k = 0; k < std::min(found.starts, 100); ++k) note_failure(found, problem, from(k), k == 0);
+    }
+    sort_roots(found.roots);
+    return found;
+}
+
+}  // namespace alembert

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Newton's method for steady motions, in the local coordinates of linear/tangent.hpp. (Deuflhard, Newton Methods
+// for Nonlinear Problems (2004), §4.4: Gauss-Newton steps of a system of lower rank.)
+#include "linear/steady.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/error.hpp"
+
+namespace alembert {
+
+using Index = Eigen::Index;
+using Matrix = MatrixOf<long double>;
+using Column = VectorOf<long double>;
+
+namespace {
+
+constexpr long double no_pivot = 1e-11L;    // of the largest singular value: the direction is free
+constexpr long double small_step = 1e-16L;  // by scale
+constexpr long double rounding = 1e-16L;
+constexpr long double longest_step = 0.5L;
+constexpr long double solved = 1e-13L;  // of what a change of 1 by scale does
+
+/// Least squares, of least length.
+Column least_step(const Matrix& J, const Column& r, bool& full_rank) {
+    if (J.cols() == 0) {
+        full_rank = true;
+        return Column(0);
+    }
+    Matrix scaled = J;
+    Column right = -r;
+    for (Index i = 0; i < J.rows(); ++i) {
+        const long double row = J.row(i).cwiseAbs().maxCoeff();
+        if (row > 0) scaled.row(i) /= row, right[i] /= row;
+    }
+    Eigen::JacobiSVD<Matrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    svd.setThreshold(no_pivot);
+    full_rank = svd.rank() == J.cols();
+    return svd.solve(right);
+}
+
+}  // namespace
+
+SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start& start)
+    : m_(m),
+      residuals_(m, e),
+      start_(instant_of<long double>(residuals_, state_of(start, m, e))),
+      essential_(static_cast<std::size_t>(m.size()), true),
+      follows_q_(m.q_is_guess),
+      follows_u_(static_cast<std::size_t>(e.size()), false),
+      scales_(static_cast<std::size_t>(m.size()), 1) {
+    if (residuals_.rates_are_speeds) follows_u_ = m.qdot_is_guess;
+    const Split split = split_at(start_);
+    const Index p = static_cast<Index>(split.u.size()), nr = static_cast<Index>(split.q.size());
+    const Dependences depends = dependences(residuals_, split, start_);
+    const std::vector<bool> essential = essential_coordinates(depends, p);
+    for (Index i = 0; i < p + nr; ++i)
+        if (depends(i, nr + p) && (i < p || essential[i - p]))
+            throw ModelError(fmt::format(
+                "the equations change with time (the rate of {} holds t, and not through inputs); there is no "
+                "equilibrium or steady motion",
+                i < p ? e.u[split.u[i]].get_name() : m.q[split.q[i - p]].get_name()));
+    for (Index j = 0; j < nr; ++j) essential_[split.q[j]] = essential[j];
+    for (int i = 0; i < m.size(); ++i) follows_q_[i] = essential_[i];  // cyclic ones stay independent
+
+    // Speeds that move no essential coordinate.
+    const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
+    Matrix moves(nr, p);
+    for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
+    Matrix free = Matrix::Identity(p, p);
+    if (nr > 0 && p > 0 && !moves.isZero(0)) {
+        const Eigen::FullPivLU<Matrix> lu(moves);
+        free = lu.dimensionOfKernel() > 0 ? Matrix(lu.kernel()) : Matrix(p, 0);
+    }
+    kept_speeds_ = Matrix::Zero(free.cols(), residuals_.s);
+    for (Index k = 0; k < free.cols(); ++k)
+        for (Index i = 0; i < p; ++i) kept_speeds_(k, split.u[i]) = free(i, k) / free.col(k).norm();
+}
+
+Split SteadyProblem::split_at(const Instant<long double>& at) const {
+    return split_of(residuals_, at, follows_q_, follows_u_);
+}
+
+bool SteadyProblem::settle_at(Instant<long double>& at, const Split* split) const {
+    if (residuals_.holonomic == 0 && residuals_.kept == 0) return true;
+    return settle(residuals_, split != nullptr ? *split : split_at(at), at);
+}
+
+SteadySystem SteadyProblem::linearized_at(const Instant<long double>& at, const std::vector<long double>& given,
+                                          Rates rates, const Split* split) const {
+    SteadySystem result;
+    result.split = split != nullptr ? *split : split_at(at);
+    result.tangent = tangent(residuals_, result.split, at, false, Undisturbed::steady);
+    const Tangent<long double>& t = result.tangent;
+    const Index nr = static_cast<Index>(result.split.q.size()), p = static_cast<Index>(result.split.u.size());
+    std::vector<Index> still;  // essential independent coordinates
+    for (Index j = 0; j < nr; ++j)
+        if (essential_[result.split.q[j]]) still.push_back(j);
+    result.unknowns = still;
+    for (Index i = 0; i < p; ++i) result.unknowns.push_back(nr + i);
+    const Index n_still = static_cast<Index>(still.size()), kept = rates == Rates::given ? kept_speeds_.rows() : 0;
+    result.residual.resize(p + n_still + kept);
+    Matrix all(p + n_still + kept, nr + p);
+    result.residual.head(p) = t.balance;
+    all.topRows(p) = -t.force.leftCols(nr + p);
+    for (Index j = 0; j < n_still; ++j) {
+        result.residual[p + j] = t.rates[still[j]];
+        all.row(p + j) = t.rates_by.row(still[j]).head(nr + p);
+    }
+    for (Index k = 0; k < kept; ++k) {
+        long double sum = 0;
+        for (int i = 0; i < residuals_.s; ++i) sum += kept_speeds_(k, i) * (at.u[i] - given[i]);
+        result.residual[p + n_still + k] = sum;
+        all.row(p + n_still + k) = kept_speeds_.row(k) * t.along.block(residuals_.n, 0, residuals_.s, nr + p);
+    }
+    result.by.resize(all.rows(), static_cast<Index>(result.unknowns.size()));
+    for (std::size_t j = 0; j < result.unknowns.size(); ++j)
+        result.by.col(static_cast<Index>(j)) = all.col(result.unknowns[j]);
+    return result;
+}
+
+long double SteadyProblem::size(const Column& change) const {
+    long double largest = 0;
+    for (Index i = 0; i < residuals_.n; ++i) largest = std::max(largest, std::abs(change[i]) / scales_[i]);
+    return largest;
+}
+
+std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates rates, int most) const try {
+    const std::vector<long double> given = at.u;
+    if (residuals_.rates_are_speeds)
+        for (int i = 0; i < residuals_.n; ++i)
+            if (essential_[i]) at.u[i] = 0;
+    if (!settle_at(at)) return {};
+    long double last = HUGE_VALL;
+    for (int step = 0; step < most; ++step) {
+        const SteadySystem here = linearized_at(at, given, rates);
+        if (!here.residual.allFinite() || !here.by.allFinite()) return {};
+        bool full_rank = true;
+        const Column change = least_step(here.by, here.residual, full_rank);
+        Column local = Column::Zero(here.tangent.along.cols());
+        for (std::size_t j = 0; j < here.unknowns.size(); ++j)
+            local[here.unknowns[j]] = change[static_cast<Index>(j)];
+        const Column whole = here.tangent.along * local;
+        const long double size_q = size(whole.head(residuals_.n));
+        long double moved = size_q;
+        for (int i = 0; i < residuals_.s; ++i)
+            moved = std::max(moved, std::abs(whole[residuals_.n + i]) / std::max(1.0L, std::abs(at.u[i])));
+        if (!std::isfinite(moved)) return {};
+        if (moved < small_step || (step > 8 && moved < 1e-14L && moved >= last)) {
+            long double worst = 0;
+            for (Index i = 0; i < here.residual.size(); ++i) {
+                long double does = 1e-3L;  // a force that nothing else is compared with
+                for (std::size_t j = 0; j < here.unknowns.size(); ++j) {
+                    const Index column = here.unknowns[j];
+                    const bool is_coordinate = column < static_cast<Index>(here.split.q.size());
+                    does += std::abs(here.by(i, static_cast<Index>(j))) *
+                            (is_coordinate ? scales_[here.split.q[column]] : 1);
+                }
+                worst = std::max(worst, std::abs(here.residual[i]) / does);
+            }
+            if (worst > solved) return {};
+            for (int i = 0; i < residuals_.n; ++i)
+                if (std::abs(at.q[i]) < rounding * scales_[i]) at.q[i] = 0;
+            for (long double& u : at.u)
+                if (std::abs(u) < rounding) u = 0;
+            return SteadyRoot{.at = at, .residual = worst, .step = moved, .isolated = full_rank};
+        }
+        last = moved;
+        const long double part = size_q > longest_step ? longest_step / size_q : 1;
+        for (int i = 0; i < residuals_.n; ++i) at.q[i] += part * whole[i];
+        for (int i = 0; i < residuals_.s; ++i) at.u[i] += part * whole[residuals_.n + i];
+        if (!settle_at(at)) return {};
+    }
+    return {};
+} catch (const IntegrationError&) {  // the constraints lose rank on the way
+    return {};
+}
+
+Start SteadyProblem::start_at(const Start& like, const Instant<long double>& at) const {
+    Start result = like;
+    for (std::size_t i = 0; i < result.q.size(); ++i) result.q[i] = static_cast<double>(at.q[i]);
+    for (std::size_t i = 0; i < result.parameters.size(); ++i)
+        result.parameters[i] = static_cast<double>(at.parameters[i]);
+    State<long double> state{.parameters = at.parameters, .t = at.t, .q = at.q, .qdot = at.u, .qddot = {}};
+    if (!residuals_.inputs.empty()) state.unknown.resize(residuals_.inputs.back() + 1);
+    for (std::size_t k = 0; k < residuals_.inputs.size(); ++k) state.unknown[residuals_.inputs[k]] = at.inputs[k];
+    const std::vector<long double> value = interpret(residuals_.program, state);
+    for (std::size_t k = 0; k < result.speeds.size(); ++k) result.speeds[k] = static_cast<double>(at.u[k]);
+    for (std::size_t i = 0; i < result.qdot.size(); ++i)
+        result.qdot[i] = static_cast<double>(value[residuals_.rate[i]]);
+    return result;
+}
+
+std::string steady_nearby(const Mechanism& m, const Equations& e, const Start& start) try {
+    const SteadyProblem problem(m, e, start);
+    const auto root = problem.solve(problem.start());
+    if (!root) return {};
+    std::string text;
+    for (int i = 0; i < m.size(); ++i)
+        if (problem.essential()[i])
+            text += fmt::format("{}--at {}={}", text.empty() ? "" : " ", m.q[i].get_name(),
+                                static_cast<double>(root->at.q[i]));
+    return text;
+} catch (const std::runtime_error&) {  // then there is nothing to say
+    return {};
+}
+
+}  // namespace alembert

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/branches.hpp"
+
+#include "report/equilibria.hpp"
+#include "report/page.hpp"
+
+namespace alembert {
+
+Json as_json(const Branches& found) {
+    const Mechanism& m = found.mechanism;
+    Json result;
+    result["formalism"] = found.equations.formalism;
+    result["follow"] = {{"name", found.parameter}, {"from", found.from}, {"to", found.to}};
+    result["branches"] = Json::array();
+    for (const Branch& branch : found.branches) {
+        Json rows = Json::array();
+        for (const BranchPoint& point : branch.points) {
+            Json row{{"parameter", point.parameter},
+                     {"coordinates", by_name_of(m, point.q)},
+                     {"stable", name_of(point.stable)}};
+            if (point.kind) row["kind"] = name_of(*point.kind);
+            rows.push_back(std::move(row));
+        }
+        result["branches"].push_back({{"closed", branch.closed}, {"points", std::move(rows)}});
+    }
+    result["points"] = Json::array();
+    for (const SpecialPoint& point : found.points)
+        result["points"].push_back({{"kind", name_of(point.kind)},
+                                    {"parameter", point.parameter},
+                                    {"coordinates", by_name_of(m, point.q)},
+                                    {"branch", point.branch + 1}});
+    result["cut"] = found.cut;
+    return result;
+}
+
+std::string as_text(const Branches& found) {
+    const Mechanism& m = found.mechanism;
+    std::string page;
+    if (!found.scene.title.empty()) put(page, "{}\n\n", found.scene.title);
+    put(page, "{} branch{} of equilibria for {} from {} to {}\n", found.branches.size(),
+        found.branches.size() == 1 ? "" : "es", found.parameter, found.from, found.to);
+    for (std::size_t k = 0; k < found.branches.size(); ++k) {
+        const Branch& branch = found.branches[k];
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const BranchPoint& point : branch.points)
+            low = std::min(low, point.parameter), high = std::max(high, point.parameter);
+        put(page, "  {:>2}. {} from {:.10g} to {:.10g}, {} points{}\n", k + 1, found.parameter, low, high,
+            branch.points.size(), branch.closed ? ", closed" : "");
+    }
+    put(page, "\n");
+    for (const SpecialPoint& point : found.points) {
+        put(page, "{} at {} = {:.12g}\n", name_of(point.kind), found.parameter, point.parameter);
+        for (int i = 0; i < m.size(); ++i)
+            if (found.essential[i]) put(page, "     {} = {:.10g}\n", m.q[i].get_name(), point.q[i] + 0.0);
+    }
+    if (found.points.empty()) put(page, "no folds or bifurcations\n");
+    if (found.cut) put(page, "At least one branch was given up before its end.\n");
+    return page;
+}
+
+std::string as_csv(const Branches& found) {
+    std::string text = "branch," + found.parameter;
+    for (const GiNaC::symbol& q : found.mechanism.q) text += "," + q.get_name();
+    text += ",stable,kind\n";
+    for (std::size_t k = 0; k < found.branches.size(); ++k)
+        for (const BranchPoint& point : found.branches[k].points) {
+            put(text, "{},{:.17g}", k + 1, point.parameter);
+            for (const double x : point.q) put(text, ",{:.17g}", x + 0.0);
+            put(text, ",{},{}\n", name_of(point.stable), point.kind ? name_of(*point.kind) : "");
+        }
+    return text;
+}
+
+}  // namespace alembert

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "equilibrium/branches.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const Branches& found);
+std::string as_text(const Branches& found);
+/// A row for each point: branch, parameter, coordinates, stable, kind of a special point.
+std::string as_csv(const Branches& found);
+/// The bifurcation diagram: a panel for each coordinate over the parameter; solid where stable, dashed where not,
+/// dotted where undecided.
+std::string as_svg(const Branches& found);
+
+}  // namespace alembert

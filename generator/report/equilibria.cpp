@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/equilibria.hpp"
+
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+Json exact_of(const Mechanism& m, const ClosedRoot& root) {
+    Json result = Json::object();
+    for (int i = 0; i < m.size(); ++i)
+        if (!root.text[i].empty()) result[m.q[i].get_name()] = root.text[i];
+    return result;
+}
+
+Json json_of(const Equilibria& found, const Equilibrium& one) {
+    const Mechanism& m = found.mechanism;
+    Json result;
+    result["coordinates"] = by_name_of(m, one.start.q);
+    result["rates"] = by_name_of(m, one.start.qdot);
+    result["moving"] = one.moving;
+    if (one.exact) {
+        result["exact"] = exact_of(m, *one.exact);
+        result["where"] = one.exact->where;
+    }
+    result["multipliers"] = Json::object();
+    for (std::size_t k = 0; k < one.multipliers.size(); ++k)
+        result["multipliers"][found.equations.lambda[k].get_name()] = one.multipliers[k] + 0.0;
+    result["residual"] = one.residual;
+    result["isolated"] = one.isolated;
+    result["stable"] = name_of(one.judgement.stable);
+    result["because"] = one.judgement.because;
+    result["eigenvalues"] = Json::array();
+    for (const std::complex<double>& value : one.judgement.eigenvalues)
+        result["eigenvalues"].push_back({value.real() + 0.0, value.imag() + 0.0});
+    return result;
+}
+
+}  // namespace
+
+Json by_name_of(const Mechanism& m, const std::vector<double>& values) {
+    Json result = Json::object();
+    for (int i = 0; i < m.size(); ++i) result[m.q[i].get_name()] = values[i] + 0.0;
+    return result;
+}
+
+Json as_json(const Equilibria& found) {
+    Json result;
+    result["formalism"] = found.equations.formalism;
+    result["method"] = found.closed ? "closed form" : "search";
+    result["complete"] = found.closed;
+    result["starts"] = found.search.starts;
+    result["cyclic"] = found.cyclic;
+    result["equilibria"] = Json::array();
+    for (const Equilibrium& one : found.list) result["equilibria"].push_back(json_of(found, one));
+    result["absent"] = Json::array();
+    for (const ClosedRoot& root : found.absent)
+        result["absent"].push_back({{"exact", exact_of(found.mechanism, root)}, {"where", root.where}});
+    if (!found.nothing.empty()) result["reason"] = found.nothing;
+    return result;
+}
+
+std::string as_text(const Equilibria& found) {
+    const Mechanism& m = found.mechanism;
+    std::string page;
+    if (!found.scene.title.empty()) put(page, "{}\n\n", found.scene.title);
+    for (std::size_t k = 0; k < found.list.size(); ++k) {
+        const Equilibrium& one = found.list[k];
+        if (one.moving.empty())
+            put(page, "{}. Equilibrium{}\n", k + 1, one.isolated ? "" : ", one of a continuum");
+        else
+            put(page, "{}. Steady motion in which {} {}{}\n", k + 1, fmt::join(one.moving, ", "),
+                one.moving.size() == 1 ? "moves" : "move", one.isolated ? "" : ", one of a continuum");
+        for (int i = 0; i < m.size(); ++i) {
+            put(page, "     {} = {:.16g}", m.q[i].get_name(), one.start.q[i] + 0.0);
+            if (one.start.qdot[i] != 0) put(page, ", {}' = {:.10g}", m.q[i].get_name(), one.start.qdot[i]);
+            if (one.exact && !one.exact->text[i].empty() && one.exact->text[i] != "0")
+                put(page, "  = {}", one.exact->text[i]);
+            put(page, "\n");
+        }
+        if (one.exact && !one.exact->where.empty()) put(page, "   where {}\n", fmt::join(one.exact->where, ", "));
+        put(page, "   stable: {} ({})\n\n", name_of(one.judgement.stable), one.judgement.because);
+    }
+    if (!found.cyclic.empty())
+        put(page, "Nothing depends on {}: any value will do.\n", fmt::join(found.cyclic, ", "));
+    if (found.search.in_families > 1)
+        put(page, "{} roots belong to continua, of which one is shown.\n", found.search.in_families);
+    for (const ClosedRoot& root : found.absent) {
+        put(page, "Not at these parameters:");
+        for (int i = 0; i < m.size(); ++i)
+            if (!root.text[i].empty()) put(page, " {} = {},", m.q[i].get_name(), root.text[i]);
+        put(page, " where {}\n", fmt::join(root.where, ", "));
+    }
+    if (found.closed)
+        put(page, "Solved in the parameters: these are all, modulo whole turns.\n");
+    else if (!found.list.empty())
+        put(page, "Found by Newton's method from {} starts; there may be more.\n", found.search.starts);
+    return page;
+}
+
+}  // namespace alembert

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "equilibrium/equilibria.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+Json as_json(const Equilibria& found);
+std::string as_text(const Equilibria& found);
+
+/// Values of coordinates, or of their rates, by name.
+Json by_name_of(const Mechanism& mechanism, const std::vector<double>& values);
+
+}  // namespace alembert

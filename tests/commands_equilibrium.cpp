@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+// `equilibrium` as a user runs it, against closed forms.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string textbook(const std::string& name) {
+    return source_path("scenes/textbook/" + name + ".toml");
+}
+
+Json found(const std::string& scene, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"equilibrium", scene, "--json"});
+    const auto result = run(more);
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+std::vector<double> values(const Json& result, const std::string& name) {
+    std::vector<double> list;
+    for (const Json& one : result["equilibria"]) list.push_back(one["coordinates"][name]);
+    return list;
+}
+
+/// The special points of a kind, by parameter.
+std::vector<double> points(const Json& result, const std::string& kind) {
+    std::vector<double> list;
+    for (const Json& one : result["points"])
+        if (one["kind"] == kind) list.push_back(one["parameter"]);
+    return list;
+}
+
+bool are_close(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
+    if (a.size() != b.size()) return false;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (!(std::abs(a[i] - b[i]) <= tolerance)) return false;
+    return true;
+}
+
+/// A mass m = 1 on a line under `force`.
+std::string on_a_line(const std::string& name, const std::string& force, const std::string& parameters = "") {
+    return temporary(
+        name, "[parameters]\nmu = 0.5\n" + parameters +
+                  "[coordinates]\nx = 0.1\n[[particle]]\nname = \"P\"\nmass = \"1\"\nposition = [\"x\", 0]\n"
+                  "[forces]\nx = \"" +
+                  force + "\"\n");
+}
+
+}  // namespace
+
+// sin θ (g − R Ω² cos θ) = 0.
+TEST_CASE("equilibrium: a bead on a turning hoop has its four equilibria in closed form") {
+    const Json hoop = found(textbook("rotating_hoop"));
+    CHECK(hoop["complete"] == true);
+    const double angle = std::acos(9.81 / (0.5 * 36));
+    CHECK(are_close(values(hoop, "theta"), {-angle, 0, angle, M_PI}, 2e-15));
+    const Json& list = hoop["equilibria"];
+    CHECK(list[2]["exact"]["theta"] == "acos(g/(R*Omega^2))");
+    CHECK(list[2]["where"] == Json{"abs(g/(R*Omega^2)) <= 1"});
+    CHECK(list[2]["stable"] == "yes");
+    CHECK(list[1]["stable"] == "no");
+    CHECK(list[3]["stable"] == "no");
+}
+
+TEST_CASE("equilibrium: solutions that are not real at the parameters are named with their condition") {
+    const Json slow = found(textbook("rotating_hoop"), {"--at", "Omega=2"});
+    CHECK(are_close(values(slow, "theta"), {0, M_PI}, 0));
+    CHECK(slow["equilibria"][0]["stable"] == "yes");
+    REQUIRE(slow["absent"].size() == 2);
+    CHECK(slow["absent"][1]["exact"]["theta"] == "acos(g/(R*Omega^2))");
+}
+
+// cos α = (m + M) g/(m l Ω²).
+TEST_CASE("equilibrium: Watt's governor stands at its angle") {
+    const double angle = std::acos(3 * 9.81 / (0.4 * 144));
+    CHECK(are_close(values(found(textbook("watt_governor")), "alpha"), {-angle, 0, angle, M_PI}, 2e-15));
+}
+
+// cos θ = g/(l φ'²); the poles are equilibria in which φ says nothing.
+TEST_CASE("equilibrium: a conical pendulum is a steady motion at the rate that is given") {
+    const Json cone = found(textbook("spherical_pendulum"), {"--at", "phi'=5"});
+    const double l = found(textbook("spherical_pendulum"), {"--at", "l=1", "--at", "phi'=5"})["equilibria"].size();
+    CHECK(l == 4);
+    CHECK(cone["cyclic"] == Json{"phi"});
+    bool seen = false;
+    for (const Json& one : cone["equilibria"])
+        if (one.contains("exact") && one["exact"]["theta"] == "acos(g/(l*phi'^2))") {
+            seen = true;
+            CHECK(one["moving"] == Json{"phi"});
+            CHECK(one["rates"]["phi"] == 5);
+            CHECK(one["stable"] == "yes");
+        }
+    CHECK(seen);
+    for (const Json& one : cone["equilibria"])  // the mass matrix is singular at a pole
+        if (std::abs(std::sin(one["coordinates"]["theta"].get<double>())) < 1e-9)
+            CHECK(one["stable"] == "undecided");
+}
+
+TEST_CASE("equilibrium: a double pendulum has four, of which one is stable") {
+    const Json four = found(temporary("double.toml", R"toml(
+gravity = [0, "-g"]
+[parameters]
+m1 = 1
+m2 = 2
+l1 = 0.5
+l2 = 0.3
+g = 9.81
+[coordinates]
+theta1 = 0.5
+theta2 = -0.2
+[[particle]]
+name = "A"
+mass = "m1"
+position = ["l1*sin(theta1)", "-l1*cos(theta1)"]
+[[particle]]
+name = "B"
+mass = "m2"
+from = "A"
+position = ["l2*sin(theta2)", "-l2*cos(theta2)"]
+)toml"));
+    CHECK(four["complete"] == true);
+    CHECK(are_close(values(four, "theta1"), {0, 0, M_PI, M_PI}, 0));
+    CHECK(are_close(values(four, "theta2"), {0, M_PI, 0, M_PI}, 0));
+    CHECK(four["equilibria"][0]["stable"] == "yes");
+    for (int k = 1; k < 4; ++k) CHECK(four["equilibria"][k]["stable"] == "no");
+}
+
+// r = l₀ ± m g/k.
+TEST_CASE("equilibrium: coordinates that follow from others are put in") {
+    const Json two = found(textbook("elastic_pendulum"));
+    CHECK(two["complete"] == true);
+    CHECK(two["equilibria"].size() == 2);
+    for (const Json& one : two["equilibria"]) CHECK(one["exact"].contains("r"));
+}
+
+// The heights of crank and rod grow with sin α: both ways of assembly stand at α = ±π/2.
+TEST_CASE("equilibrium: a slider-crank keeps its constraints, with multipliers") {
+    const Json crank = found(textbook("slider_crank"));
+    CHECK(are_close(values(crank, "alpha"), {-M_PI / 2, -M_PI / 2, M_PI / 2, M_PI / 2}, 1e-14));
+    CHECK(crank["equilibria"][0]["stable"] == "yes");
+    CHECK(crank["equilibria"][3]["stable"] == "no");
+    CHECK(crank["equilibria"][0]["multipliers"].size() == 2);
+    for (const Json& one : crank["equilibria"]) CHECK(one["residual"].get<double>() < 1e-14);
+}
+
+// T = c φ'.
+TEST_CASE("equilibrium: a rate that friction determines is found") {
+    const std::string rotor = temporary("rotor.toml", R"toml(
+[parameters]
+T = 3
+c = 0.5
+[coordinates]
+phi = { initial = 0, rate = 1 }
+[[frame]]
+name = "R"
+rotate = [["z", "phi"]]
+[[particle]]
+name = "P"
+mass = 1
+position = [1, 0]
+axes = "R"
+[forces]
+phi = "T"
+[[damper]]
+along = "phi"
+damping = "c"
+)toml");
+    const auto result = run({"equilibrium", rotor, "--json"});
+    CAPTURE(result.err);
+    REQUIRE(result.exit == 0);
+    const Json one = Json::parse(result.out)["equilibria"][0];
+    CHECK(one["rates"]["phi"].get<double>() == doctest::Approx(6).epsilon(1e-14));
+    CHECK(one["moving"] == Json{"phi"});
+}
+
+// V = (x² + y² − 1)²: a circle of equilibria.
+TEST_CASE("equilibrium: of a continuum one is shown, and said to be one of many") {
+    const std::string ring = temporary("ring.toml", R"toml(
+[coordinates]
+x = 0.9
+y = 0.2
+[[particle]]
+name = "P"
+mass = 1
+position = ["x", "y"]
+[forces]
+x = "-4*x*(x^2 + y^2 - 1)"
+y = "-4*y*(x^2 + y^2 - 1)"
+)toml");
+    int isolated = 0, not_isolated = 0;
+    const Json result = found(ring);
+    for (const Json& one : result["equilibria"]) ++(one["isolated"].get<bool>() ? isolated : not_isolated);
+    CHECK(isolated == 1);  // the centre
+    CHECK(not_isolated == 1);
+}
+
+// Ω² R = g.
+TEST_CASE("equilibrium --follow: the hoop's pitchfork is where the angle begins") {
+    const std::string csv = temporary("hoop.csv", ""), svg = temporary("hoop.svg", "");
+    const Json hoop = found(textbook("rotating_hoop"), {"--follow", "Omega=0:10", "-o", csv, "--svg", svg});
+    CHECK(are_close(points(hoop, "pitchfork"), {std::sqrt(9.81 / 0.5)}, 1e-10));
+    CHECK(hoop["points"].size() == 1);
+    CHECK(hoop["branches"].size() == 3);
+    for (const Json& branch : hoop["branches"])
+        for (const Json& point : branch["points"]) {
+            if (point.contains("kind")) continue;
+            const double theta = point["coordinates"]["theta"], rate = point["parameter"];
+            CHECK(std::abs(std::sin(theta) * (9.81 - 0.5 * rate * rate * std::cos(theta))) < 1e-11);
+            const bool hangs = std::abs(theta) < 1e-9 && rate < std::sqrt(9.81 / 0.5);
+            const bool leans = std::abs(std::sin(theta)) > 1e-6;
+            CHECK(point["stable"] == (hangs || leans ? "yes" : "no"));
+        }
+    std::ifstream table(csv), picture(svg);
+    std::string first;
+    std::getline(table, first);
+    CHECK(first == "branch,Omega,theta,stable,kind");
+    std::stringstream text;
+    text << picture.rdbuf();
+    CHECK(text.str().starts_with("<svg"));
+    CHECK(text.str().find("stroke-dasharray") != std::string::npos);
+}
+
+// P = 2 k y (L/ℓ − 1) with ℓ² = a² + y²; dP/dy = 0 at ℓ³ = L a².
+TEST_CASE("equilibrium --follow: von Mises' truss snaps through at its two folds") {
+    const std::string truss = temporary("truss.toml", R"toml(
+[parameters]
+k = 100
+a = 1
+h = 0.6
+L = "sqrt(a^2 + h^2)"
+P = 0
+[coordinates]
+y = { initial = 0.6 }
+[[particle]]
+name = "top"
+mass = 1
+position = [0, "y"]
+[[point]]
+name = "left"
+offset = ["-a", 0]
+[[point]]
+name = "right"
+offset = ["a", 0]
+[[spring]]
+between = ["left", "top"]
+stiffness = "k"
+length = "L"
+[[spring]]
+between = ["right", "top"]
+stiffness = "k"
+length = "L"
+[forces]
+y = "-P"
+)toml");
+    const double L = std::sqrt(1.36), l = std::cbrt(L), y = std::sqrt(l * l - 1), P = 200 * y * (L / l - 1);
+    const Json found_truss = found(truss, {"--follow", "P=-20:20"});
+    CHECK(are_close(points(found_truss, "fold"), {-P, P}, 1e-10));
+    CHECK(found_truss["branches"].size() == 1);
+}
+
+TEST_CASE("equilibrium --follow: curves that cross at an angle are transcritical") {
+    const Json crossing = found(on_a_line("transcritical.toml", "mu*x - x^2 - x'"), {"--follow", "mu=-1:2"});
+    CHECK(are_close(points(crossing, "transcritical"), {0}, 1e-10));
+    CHECK(crossing["points"].size() == 1);
+    CHECK(crossing["branches"].size() == 2);
+}
+
+TEST_CASE("equilibrium --follow: van der Pol's oscillator begins to swing where its damping changes sign") {
+    const Json hopf = found(on_a_line("hopf.toml", "(mu - 3/10 - x^2)*x' - x"), {"--follow", "mu=-1:2"});
+    CHECK(are_close(points(hopf, "hopf"), {0.3}, 1e-10));
+    CHECK(hopf["points"].size() == 1);
+}
+
+// Masses 2 m and m, equal rods and springs: P l/k = 7/2 − √2 (Ziegler 1952).
+TEST_CASE("equilibrium --follow: Ziegler's pendulum without damping flutters at its load") {
+    const std::string ziegler = temporary("ziegler.toml", R"toml(
+[parameters]
+m = 1
+l = 1
+k = 1
+P = 1
+[coordinates]
+a = 0
+b = 0
+[[particle]]
+name = "A"
+mass = "2*m"
+position = ["l*cos(a)", "l*sin(a)"]
+[[particle]]
+name = "B"
+mass = "m"
+from = "A"
+position = ["l*cos(b)", "l*sin(b)"]
+[[spring]]
+along = "a"
+stiffness = "k"
+[[spring]]
+along = "b - a"
+stiffness = "k"
+[[force]]
+at = "B"
+vector = ["-P*cos(b)", "-P*sin(b)"]
+)toml");
+    const Json load = found(ziegler, {"--follow", "P=1:3"});
+    CHECK(are_close(points(load, "hamiltonian hopf"), {3.5 - std::sqrt(2.0)}, 1e-10));
+}
+
+TEST_CASE("equilibrium: what has none is refused, each with its reason") {
+    const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
+        const auto result = run(args);
+        CAPTURE(result.err);
+        CHECK(result.exit == code);
+        CHECK(result.err.find(words) != std::string::npos);
+    };
+    says({"equilibrium", on_a_line("push.toml", "2*mu")}, 3, "the force along x' is 1 at every state");
+    says({"equilibrium", on_a_line("none.toml", "1 + x^2")}, 2, "This is no proof that there is none");
+    says({"equilibrium", textbook("cart_pole")}, 3, "the input F changes with time");
+    says({"equilibrium", textbook("bouncing_ball"), "--at", "y=0", "--at", "y'=0"}, 3, "is closed at this state");
+    says({"equilibrium", textbook("rotating_hoop"), "--follow", "theta=0:1"}, 3, "as an unknown");
+    says({"equilibrium", textbook("rotating_hoop"), "--follow", "Omega=1"}, 3, "expected NAME=FROM:TO");
+    says({"equilibrium", textbook("rotating_hoop"), "--follow", "Omega=1:1"}, 3, "two different numbers");
+    says({"equilibrium", textbook("rotating_hoop"), "--svg", "x.svg"}, 3, "expected --follow");
+}
