@@ -151,7 +151,7 @@ TEST_CASE("simulate: what is not trusted is said with every reason, for people a
     CHECK_FALSE(trusted(result));
     CHECK(result["energy_drift"].get<double>() > 0.05);
     const Json& estimate = result["error_estimate"];
-    CHECK(estimate["norm"].get<std::string>().find("max |y - y2| / max(1, |y2|)") != std::string::npos);
+    CHECK(estimate["norm"].get<std::string>().find("max |error| / max(1, |y|)") != std::string::npos);
     CHECK(estimate["scaled"].get<double>() >= 0.01);
     std::string all;
     for (const Json& reason : estimate["reasons"]) all += reason.get<std::string>() + "\n";

@@ -52,7 +52,7 @@ class Verbs(unittest.TestCase):
         at = {"theta1": 0.3, "theta2'": 1.0}
         self.assertEqual(scene.eval(at).json, program("eval", file, "--at", "theta1=0.3", "theta2'=1"))
         self.assertEqual(scene.agree().verdict, "proved")
-        still = scene.linearize({"theta1": 0, "theta2": 0, "F": 0} if "F" in scene.text else {"theta1": 0, "theta2": 0})
+        still = scene.linearize({"theta1": 0, "theta2": 0, "theta1'": 0, "theta2'": 0, "t": 0})
         self.assertEqual(len(still.eigenvalues), 4)
 
     def test_formulas_for_notebooks(self):

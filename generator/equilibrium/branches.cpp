@@ -27,7 +27,7 @@ public:
         : result_(result),
           options_(options),
           names_(names(options)),
-          starts_(result.mechanism, names_, "--follow"),
+          starts_(result.mechanism, names_),
           problem_(result.mechanism, result.equations, start_at((options.from + options.to) / 2)),
           conservative_(is_conservative(result.mechanism, problem_.residuals())) {
         check_name();

@@ -136,10 +136,12 @@ std::vector<double> sides_at(const Switching& system, double t, const double* y,
     constexpr double on_it = 1e-9;
     const std::size_t count = system.names.size();
     std::vector<double> sigma(count, 1.0), rate(static_cast<std::size_t>(dimension)), g(2 * count);
-    system.rates(t, y, sigma.data(), rate.data());
-    system.values(t, y, sigma.data(), rate.data(), g.data());
     std::vector<int> sides(count);
-    for (std::size_t k = 0; k < count; ++k) sides[k] = std::abs(g[k]) <= on_it * sizes[k] ? 0 : g[k] > 0 ? 1 : -1;
+    for (std::size_t k = 0; k < count; ++k) {  // a function may contain the signs of those before it
+        system.values(t, y, sigma.data(), rate.data(), g.data());
+        sides[k] = std::abs(g[k]) <= on_it * sizes[k] ? 0 : g[k] > 0 ? 1 : -1;
+        sigma[k] = sides[k];
+    }
     return consistent_signs(system, sides, t, y, dimension);
 }
 

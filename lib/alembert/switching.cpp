@@ -119,20 +119,43 @@ private:
     /// The sides at the start.
     bool begin() {
         sides_.assign(system_.count(), 1);
-        Sides here(system_, sides_, dimension());
-        here.evaluate(t_, state_.data());
         std::vector<int> open;
-        for (int k = 0; k < system_.count(); ++k) {
-            sizes_[k] = std::abs(here.value(k));
-            if (here.value(k) == 0)
+        bool is_defined = true;
+        for (int k = 0; k < system_.count(); ++k) {  // a function may contain the signs of those before it
+            const double g = value_of(k);
+            is_defined = is_defined && std::isfinite(g);
+            sizes_[k] = std::abs(g);
+            if (g == 0)
                 open.push_back(k);
             else
-                sides_[k] = here.value(k) > 0 ? 1 : -1;
+                sides_[k] = g > 0 ? 1 : -1;
         }
         result_.dimension = dimension();
-        if (options_.duration == 0 || choose(open)) return true;
+        if (is_defined && (options_.duration == 0 || choose(open))) return true;
         result_.times = {t_};
         result_.states = state_;
+        if (!is_defined) fail_undefined();
+        return false;
+    }
+
+    double value_of(int k) const {
+        Sides here(system_, sides_, dimension());
+        here.evaluate(t_, state_.data());
+        return here.value(k);
+    }
+
+    /// After some signs have changed: the signs of functions that contain them.
+    void follow_others() {
+        for (int k = 0; k < system_.count(); ++k) {
+            if (sides_[k] == 0) continue;
+            const double g = value_of(k);
+            if (std::abs(g) > 1e-9 * sizes_[k] && sides_[k] * g < 0) sides_[k] = -sides_[k];
+        }
+    }
+
+    bool fail_undefined() {
+        fail(fmt::format("a function whose sign is needed is not a number at t = {}", t_));
+        result_.failure->kind = FailureKind::not_a_number;
         return false;
     }
 
@@ -222,22 +245,27 @@ private:
         for (const Watched& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<Sides>(system_, sides_, dimension());
-        return make_events(
-            std::move(list), [this, watched, sides](double t, const double* y, const double* rate, double* out) {
-                if (!events_.list.empty()) events_(t, y, rate, out);
-                sides->evaluate(t, y);
-                for (std::size_t i = 0; i < watched.size(); ++i) {
-                    const Watched& w = watched[i];
-                    double& value = out[events_.list.size() + i];
-                    value = w.sign * (sides_[w.index] == 0 ? sides->sigma()[w.index] : sides->value(w.index)) +
-                            w.offset;
-                    if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
-                }
-            });
+        const auto values = [this, watched, sides, undefined = undefined_](double t, const double* y,
+                                                                           const double* rate, double* out) {
+            if (!events_.list.empty()) events_(t, y, rate, out);
+            sides->evaluate(t, y);
+            for (std::size_t i = 0; i < watched.size(); ++i) {
+                const Watched& w = watched[i];
+                double& value = out[events_.list.size() + i];
+                value =
+                    w.sign * (sides_[w.index] == 0 ? sides->sigma()[w.index] : sides->value(w.index)) + w.offset;
+                if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
+                if (!std::isnan(value)) continue;
+                *undefined = true;  // the run ends where it begins to be so
+                value = -1;
+            }
+        };
+        return make_events(std::move(list), values);
     }
 
     /// What follows where the functions watched at `hit` have come to zero.
     bool pass(const std::vector<Watched>& watched, const std::vector<int>& hit) {
+        if (*undefined_) return fail_undefined();
         in_one_place_ =
             t_ - last_change_ > 1e-13 * std::max(std::abs(t_), options_.duration) ? 0 : in_one_place_ + 1;
         last_change_ = t_;
@@ -254,10 +282,13 @@ private:
                 open.push_back(w.index);
             }
         }
-        if (open.empty()) return true;
-        for (int k = 0; k < system_.count(); ++k)
-            if (sides_[k] == 0) open.push_back(k);
-        return choose(open);
+        if (!open.empty()) {
+            for (int k = 0; k < system_.count(); ++k)
+                if (sides_[k] == 0) open.push_back(k);
+            if (!choose(open)) return false;
+        }
+        follow_others();
+        return true;
     }
 
     struct Choice {
@@ -366,7 +397,8 @@ private:
     double end_, t_;
     std::vector<double> state_;
     std::vector<int> sides_;
-    std::vector<double> sizes_;  ///< the largest |g_k| so far
+    std::vector<double> sizes_;                                        ///< the largest |g_k| so far
+    std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< some g_k has been NaN
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL;
     Trajectory result_;
