@@ -163,13 +163,20 @@ duration = 10
     CHECK(one["energy_drift"].get<double>() < 1e-11);
 }
 
-TEST_CASE("taylor: a scene without a power series is refused with the function and what to take instead") {
-    const std::string scene = temporary("kink.toml",
-                                        "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
-                                        "\"-atan2(x, 2)\"\n[simulation]\nduration = 1\n");
-    const auto refused = run({"simulate", scene, "--method", "taylor"});
-    CHECK(refused.exit == 3);
-    CHECK(refused.err.find("atan2") != std::string::npos);
-    CHECK(refused.err.find("dop853") != std::string::npos);
-    CHECK(run({"simulate", scene, "--tolerance", "1e-13"}).exit == 0);  // auto takes another
+// x'' = −|x| x from x = 1 at rest: x'²/2 = (1 − |x|³)/3, so that it is at 0 with the speed −√(2/3), and at −1
+// after twice the time to there, 2 ∫₀¹ dx/√(2(1 − x³)/3) = 2·√(3/2)·B(1/3, 1/2)/3.
+TEST_CASE("taylor: a motion through a kink is followed piece by piece") {
+    const double half = 2 * std::sqrt(1.5) * std::beta(1.0 / 3, 0.5) / 3;
+    const std::string scene =
+        temporary("kink.toml",
+                  fmt::format("[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-abs(x)*x\"\n"
+                              "[simulation]\nduration = {:.17g}\n",
+                              half));
+    for (const char* const method : {"taylor", "dop853", "radau"}) {
+        CAPTURE(method);
+        const Json run = simulated(scene, {"--method", method, "--tolerance", "1e-13"});
+        CHECK(std::abs(coordinate(run, "x") + 1) < 1e-11);
+        REQUIRE(run["switches"].size() == 1);
+        CHECK(std::abs(run["switches"][0]["time"].get<double>() - half / 2) < 1e-11);
+    }
 }
