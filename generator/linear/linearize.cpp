@@ -235,6 +235,8 @@ private:
                 "this state is no equilibrium and no steady motion: {}; expected zeros. Ask at a state where "
                 "they are, or give it as initial values",
                 fmt::join(residual, "; ")));
+        for (Index j = 0; j < nr_; ++j)
+            if (!essential[j]) result_.cyclic.push_back(coordinate(j));
         // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
         // only what is held is a state.
         bool constant = true;

@@ -46,6 +46,7 @@ struct Linearization {
     std::vector<std::string> states;    ///< r and w; without cyclic coordinates where these move others
     std::vector<std::string> inputs;    ///< that occur, derivatives too ("F''")
     Eigen::MatrixXd A, B;               ///< δx' = A δx + B δinputs
+    std::vector<std::string> cyclic;    ///< coordinates that neither the speeds' rates nor other coordinates hold
     std::vector<std::string> moving;    ///< cyclic coordinates whose rates are not zero; none: an equilibrium
     std::vector<std::string> left_out;  ///< coordinates without a state
     std::vector<std::complex<double>> eigenvalues;  ///< of A; by real part, then imaginary part
