@@ -159,6 +159,7 @@ fields eval scenes/gallery/four_bar_joints.toml --reactions
 fields equilibrium scenes/textbook/rotating_hoop.toml
 fields equilibrium scenes/textbook/rotating_hoop.toml --follow Omega=0:10
 fields linearize scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
+fields stability scenes/textbook/double_pendulum_joints.toml --at q1=0 --at q2=0
 fields inverse scenes/textbook/sled.toml
 fields impact scenes/textbook/struck_rods.toml
 fields emit scenes/textbook/sled.toml -o solver --jacobian

@@ -179,6 +179,8 @@ private:
                 result_.moving.push_back(coordinate(j));
         }
         if (!residual.empty()) refuse(fmt::format("{}", fmt::join(residual, "; ")));
+        for (Index j = 0; j < nr_; ++j)
+            if (!essential[j]) result_.cyclic.push_back(coordinate(j));
         // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
         // only what is held is a state.
         bool constant = true;

@@ -48,6 +48,7 @@ struct Linearization {
     Eigen::MatrixXd A, B;              ///< δx' = A δx + B δinputs
     std::vector<std::string> outputs;  ///< of the scene, but for those that are not known at this state
     Eigen::MatrixXd output_state, output_input;  ///< δy = output_state δx + output_input δinputs
+    std::vector<std::string> cyclic;    ///< coordinates that neither the speeds' rates nor other coordinates hold
     std::vector<std::string> moving;    ///< cyclic coordinates whose rates are not zero; none: an equilibrium
     std::vector<std::string> left_out;  ///< coordinates without a state
     std::vector<std::complex<double>> eigenvalues;  ///< of A; by real part, then imaginary part

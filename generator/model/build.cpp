@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <tuple>
 
+#include "alembert/error.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 
@@ -63,6 +64,7 @@ void add_run(Building& here) {
     value(s.step, here.m.run.step);
     value(s.max_step, here.m.run.max_step);
     value(s.sample, here.m.run.sample);
+    value(s.period, here.m.run.period);
     if (s.method) here.m.run.method = s.method->text;
 }
 
@@ -88,6 +90,10 @@ double Building::number_at(const Expression& e) {
 }
 
 Mechanism build(const Scene& scene) {
+    if (scene.polynomial)
+        throw ModelError(
+            "the scene has a [polynomial] and no mechanism, so it has no equations of motion; ask for its "
+            "`stability`");
     Building here(scene);
     Mechanism& m = here.m;
     m.name = std::filesystem::path(scene.file).stem().string();
@@ -105,6 +111,22 @@ Mechanism build(const Scene& scene) {
     if (!here.mistakes.empty()) fail(scene, here.mistakes);
     m.skeleton = here.places.skeleton();
     return std::move(here.m);
+}
+
+PolynomialScene polynomial_of(const Scene& scene) {
+    Building here(scene);
+    PolynomialScene result;
+    here.m.symbols = std::make_shared<Symbols>();
+    here.m.z = std::make_shared<Intermediates>(*here.m.symbols);
+    here.m.t = here.m.symbols->declare("t", SymbolInfo::Kind::time);
+    here.translator.know("t", here.m.t);
+    declare(here);
+    for (const Expression& coefficient : scene.polynomial->coefficients)
+        here.attempt(
+            [&] { result.coefficients.push_back(here.m.z->expand(here.translator.scalar(coefficient))); });
+    if (!here.mistakes.empty()) fail(scene, here.mistakes);
+    result.mechanism = std::move(here.m);
+    return result;
 }
 
 }  // namespace alembert

@@ -172,7 +172,7 @@ struct Mechanism {
 
     /// [simulation], in parameters; nothing where the scene is silent.
     struct Run {
-        std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample;
+        std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample, period;
         std::string method = "auto";
     };
     Run run;
@@ -205,8 +205,18 @@ struct Mechanism {
     std::vector<GiNaC::ex> generalized_impulses() const;
 };
 
-/// Builds the mechanism of a scene. Throws SceneError for what is wrong with the scene's values (a negative mass
-/// or moment of inertia, a parameter that is not finite), each with its place.
+/// A [polynomial]: its parameters, and its coefficients in them, highest power first.
+struct PolynomialScene {
+    Mechanism mechanism;  ///< parameters alone
+    std::vector<GiNaC::ex> coefficients;
+};
+
+/// Throws SceneError as `build`. The scene has a polynomial.
+PolynomialScene polynomial_of(const Scene& scene);
+
+/// Builds the mechanism of a scene. Throws ModelError for a scene with a [polynomial] in place of a mechanism, and
+/// SceneError for what is wrong with the scene's values (a negative mass or moment of inertia, a parameter that is
+/// not finite), each with its place.
 Mechanism build(const Scene& scene);
 
 /// An exact number from a literal such as `0.1` or `2e3`.

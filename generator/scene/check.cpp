@@ -319,6 +319,9 @@ private:
                                                        in_quotes(event.name.text), first->second.line));
         }
         const Legal constant{.subject = "a setting of the simulation", .definitions = false};
+        if (scene_.polynomial)
+            for (const Expression& coefficient : scene_.polynomial->coefficients)
+                quantities_.check(coefficient, {.subject = "a coefficient of a polynomial", .definitions = false});
         const Simulation& s = scene_.simulation;
         for (const Expression* value :
              {&s.start, &s.duration, &s.tolerance, &s.step, &s.max_step, &s.sample, &s.period})

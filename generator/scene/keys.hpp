@@ -70,6 +70,7 @@ inline constexpr TableKeys table_keys[] = {
     {"forces", TableKeys::Shape::one},
     {"outputs", TableKeys::Shape::one},
     {"event", TableKeys::Shape::list, {"name", "when", "stop", "direction", "impulses"}},
+    {"polynomial", TableKeys::Shape::one, {"coefficients"}},
     {"simulation",
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "period"}},

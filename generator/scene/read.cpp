@@ -8,7 +8,6 @@
 
 #include "scene/check.hpp"
 #include "scene/keys.hpp"
-#include "scene/later.hpp"
 #include "scene/layout.hpp"
 #include "scene/placing.hpp"
 #include "scene/scene.hpp"
@@ -62,6 +61,7 @@ constexpr Section sections[] = {
     {"forces", one<read_forces>},
     {"outputs", one<read_outputs>},
     {"event", each<read_event>},
+    {"polynomial", one<read_polynomial>},
     {"simulation", one<read_simulation>},
     {"claim", each<read_claim>},
 };
@@ -105,7 +105,6 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
     const std::span<const std::string_view> own = keys_of("");
     std::vector<std::string> known(own.begin(), own.end());
     for (const Section& section : sections) known.emplace_back(section.name);
-    for (const std::string& name : later_sections()) known.push_back(name);
     const bool is_table = entry.node->is_table() || entry.node->is_array_of_tables();
     const std::string meant = nearest(entry.key, known);
     reading.complain(header_of(entry),
@@ -115,7 +114,6 @@ void refuse_unknown(const Reading& reading, const Entry& entry) {
 
 void read_tables(const Reading& reading, const toml::table& root, Scene& scene) {
     const Table top(reading, root, "the scene", {1, 1});
-    bool has_later = false;
     for (const Entry& entry : top.entries()) {
         const auto section = std::find_if(std::begin(sections), std::end(sections),
                                           [&](const Section& s) { return s.name == entry.key; });
@@ -123,14 +121,17 @@ void read_tables(const Reading& reading, const toml::table& root, Scene& scene) 
             read_section(reading, *section, entry, scene);
         else if (entry.key == "gravity")
             scene.gravity = top.vector("gravity");
-        else if (refuse_later(reading, entry))
-            has_later = true;
         else if (entry.key != "title" && entry.key != "source" && entry.key != "notes")
             refuse_unknown(reading, entry);
     }
     const Entry* const coordinates = top.find("coordinates");
     const bool is_other = coordinates && !coordinates->node->is_table();  // which has been told
-    if (scene.coordinates.empty() && !has_later && !is_other)
+    const bool has_polynomial = top.has("polynomial");
+    if (has_polynomial && coordinates)
+        reading.complain(header_of(*top.find("polynomial")),
+                         "a scene has either [coordinates] or a [polynomial], which stands for a system without a "
+                         "mechanism; leave one out");
+    if (scene.coordinates.empty() && !has_polynomial && !is_other)
         reading.complain(coordinates ? header_of(*coordinates) : Place{},
                          scene.joints.empty()
                              ? "the scene has no [coordinates]; at least one is needed"

@@ -69,6 +69,25 @@ std::optional<Name> read_method(const Table& table) {
 
 }  // namespace
 
+void read_polynomial(const Table& table, Scene& scene) {
+    table.allow("polynomial");
+    scene.polynomial = PolynomialRule{table.place(), {}};
+    const Entry* const entry = table.find("coefficients");
+    const toml::array* const list = entry ? entry->node->as_array() : nullptr;
+    if (!list || list->size() < 2) {
+        const std::string expected = "expected an array of at least two expressions, highest power first";
+        if (entry)
+            table.complain("coefficients", fmt::format("{} is {}; {}", table.what("coefficients"),
+                                                       list ? "too short" : kind_of(*entry->node), expected));
+        else
+            table.reading().complain(table.place(), "[polynomial] has no 'coefficients'; " + expected);
+        return;
+    }
+    for (const toml::node& node : *list)
+        scene.polynomial->coefficients.push_back(
+            read_expression(table.reading(), node, "a coefficient of [polynomial]"));
+}
+
 void read_simulation(const Table& table, Scene& scene) {
     table.allow("simulation");
     Simulation& simulation = scene.simulation;

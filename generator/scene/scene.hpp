@@ -214,6 +214,12 @@ struct EventRule {
     std::vector<GeneralizedForce> impulses = {};  ///< at each zero; of the rates before
 };
 
+/// [polynomial]: a characteristic polynomial without a mechanism, highest power first.
+struct PolynomialRule {
+    Place place;
+    std::vector<Expression> coefficients;
+};
+
 struct Simulation {
     Expression start, duration, tolerance, step, max_step, sample, period;  ///< null where missing, but start: 0
     std::optional<Name> method;
@@ -255,6 +261,7 @@ struct Scene {
     std::vector<UnilateralRule> unilateral;
     std::vector<Output> outputs;
     std::vector<EventRule> events;
+    std::optional<PolynomialRule> polynomial;
     Simulation simulation;
     std::vector<Claim> claims;
     std::vector<Diagnostic> warnings;

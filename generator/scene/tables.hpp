@@ -43,6 +43,7 @@ void read_rolling(Table table, Scene& scene);
 void read_unilateral(Table table, Scene& scene);
 
 // runs.cpp: what is to be done
+void read_polynomial(const Table& table, Scene& scene);
 void read_simulation(const Table& table, Scene& scene);
 void read_event(Table table, Scene& scene);
 void read_claim(Table table, Scene& scene);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A verdict of stability as text and as JSON.
+
+#include "report/json.hpp"
+#include "stability/stability.hpp"
+
+namespace alembert {
+
+Json as_json(const Stability& stability);
+std::string as_text(const Stability& stability);
+
+}  // namespace alembert

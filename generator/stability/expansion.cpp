@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/expansion.hpp"
+
+#include <cln/integer.h>
+
+#include <functional>
+
+namespace alembert {
+
+Monomials::Monomials(int variables, int degree) : variables_(variables), degree_(degree) {
+    Exponents one(static_cast<std::size_t>(variables), 0);
+    for (int total = 0; total <= degree; ++total) {
+        const std::function<void(int, int)> fill = [&](int from, int left) {
+            if (from == variables || left == 0) {
+                if (left > 0) return;
+                position_[one] = size();
+                exponents_.push_back(one);
+                total_.push_back(total);
+                return;
+            }
+            for (int e = left; e >= 0; --e) {
+                one[from] = e;
+                fill(from + 1, left - e);
+            }
+            one[from] = 0;
+        };
+        fill(0, total);
+    }
+    product_.resize(exponents_.size());
+    for (int i = 0; i < size(); ++i)
+        for (int j = 0; j < size() && total_[i] + total_[j] <= degree; ++j) {
+            Exponents sum = exponents_[i];
+            for (int v = 0; v < variables; ++v) sum[v] += exponents_[j][v];
+            product_[i].push_back(position_.at(sum));
+        }
+}
+
+Expansion Expansion::variable(const Monomials& monomials, int variable, const Certain& value) {
+    Expansion result(value);
+    result.monomials_ = &monomials;
+    result.c_.resize(static_cast<std::size_t>(monomials.size()), Certain(0));
+    if (monomials.degree() > 0) {
+        Monomials::Exponents exponents(static_cast<std::size_t>(monomials.variables()), 0);
+        exponents[variable] = 1;
+        result.c_[monomials.index(exponents)] = 1;
+    }
+    return result;
+}
+
+Certain Expansion::coefficient(const Monomials::Exponents& exponents) const {
+    int total = 0;
+    for (const int e : exponents) total += e;
+    return monomials_ ? c_[monomials_->index(exponents)] : total == 0 ? c_[0] : Certain(0);
+}
+
+Expansion& Expansion::operator+=(const Expansion& b) {
+    if (!monomials_) {
+        monomials_ = b.monomials_;
+        c_.resize(std::max(c_.size(), b.c_.size()), Certain(0));
+    }
+    for (std::size_t k = 0; k < b.c_.size(); ++k) c_[k] += b.c_[k];
+    return *this;
+}
+
+Expansion operator*(const Expansion& a, const Expansion& b) {
+    if (!a.monomials_ && b.monomials_) return b * a;
+    Expansion result = a;
+    if (!b.monomials_) {
+        for (Certain& c : result.c_) c *= b.c_[0];
+        return result;
+    }
+    for (Certain& c : result.c_) c = 0;
+    for (std::size_t i = 0; i < a.c_.size(); ++i) {
+        if (a.c_[i].is_zero()) continue;
+        for (std::size_t j = 0; j < b.c_.size(); ++j) {
+            const int k = a.monomials_->product(static_cast<int>(i), static_cast<int>(j));
+            if (k < 0) break;
+            if (!b.c_[j].is_zero()) result.c_[k] += a.c_[i] * b.c_[j];
+        }
+    }
+    return result;
+}
+
+Expansion Expansion::composed(const Expansion& a, const std::vector<Certain>& series) {
+    if (!a.monomials_) return Expansion(series[0]);
+    Expansion h = a;
+    h.c_[0] = 0;
+    Expansion result(series.back());
+    for (std::size_t k = series.size() - 1; k-- > 0;) result = result * h + Expansion(series[k]);
+    return result;
+}
+
+Expansion operator/(const Expansion& a, const Expansion& b) {
+    if (b.value().may_be_zero()) throw NotAnalytic("a division by zero");
+    const Certain inverse = Certain(1) / b.value();
+    std::vector<Certain> series{inverse};
+    for (int k = 0; k < b.degree(); ++k) series.push_back(-series.back() * inverse);
+    return a * Expansion::composed(b, series);
+}
+
+bool operator<(const Expansion& a, const Expansion& b) {
+    const std::optional<int> sign = (a.value() - b.value()).sign();
+    if (!sign || *sign == 0) throw NotAnalytic("a comparison of equal values");
+    return *sign < 0;
+}
+
+namespace {
+
+/// f, f', f'', f''' and so on in a circle, divided by k!.
+std::vector<Certain> cyclic(const std::vector<Certain>& derivatives, int degree) {
+    std::vector<Certain> result;
+    Rational factorial = 1;
+    for (int k = 0; k <= degree; ++k) {
+        if (k > 0) factorial = factorial * k;
+        result.push_back(derivatives[k % derivatives.size()] * Certain(1 / factorial));
+    }
+    return result;
+}
+
+/// Of (…)' with the series `slope`; the value at the point is given.
+std::vector<Certain> integrated(const Certain& value, const std::vector<Certain>& slope) {
+    std::vector<Certain> result{value};
+    for (std::size_t k = 0; k + 1 < slope.size(); ++k)
+        result.push_back(slope[k] * Certain(Rational(1) / static_cast<int>(k + 1)));
+    return result;
+}
+
+/// The series of f(x₀ + h) in h alone.
+std::vector<Certain> in_one(const Certain& x, int degree, const std::function<Expansion(const Expansion&)>& f) {
+    const Monomials line(1, degree);
+    const Expansion value = f(Expansion::variable(line, 0, x));
+    std::vector<Certain> result;
+    for (int k = 0; k <= degree; ++k) result.push_back(value.coefficient(k));
+    return result;
+}
+
+}  // namespace
+
+Expansion sin(const Expansion& a) {
+    const Certain s = sin(a.value()), c = cos(a.value());
+    return Expansion::composed(a, cyclic({s, c, -s, -c}, a.degree()));
+}
+Expansion cos(const Expansion& a) {
+    const Certain s = sin(a.value()), c = cos(a.value());
+    return Expansion::composed(a, cyclic({c, -s, -c, s}, a.degree()));
+}
+Expansion exp(const Expansion& a) {
+    return Expansion::composed(a, cyclic({exp(a.value())}, a.degree()));
+}
+Expansion log(const Expansion& a) {
+    if (a.value().sign() != 1) throw NotAnalytic("log of what is not positive");
+    const auto slope = in_one(a.value(), a.degree(), [](const Expansion& x) { return Expansion(1) / x; });
+    return Expansion::composed(a, integrated(log(a.value()), slope));
+}
+Expansion atan(const Expansion& a) {
+    const auto slope =
+        in_one(a.value(), a.degree(), [](const Expansion& x) { return Expansion(1) / (x * x + Expansion(1)); });
+    return Expansion::composed(a, integrated(atan(a.value()), slope));
+}
+Expansion asin(const Expansion& a) {
+    const Certain left = Certain(1) - a.value() * a.value();
+    if (a.degree() > 0 && left.sign() != 1) throw NotAnalytic("asin or acos at the end of its range");
+    if (a.degree() == 0) return Expansion(asin(a.value()));
+    const auto slope = in_one(a.value(), a.degree(),
+                              [](const Expansion& x) { return Expansion(1) / sqrt(Expansion(1) - x * x); });
+    return Expansion::composed(a, integrated(asin(a.value()), slope));
+}
+Expansion acos(const Expansion& a) {
+    return Expansion(acos(Certain(0))) - asin(a);
+}
+
+Expansion pow(const Expansion& a, const Expansion& b) {
+    if (b.monomials_) return exp(b * log(a));
+    const Certain& exponent = b.value();
+    const std::optional<Rational> r = exponent.rational();
+    if (r && cln::denominator(*r) == 1 && *r >= 0 && *r <= 64) {
+        Expansion result(1);
+        for (int k = static_cast<int>(cln::cl_I_to_L(cln::numerator(*r))); k > 0; --k) result *= a;
+        return result;
+    }
+    if (!a.monomials_) return Expansion(pow(a.value(), exponent));
+    const bool whole = r && cln::denominator(*r) == 1;
+    if (whole ? a.value().may_be_zero() : a.value().sign() != 1)
+        throw NotAnalytic("a power or root of a base that may be zero");
+    std::vector<Certain> series{pow(a.value(), exponent)};
+    for (int k = 0; k < a.degree(); ++k)
+        series.push_back(series.back() * (exponent - Certain(k)) / (a.value() * Certain(k + 1)));
+    return Expansion::composed(a, series);
+}
+
+Expansion abs(const Expansion& a) {
+    const std::optional<int> sign = a.value().sign();
+    if (!a.monomials_ && sign == 0) return a;
+    if (!sign || *sign == 0) throw NotAnalytic("abs at zero");
+    return Expansion(*sign) * a;
+}
+
+Expansion atan2(const Expansion& y, const Expansion& x) {
+    const Certain y0 = y.value(), x0 = x.value();
+    const Expansion along = Expansion(x0) * x + Expansion(y0) * y, across = Expansion(x0) * y - Expansion(y0) * x;
+    if (along.value().sign() != 1) throw NotAnalytic("atan2 at the origin");
+    return Expansion(atan2(y0, x0)) + atan(across / along);
+}
+
+}  // namespace alembert

@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Notation of linear/tangent.cpp. Momenta p_c = ∂L/∂q'_c of cyclic coordinates that no load moves are constants of
+// the motion: with M_cc δw_c + M_co δw_o + B_c δr = 0 the rates of cyclic coordinates are eliminated, and the zero
+// eigenvalues that they have with them.
+#include "stability/local.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formalism/elements.hpp"
+#include "lower/lower.hpp"
+#include "model/energy.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double left_over = 1e-28, found_to = 1e-26;
+
+int position_in(const std::vector<int>& list, int what) {
+    const auto found = std::find(list.begin(), list.end(), what);
+    return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+std::vector<int> up_to(int n, int from = 0) {
+    std::vector<int> result;
+    for (int i = from; i < n; ++i) result.push_back(i);
+    return result;
+}
+
+template <typename F>
+CertainMatrix filled(int rows, int columns, const F& value) {
+    CertainMatrix result(rows, columns);
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) result(i, j) = value(i, j);
+    return result;
+}
+
+CertainMatrix solved(const CertainMatrix& A, const CertainMatrix& B, const char* what) {
+    if (A.rows == 0) return B;
+    auto result = solution(A, B);
+    if (!result) throw NotAnalytic(std::string(what) + " is not surely regular");
+    return *std::move(result);
+}
+
+CertainMatrix column(const CertainVector& v) {
+    return filled(static_cast<int>(v.size()), 1, [&](int i, int) { return v[i]; });
+}
+
+}  // namespace
+
+std::vector<ex> Local::in_speeds(const std::vector<ex>& of) const {
+    if (residuals.rates_are_speeds) return of;
+    GiNaC::exmap rates;
+    for (int i = 0; i < mechanism.size(); ++i) rates[mechanism.qdot[i]] = equations.h[i];
+    return substitute(*mechanism.z, of, rates);
+}
+
+std::vector<Expansion> Local::series(const std::vector<ex>& of, const Monomials& monomials,
+                                     const std::vector<int>& variables) const {
+    const std::vector<ex> wanted = in_speeds(of);
+    Program program = begun(mechanism);
+    std::vector<std::pair<GiNaC::symbol, int>> given;
+    for (int i = 0; i < residuals.s; ++i)
+        given.emplace_back(equations.u[i], program.variable({Variable::Kind::rate, i}));
+    for (const int k : residuals.inputs)
+        given.emplace_back(mechanism.inputs[k / 3].derivative[k % 3],
+                           program.variable({Variable::Kind::unknown, k}));
+    const std::vector<int> nodes = lower_expressions(program, mechanism, wanted, given);
+    const std::vector<Expansion> value = interpret(program, state_at(point, &monomials, variables));
+    std::vector<Expansion> result;
+    for (const int node : nodes) result.push_back(value[node]);
+    return result;
+}
+
+/// Cyclic coordinates were found at a few states near; without constraints the equations themselves can tell.
+bool Local::is_surely_cyclic(int coordinate) const {
+    const Mechanism& m = mechanism;
+    if (!m.constraints.empty() || !residuals.rates_are_speeds) return true;
+    std::vector<ex> values;
+    for (int i = 0; i < residuals.s; ++i) {
+        values.push_back(m.z->name(equations.forcing(i)));
+        for (int j = 0; j <= i; ++j) values.push_back(m.z->name(equations.M(i, j)));
+    }
+    if (!m.z->depends(GiNaC::add(GiNaC::exvector(values.begin(), values.end())), {m.q[coordinate]})) return true;
+    for (const ex& slope : m.z->push_forward(values, {{m.q[coordinate], 1}}))
+        if (!is_identically_zero(slope, m)) return false;
+    return true;
+}
+
+bool Local::is_essential(int coordinate) const {
+    const int r = position_in(split.q, coordinate);
+    return r < 0 || position_in(essential, r) >= 0;
+}
+
+Local::Local(const LinearizedScene& of, const ExactOverrides& exact_at)
+    : near(of), mechanism(of.mechanism), equations(of.equations), residuals(mechanism, equations) {
+    const Linearization& known = near.matrices;
+    const auto contains = [](const std::vector<std::string>& list, const std::string& name) {
+        return std::find(list.begin(), list.end(), name) != list.end();
+    };
+    for (int i = 0; i < residuals.n; ++i)
+        (contains(known.coordinates, mechanism.q[i].get_name()) ? split.q : split.q_dependent).push_back(i);
+    for (int i = 0; i < residuals.s; ++i)
+        (contains(known.speeds, equations.u[i].get_name()) ? split.u : split.u_dependent).push_back(i);
+    for (std::size_t r = 0; r < split.q.size(); ++r)
+        if (!contains(known.cyclic, mechanism.q[split.q[r]].get_name()) || !is_surely_cyclic(split.q[r]))
+            essential.push_back(static_cast<int>(r));
+    find_point(exact_at);
+    settle();
+    find_momenta();
+    reduce();
+}
+
+void Local::find_point(const ExactOverrides& exact_at) {
+    const Mechanism& m = mechanism;
+    const ExactStart start = exact_start(m, near.start, exact_at);
+    point.parameters = start.parameters;
+    point.t = start.t;
+    point.q = start.q;
+    point.u = start.qdot;
+    if (!residuals.rates_are_speeds) {
+        const State<double> in_use = state_of(near.start, m, equations);
+        Program forms = begun(m);
+        const std::vector<int> nodes = lower_expressions(forms, m, equations.form);
+        const std::vector<Expansion> in_rates = interpret(forms, state_at(point, nullptr, {}));
+        point.u.clear();
+        for (int i = 0; i < residuals.s; ++i) {
+            Certain exact = in_rates[nodes[i]].value();
+            for (std::size_t k = 0; k < m.speeds.size(); ++k)
+                if (m.speeds[k].start && equations.u[i].is_equal(m.speeds[k].u)) exact = start.speeds[k];
+            point.u.push_back(exact_or(exact, in_use.qdot[i]));
+        }
+    }
+    if (residuals.inputs.empty()) return;
+    point.inputs.assign(static_cast<std::size_t>(residuals.inputs.back()) + 1, Certain(0));
+    State<Expansion> at_start = state_at(point, nullptr, {});
+    const std::vector<Expansion> all = interpret(residuals.program, at_start);
+    for (const int k : residuals.inputs) point.inputs[k] = all[residuals.input_values[k]].value();
+}
+
+State<Expansion> Local::state_at(const CertainPoint& at, const Monomials* monomials,
+                                 const std::vector<int>& variables) const {
+    const auto entry = [&](const Certain& value, std::size_t which) {
+        return monomials && variables[which] >= 0 ? Expansion::variable(*monomials, variables[which], value)
+                                                  : Expansion(value);
+    };
+    State<Expansion> state;
+    for (const Certain& p : at.parameters) state.parameters.emplace_back(p);
+    for (std::size_t i = 0; i < at.q.size(); ++i) state.q.push_back(entry(at.q[i], i));
+    for (std::size_t i = 0; i < at.u.size(); ++i) state.qdot.push_back(entry(at.u[i], at.q.size() + i));
+    for (const Certain& f : at.inputs) state.unknown.emplace_back(f);
+    state.t = Expansion(at.t);
+    return state;
+}
+
+CertainTangent Local::tangent_at(const CertainPoint& at) const {
+    const Residuals& r = residuals;
+    const int n = r.n, s = r.s, nr = static_cast<int>(split.q.size()), p = static_cast<int>(split.u.size());
+    const Monomials linear(n + s, 1);
+    const std::vector<Expansion> value = interpret(r.program, state_at(at, &linear, up_to(n + s)));
+    const auto values = [&](const std::vector<int>& nodes) {
+        CertainVector result;
+        for (const int node : nodes) result.push_back(value[node].value());
+        return result;
+    };
+    const auto jacobian = [&](const std::vector<int>& nodes) {
+        return filled(static_cast<int>(nodes.size()), n + s,
+                      [&](int i, int k) { return value[nodes[i]].coefficient(k + 1); });
+    };
+    CertainTangent result;
+    result.position = values(r.position);
+    result.velocity = values(r.velocity);
+    CertainMatrix along = filled(n + s, nr + p, [&](int i, int j) {
+        return Certain(j < nr ? i == split.q[j] : i == n + split.u[j - nr] ? 1 : 0);
+    });
+    const CertainMatrix phi = jacobian(r.position), nu = jacobian(r.velocity);
+    const std::vector<int> of_phi = up_to(r.holonomic), of_nu = up_to(r.kept);
+    const CertainMatrix phi_dependent = phi.part(of_phi, split.q_dependent);
+    const CertainMatrix follow = solved(phi_dependent, Certain(-1) * (phi * along), "the constraints");
+    for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
+        for (int j = 0; j < nr + p; ++j) along(split.q_dependent[k], j) += follow(static_cast<int>(k), j);
+    std::vector<int> speeds_dependent;
+    for (const int k : split.u_dependent) speeds_dependent.push_back(n + k);
+    const CertainMatrix nu_dependent = nu.part(of_nu, speeds_dependent);
+    const auto particular = [&](const CertainMatrix& right) {
+        CertainMatrix spread(s, right.columns);
+        const CertainMatrix x = solved(nu_dependent, right, "the velocity constraints");
+        for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
+            for (int j = 0; j < right.columns; ++j) spread(split.u_dependent[k], j) = x(static_cast<int>(k), j);
+        return spread;
+    };
+    const CertainMatrix more = particular(Certain(-1) * (nu * along));
+    for (int i = 0; i < s; ++i)
+        for (int j = 0; j < nr + p; ++j) along(n + i, j) += more(i, j);
+    result.to_position = solved(phi_dependent, Certain(-1) * column(result.position), "the constraints").entries;
+    result.to_velocity = solved(nu_dependent, Certain(-1) * column(result.velocity), "the constraints").entries;
+
+    std::vector<int> speed_rows;
+    for (int i = 0; i < s; ++i) speed_rows.push_back(n + i);
+    const CertainMatrix U = along.part(speed_rows, up_to(nr + p, nr)), Ut = transposed(U);
+    CertainMatrix M(s, s);
+    for (int i = 0, next = 0; i < s; ++i)
+        for (int j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[r.mass[next++]].value();
+    const CertainMatrix f = column(values(r.forcing));
+    CertainMatrix udot = particular(column(values(r.gamma)));
+    result.mass = Ut * M * U;
+    const CertainMatrix wdot = solved(result.mass, Ut * (f + Certain(-1) * (M * udot)), "the mass matrix");
+    udot = udot + U * wdot;
+    result.speed_rates = wdot.entries;
+    CertainMatrix reaction = M * udot + Certain(-1) * f, on_dependent(r.kept, 1);
+    for (int k = 0; k < r.kept; ++k) on_dependent(k, 0) = reaction(split.u_dependent[k], 0);
+    const CertainMatrix lambda = solved(transposed(nu_dependent), on_dependent, "the velocity constraints");
+
+    CertainMatrix R = Certain(-1) * jacobian(r.forcing), Gamma = Certain(-1) * jacobian(r.gamma);
+    for (int i = 0, next = 0; i < s; ++i)
+        for (int j = 0; j <= i; ++j, ++next)
+            for (int k = 0; k < n + s; ++k) {
+                const Certain d = value[r.mass[next]].coefficient(k + 1);
+                if (d.is_zero()) continue;
+                R(i, k) += d * udot(j, 0);
+                if (i != j) R(j, k) += d * udot(i, 0);
+            }
+    for (int k = 0; k < r.kept; ++k)
+        for (int i = 0; i < s; ++i)
+            for (int c = 0; c < n + s; ++c) {
+                const Certain d = value[r.row[k * s + i]].coefficient(c + 1);
+                if (d.is_zero()) continue;
+                R(i, c) -= d * lambda(k, 0);
+                Gamma(k, c) += d * udot(i, 0);
+            }
+    const CertainMatrix forced = particular(Certain(-1) * (Gamma * along));
+    const CertainMatrix force = Ut * (R * along + M * forced);
+    result.stiffness = force.part(up_to(p), up_to(nr));
+    result.damping = force.part(up_to(p), up_to(nr + p, nr));
+    result.coordinate_rates = values(r.rate);
+    result.rates = (jacobian(r.rate) * along).part(split.q, up_to(nr + p));
+    result.along = along;
+    return result;
+}
+
+/// Newton's method on constraints and on w' = 0, for what is not exact.
+void Local::settle() {
+    const int nr = static_cast<int>(split.q.size());
+    for (int step = 0; step < 12; ++step) {
+        tangent = tangent_at(point);
+        double largest = 0;
+        bool is_exact = true;
+        const auto note = [&](const Certain& x) {
+            largest = std::max(largest, std::abs(x.number()));
+            is_exact = is_exact && x.is_zero();
+        };
+        for (const CertainVector* list : {&tangent.position, &tangent.velocity, &tangent.speed_rates})
+            for (const Certain& x : *list) note(x);
+        bool sharp = true;
+        for (const CertainVector* list : {&point.q, &point.u})
+            for (const Certain& x : *list)
+                sharp = sharp && x.radius() < 1e-20 * std::max(1.0, std::abs(x.number()));
+        if (is_exact || (largest < left_over && sharp)) return;
+
+        // From the middles; coordinates that something depends on move, as little as possible.
+        CertainPoint middle = point;
+        for (CertainVector* list : {&middle.q, &middle.u})
+            for (Certain& x : *list)
+                if (!x.is_exact()) x = Certain::about(x.middle(), 0);
+        const CertainTangent here = tangent_at(middle);
+        const CertainMatrix by = here.stiffness.part(up_to(here.stiffness.rows), essential);
+        const CertainMatrix normal = transposed(by) * by;
+        const CertainMatrix right = transposed(by) * (here.mass * column(here.speed_rates));
+        const auto move = solution(normal, right);
+        double longest = 0;
+        const auto shift = [&](Certain& x, const Certain& by_much) {
+            longest = std::max(longest, std::abs(by_much.number()));
+            x = Certain::about(x.middle() + by_much.middle(), 0);
+        };
+        bool residual = false;
+        for (const Certain& x : here.speed_rates) residual = residual || std::abs(x.number()) > left_over;
+        for (std::size_t k = 0; residual && move && k < essential.size(); ++k)
+            shift(middle.q[split.q[essential[k]]], move->entries[k]);
+        for (std::size_t k = 0; k < split.q_dependent.size(); ++k)
+            if (!here.to_position[k].is_zero()) shift(middle.q[split.q_dependent[k]], here.to_position[k]);
+        for (std::size_t k = 0; k < split.u_dependent.size(); ++k)
+            if (!here.to_velocity[k].is_zero()) shift(middle.u[split.u_dependent[k]], here.to_velocity[k]);
+        const auto widened = [&](double radius) {
+            for (CertainVector* list : {&middle.q, &middle.u})
+                for (Certain& x : *list)
+                    if (!x.is_exact()) x = Certain::about(x.middle(), radius);
+        };
+        if (longest < left_over) {
+            if (residual) break;  // no step, and no equilibrium to the last digit
+            widened(found_to);
+            point = middle;
+            tangent = tangent_at(point);
+            return;
+        }
+        if (longest > 1e-3 || nr < 0) break;
+        point = middle;
+    }
+    throw NotAnalytic("the equilibrium is not found to the last digits");
+}
+
+/// Cyclic coordinates whose momentum is constant: L does not hold them and no load acts along them.
+void Local::find_momenta() {
+    const Mechanism& m = mechanism;
+    if (!m.constraints.empty() || !residuals.rates_are_speeds) return;
+    const std::vector<ex> slope = m.z->pull_back({{m.lagrangian(), 1}}, m.q);
+    const std::vector<ex> of_dampers = m.generalized_forces(true), of_others = m.generalized_forces(false);
+    for (std::size_t j = 0; j < split.u.size(); ++j) {
+        const int i = split.u[j];
+        if (is_essential(i)) continue;
+        if (is_identically_zero(slope[i] + of_dampers[i] + of_others[i], m))
+            cyclic_momenta.push_back(static_cast<int>(j));
+    }
+}
+
+void Local::reduce() {
+    const int nr = static_cast<int>(split.q.size()), p = static_cast<int>(split.u.size());
+    // δw = T (δr_essential, δw_others)
+    const int ne = static_cast<int>(essential.size());
+    std::vector<int> others;
+    for (int j = 0; j < p; ++j)
+        if (position_in(cyclic_momenta, j) < 0) others.push_back(j);
+    const int size = ne + static_cast<int>(others.size());
+    CertainMatrix T(p, size);
+    for (std::size_t k = 0; k < others.size(); ++k) T(others[k], ne + static_cast<int>(k)) = 1;
+    if (!cyclic_momenta.empty()) {
+        const Mechanism& m = mechanism;
+        const std::vector<ex> momenta = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);
+        std::vector<ex> wanted;
+        for (const int j : cyclic_momenta) wanted.push_back(momenta[split.u[j]]);
+        const Monomials linear(residuals.n + residuals.s, 1);
+        const std::vector<Expansion> value = series(wanted, linear, up_to(residuals.n + residuals.s));
+        const CertainMatrix dp = filled(static_cast<int>(value.size()), residuals.n + residuals.s,
+                                        [&](int i, int k) { return value[i].coefficient(k + 1); }) *
+                                 tangent.along;
+        std::vector<int> own, rest, columns;
+        for (const int j : cyclic_momenta) own.push_back(nr + j);
+        for (const int r : essential) rest.push_back(r);
+        for (const int j : others) rest.push_back(nr + j);
+        const std::vector<int> rows = up_to(static_cast<int>(value.size()));
+        const CertainMatrix x = solved(dp.part(rows, own), Certain(-1) * dp.part(rows, rest), "the inertia");
+        for (std::size_t k = 0; k < cyclic_momenta.size(); ++k)
+            for (int c = 0; c < size; ++c) T(cyclic_momenta[k], c) = x(static_cast<int>(k), c);
+    }
+    CertainMatrix whole(nr + p, size);
+    for (int k = 0; k < ne; ++k) whole(essential[k], k) = 1;
+    for (int j = 0; j < p; ++j)
+        for (int c = 0; c < size; ++c) whole(nr + j, c) = T(j, c);
+    std::vector<int> r_columns = up_to(nr), w_columns = up_to(nr + p, nr);
+    const CertainMatrix in_w = whole.part(w_columns, up_to(size)), in_r = whole.part(r_columns, up_to(size));
+    const CertainMatrix wdot =
+        solved(tangent.mass, Certain(-1) * (tangent.damping * in_w + tangent.stiffness * in_r), "the mass matrix");
+    const CertainMatrix rdot = tangent.rates * whole;
+    A = CertainMatrix(size, size);
+    for (int k = 0; k < ne; ++k)
+        for (int c = 0; c < size; ++c) A(k, c) = rdot(essential[k], c);
+    for (std::size_t k = 0; k < others.size(); ++k)
+        for (int c = 0; c < size; ++c) A(ne + static_cast<int>(k), c) = wdot(others[k], c);
+    for (const int r : essential) states.push_back(mechanism.q[split.q[r]].get_name());
+    for (const int j : others) states.push_back(equations.u[split.u[j]].get_name());
+}
+
+}  // namespace alembert

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace alembert {
+
+CertainMatrix CertainMatrix::identity(int n) {
+    CertainMatrix result(n, n);
+    for (int i = 0; i < n; ++i) result(i, i) = 1;
+    return result;
+}
+
+CertainMatrix CertainMatrix::part(const std::vector<int>& of_rows, const std::vector<int>& of_columns) const {
+    CertainMatrix result(static_cast<int>(of_rows.size()), static_cast<int>(of_columns.size()));
+    for (int i = 0; i < result.rows; ++i)
+        for (int j = 0; j < result.columns; ++j) result(i, j) = (*this)(of_rows[i], of_columns[j]);
+    return result;
+}
+
+CertainMatrix operator*(const CertainMatrix& a, const CertainMatrix& b) {
+    CertainMatrix result(a.rows, b.columns);
+    for (int i = 0; i < a.rows; ++i)
+        for (int k = 0; k < a.columns; ++k)
+            if (!a(i, k).is_zero())
+                for (int j = 0; j < b.columns; ++j) result(i, j) += a(i, k) * b(k, j);
+    return result;
+}
+
+CertainMatrix operator+(const CertainMatrix& a, const CertainMatrix& b) {
+    CertainMatrix result = a;
+    for (std::size_t k = 0; k < a.entries.size(); ++k) result.entries[k] += b.entries[k];
+    return result;
+}
+
+CertainMatrix operator*(const Certain& a, const CertainMatrix& b) {
+    CertainMatrix result = b;
+    for (Certain& x : result.entries) x = a * x;
+    return result;
+}
+
+CertainMatrix transposed(const CertainMatrix& a) {
+    CertainMatrix result(a.columns, a.rows);
+    for (int i = 0; i < a.rows; ++i)
+        for (int j = 0; j < a.columns; ++j) result(j, i) = a(i, j);
+    return result;
+}
+
+namespace {
+
+double weight(const Certain& x) {  // of a pivot
+    return x.may_be_zero() ? 0 : std::abs(x.number());
+}
+
+/// Reduced row echelon form of A, with B beside it; the columns of the pivots. Nothing where an entry that ought
+/// to be zero is only near it.
+std::optional<std::vector<int>> eliminate(CertainMatrix& A, CertainMatrix* B, double zero = 0) {
+    std::vector<int> pivots;
+    for (int j = 0, row = 0; j < A.columns && row < A.rows; ++j) {
+        int best = row;
+        for (int i = row; i < A.rows; ++i)
+            if (weight(A(i, j)) > weight(A(best, j))) best = i;
+        if (weight(A(best, j)) == 0) {
+            for (int i = row; i < A.rows; ++i) {
+                if (!A(i, j).is_zero() && !(std::abs(A(i, j).number()) + A(i, j).radius() < zero)) return {};
+                A(i, j) = 0;
+            }
+            continue;
+        }
+        for (CertainMatrix* const m : {&A, B})
+            for (int k = 0; m && k < m->columns; ++k) std::swap((*m)(row, k), (*m)(best, k));
+        const Certain pivot = A(row, j);
+        for (CertainMatrix* const m : {&A, B})
+            for (int k = 0; m && k < m->columns; ++k) (*m)(row, k) = (*m)(row, k) / pivot;
+        A(row, j) = 1;
+        for (int i = 0; i < A.rows; ++i) {
+            const Certain factor = A(i, j);
+            if (i == row || factor.is_zero()) continue;
+            for (CertainMatrix* const m : {&A, B})
+                for (int k = 0; m && k < m->columns; ++k) (*m)(i, k) -= factor * (*m)(row, k);
+            A(i, j) = 0;
+        }
+        pivots.push_back(j);
+        ++row;
+    }
+    return pivots;
+}
+
+}  // namespace
+
+std::optional<CertainMatrix> solution(CertainMatrix A, CertainMatrix B) {
+    const auto pivots = eliminate(A, &B);
+    if (!pivots || static_cast<int>(pivots->size()) < A.rows) return {};
+    return B;
+}
+
+std::optional<CertainMatrix> null_space(CertainMatrix A, double zero) {
+    const auto pivots = eliminate(A, nullptr, zero);
+    if (!pivots) return {};
+    CertainMatrix result(A.columns, A.columns - static_cast<int>(pivots->size()));
+    for (int j = 0, free = 0; j < A.columns; ++j) {
+        if (std::find(pivots->begin(), pivots->end(), j) != pivots->end()) continue;
+        result(j, free) = 1;
+        for (std::size_t k = 0; k < pivots->size(); ++k) result((*pivots)[k], free) = -A(static_cast<int>(k), j);
+        ++free;
+    }
+    return result;
+}
+
+std::optional<int> rank(const CertainMatrix& A) {
+    CertainMatrix copy = A;
+    const auto pivots = eliminate(copy, nullptr);
+    if (!pivots) return {};
+    return static_cast<int>(pivots->size());
+}
+
+CertainVector characteristic(const CertainMatrix& A) {
+    const int n = A.rows;
+    CertainVector c{Certain(1)};
+    CertainMatrix M(n, n);
+    for (int k = 1; k <= n; ++k) {
+        for (int i = 0; i < n; ++i) M(i, i) += c.back();
+        M = A * M;
+        Certain trace = 0;
+        for (int i = 0; i < n; ++i) trace += M(i, i);
+        c.push_back(-trace * Certain(Rational(1) / k));
+    }
+    return c;
+}
+
+std::optional<SignCount> inertia(CertainMatrix A) {
+    SignCount result;
+    std::vector<bool> done(static_cast<std::size_t>(A.rows), false);
+    const auto remove = [&](int p) {
+        for (int i = 0; i < A.rows; ++i) {
+            if (done[i] || i == p || A(i, p).is_zero()) continue;
+            const Certain factor = A(i, p) / A(p, p);
+            for (int j = 0; j < A.rows; ++j)
+                if (!done[j] && j != p) A(i, j) -= factor * A(p, j);
+        }
+        (A(p, p).sign() == 1 ? result.positive : result.negative) += 1;
+        done[p] = true;
+    };
+    for (int left = A.rows; left > 0; --left) {
+        int best = -1;
+        for (int i = 0; i < A.rows; ++i)
+            if (!done[i] && weight(A(i, i)) > 0 && (best < 0 || weight(A(i, i)) > weight(A(best, best)))) best = i;
+        if (best >= 0) {
+            remove(best);
+            continue;
+        }
+        // No pivot on the diagonal: a pair off it has one eigenvalue of each sign.
+        std::pair<int, int> pair{-1, -1};
+        bool all_zero = true;
+        for (int i = 0; i < A.rows; ++i)
+            for (int j = 0; j < A.rows; ++j) {
+                if (done[i] || done[j]) continue;
+                all_zero = all_zero && A(i, j).is_zero();
+                if (i != j && weight(A(i, j)) > 0) pair = {i, j};
+            }
+        if (all_zero) {
+            result.zero += left;
+            return result;
+        }
+        if (pair.first < 0) return {};
+        const auto [i, j] = pair;  // x → x_i + x_j
+        for (int k = 0; k < A.rows; ++k) A(i, k) += A(j, k);
+        for (int k = 0; k < A.rows; ++k) A(k, i) += A(k, j);
+        if (weight(A(i, i)) == 0) return {};
+        remove(i);
+    }
+    return result;
+}
+
+std::vector<std::vector<int>> diagonal_blocks(const CertainMatrix& A) {
+    const int n = A.rows;
+    std::vector<std::vector<bool>> reach(static_cast<std::size_t>(n),
+                                         std::vector<bool>(static_cast<std::size_t>(n)));
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) reach[i][j] = i == j || !A(i, j).is_zero();
+    for (int k = 0; k < n; ++k)
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                if (reach[i][k] && reach[k][j]) reach[i][j] = true;
+    std::vector<std::vector<int>> result;
+    std::vector<bool> done(static_cast<std::size_t>(n), false);
+    for (int i = 0; i < n; ++i) {
+        if (done[i]) continue;
+        result.emplace_back();
+        for (int j = i; j < n; ++j)
+            if (!done[j] && reach[i][j] && reach[j][i]) {
+                result.back().push_back(j);
+                done[j] = true;
+            }
+    }
+    return result;
+}
+
+}  // namespace alembert

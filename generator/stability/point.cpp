@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lower/lower.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double near_enough = 1e-9;  // the program's own state and an exact one: the same
+
+std::optional<Certain> exact_of(const ex& value) {
+    if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational()) return {};
+    return Certain(Rational(cln::the<cln::cl_RA>(GiNaC::ex_to<GiNaC::numeric>(value).to_cl_N())));
+}
+
+std::optional<Certain> typed(const ExactOverrides& exact_at, const std::string& name) {
+    for (const auto& [known, text] : exact_at)
+        if (known == name)
+            return exact_of(exact_number(text[0] == '-' ? text.substr(1) : text) * (text[0] == '-' ? -1 : 1));
+    return {};
+}
+
+}  // namespace
+
+Certain exact_or(const Certain& exact, double in_use) {
+    const double unit = near_enough * std::max(1.0, std::abs(in_use));
+    if (std::abs(exact.number() - in_use) + exact.radius() < unit) return exact;
+    return Certain::about(static_cast<Quad>(in_use), unit);
+}
+
+CertainVector exact_parameters(const Mechanism& m, const Start& start, const ExactOverrides& exact_at) {
+    CertainVector result;
+    for (const Mechanism::Parameter& p : m.parameters) {
+        if (!p.independent) continue;
+        std::optional<Certain> exact = typed(exact_at, p.symbol.get_name());
+        if (!exact) exact = exact_of(p.value);
+        const double in_use = start.parameters[result.size()];
+        result.push_back(exact && std::abs(exact->number() - in_use) <= 4e-16 * std::abs(in_use)
+                             ? *exact
+                             : Certain(Rational(cln::rational(cln::cl_DF(in_use)))));
+    }
+    return result;
+}
+
+ExactStart exact_start(const Mechanism& m, const Start& start, const ExactOverrides& exact_at) {
+    ExactStart result{.parameters = exact_parameters(m, start, exact_at),
+                      .t = Rational(cln::rational(cln::cl_DF(start.t))),
+                      .q = {},
+                      .qdot = {},
+                      .speeds = {}};
+    Program program = begun(m);
+    std::vector<int> nodes;
+    for (const ex& e : m.q_start) nodes.push_back(lower_expression(program, m, m.z->expand(e)));
+    for (const ex& e : m.qdot_start) nodes.push_back(lower_expression(program, m, m.z->expand(e)));
+    for (const Mechanism::Speed& s : m.speeds) nodes.push_back(lower_expression(program, m, s.start.value_or(0)));
+    nodes.push_back(lower_expression(program, m, m.run.start.value_or(0)));
+    State<Expansion> state;
+    for (const Certain& p : result.parameters) state.parameters.emplace_back(p);
+    const std::vector<Expansion> value = interpret(program, state);
+    std::size_t next = 0;
+    const auto take = [&](const std::string& name) {
+        const Certain own = value[nodes[next++]].value();
+        return typed(exact_at, name).value_or(own);
+    };
+    for (int i = 0; i < m.size(); ++i) result.q.push_back(exact_or(take(m.q[i].get_name()), start.q[i]));
+    for (int i = 0; i < m.size(); ++i)
+        result.qdot.push_back(exact_or(take(m.q[i].get_name() + "'"), start.qdot[i]));
+    for (const Mechanism::Speed& s : m.speeds) result.speeds.push_back(take(s.u.get_name()));
+    if (const Certain t = take("t"); std::abs(t.number() - start.t) < near_enough) result.t = t;
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/polynomial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "alembert/error.hpp"
+#include "linear/linearize_symbolic.hpp"
+#include "lower/lower.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "stability/conditions.hpp"
+#include "stability/verdict.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr std::size_t longest_condition = 600;  // letters
+
+std::string in_letters(const ex& e, const Symbols& symbols) {
+    const auto f = fourier(e, symbols, 2000);
+    if (!f) return "";
+    return text(readable(*f));
+}
+
+/// One text for each condition; none at all where one is too long to be read.
+std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols& symbols) {
+    std::vector<std::string> result;
+    for (const ex& condition : conditions) {
+        std::string shown;
+        if (GiNaC::is_a<GiNaC::numeric>(condition)) return {};  // no parameter decides
+        if (GiNaC::is_a<GiNaC::mul>(condition)) {               // factor by factor
+            for (const ex& factor : condition) {
+                std::string part = in_letters(factor, symbols);
+                if (part.empty()) return {};
+                const bool is_sum = GiNaC::is_a<GiNaC::add>(factor.expand());
+                shown += (shown.empty() ? "" : "*") + (is_sum ? "(" + part + ")" : part);
+            }
+            if (const std::string whole = in_letters(condition, symbols);
+                !whole.empty() && whole.size() <= shown.size())
+                shown = whole;
+        } else {
+            shown = in_letters(condition, symbols);
+        }
+        if (shown.empty() || shown.size() > longest_condition) return {};
+        result.push_back(shown + " > 0");
+    }
+    return result;
+}
+
+}  // namespace
+
+Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& options) {
+    const PolynomialScene polynomial = polynomial_of(scene);
+    const Mechanism& m = polynomial.mechanism;
+    Stability result{.title = scene.title};
+    Program program = begun(m);
+    const std::vector<int> nodes = lower_expressions(program, m, polynomial.coefficients);
+    State<Expansion> state;
+    for (const Certain& p : exact_parameters(m, start_of(m, options.at), options.exact_at))
+        state.parameters.emplace_back(p);
+    CertainVector coefficients;
+    const std::vector<Expansion> value = interpret(program, state);
+    for (const int node : nodes) coefficients.push_back(value[node].value());
+    if (coefficients.front().may_be_zero())
+        throw ModelError(
+            "the first coefficient of [polynomial] is zero at these parameters; expected the coefficient of the "
+            "highest power, which is not zero: leave it out, or change the parameters");
+    result.eigenvalues = roots_of(coefficients);
+    result.certain = true;
+    const Decision decision = decide_linear(result.eigenvalues, nullptr);
+    result.verdict = decision.verdict;
+    result.theorem = decision.theorem;
+    result.reason = decision.reason;
+    result.conditions = texts(hurwitz_conditions(polynomial.coefficients), *m.symbols);
+    result.conditions_for = "asymptotic stability";
+    for (const std::vector<ex>& row : routh_array(polynomial.coefficients)) {
+        std::string line;
+        for (const ex& entry : row) {
+            const std::string shown = in_letters(entry, *m.symbols);
+            line += (line.empty() ? "" : "   ") + (shown.empty() ? "?" : shown);
+        }
+        if (line.size() <= longest_condition) result.routh.push_back(line);
+    }
+    return result;
+}
+
+void add_conditions(Stability& result, const Local& local, const ExactOverrides& exact_at) {
+    const Mechanism& m = local.mechanism;
+    std::vector<ex> q0 = m.q_start, u0 = m.qdot_start;
+    for (const auto& [name, number] : exact_at)
+        for (int i = 0; i < m.size(); ++i) {
+            if (name == m.q[i].get_name()) q0[i] = exact_number(number);
+            if (name == m.q[i].get_name() + "'") u0[i] = exact_number(number);
+        }
+    // The state as the scene has it is the one in use?
+    for (int i = 0; i < m.size(); ++i)
+        if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
+    const auto found = symbolic_matrices(m, local.equations, q0, u0);
+    if (!found) return;
+    const unsigned n = found->M.rows();
+    GiNaC::matrix D(n, n), P(n, n);
+    for (unsigned i = 0; i < n; ++i)
+        for (unsigned j = 0; j < n; ++j) {
+            D(i, j) = found->C(i, j) + found->G(i, j);
+            P(i, j) = found->K(i, j) + found->N(i, j);
+        }
+    const int zeros =
+        static_cast<int>(local.split.q.size() - local.essential.size() + local.cyclic_momenta.size());
+    const SymbolicPolynomial p = characteristic(found->M, D, P, zeros);
+    std::vector<ex> positive;
+    for (const MassElement& body : m.masses)
+        if (GiNaC::is_a<GiNaC::symbol>(body.mass)) positive.push_back(body.mass);
+    positive.push_back(p.front());
+    if (p.size() < 2) return;
+    bool odd_vanish = true;
+    for (std::size_t k = 1; k < p.size(); k += 2) odd_vanish = odd_vanish && p[k].normal().is_zero();
+    result.conditions =
+        texts(odd_vanish ? real_frequency_conditions(p, positive) : hurwitz_conditions(p, positive), *m.symbols);
+    if (result.conditions.empty()) return;
+    result.conditions_for =
+        odd_vanish ? "distinct frequencies in the first approximation" : "asymptotic stability";
+}
+
+}  // namespace alembert

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/stability.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "alembert/error.hpp"
+#include "model/energy.hpp"
+#include "stability/arnold.hpp"
+#include "stability/conservative.hpp"
+#include "stability/critical.hpp"
+#include "stability/floquet.hpp"
+#include "stability/polynomial.hpp"
+#include "stability/potential.hpp"
+#include "stability/verdict.hpp"
+
+namespace alembert {
+
+using Side = RootOf::Side;
+
+const char* name_of(StabilityVerdict verdict) {
+    switch (verdict) {
+        case StabilityVerdict::asymptotically_stable:
+            return "asymptotically stable";
+        case StabilityVerdict::stable:
+            return "stable";
+        case StabilityVerdict::unstable:
+            return "unstable";
+        case StabilityVerdict::undecided:
+            return "undecided";
+    }
+    return "";
+}
+
+const char* name_of(StabilityTheorem theorem) {
+    switch (theorem) {
+        case StabilityTheorem::none:
+            return "none";
+        case StabilityTheorem::hurwitz:
+            return "Routh-Hurwitz";
+        case StabilityTheorem::jordan:
+            return "roots on the axis and their Jordan blocks";
+        case StabilityTheorem::first_approximation:
+            return "Lyapunov's first approximation";
+        case StabilityTheorem::malkin:
+            return "Lyapunov-Malkin";
+        case StabilityTheorem::lagrange_dirichlet:
+            return "Lagrange-Dirichlet";
+        case StabilityTheorem::routh:
+            return "Routh (amended potential)";
+        case StabilityTheorem::jacobi:
+            return "Lagrange-Dirichlet with Jacobi's integral";
+        case StabilityTheorem::kelvin_chetaev:
+            return "Kelvin-Tait-Chetaev (damping)";
+        case StabilityTheorem::kelvin_odd:
+            return "Kelvin-Tait-Chetaev (odd number of unstable degrees)";
+        case StabilityTheorem::chetaev_integrals:
+            return "Chetaev (combination of integrals)";
+        case StabilityTheorem::potential_form:
+            return "terms of higher degree of the potential";
+        case StabilityTheorem::one_zero_root:
+            return "Lyapunov's critical case of one zero root";
+        case StabilityTheorem::pair_on_axis:
+            return "Lyapunov's critical case of a pair on the axis";
+        case StabilityTheorem::arnold:
+            return "Arnold (two frequencies)";
+        case StabilityTheorem::lyapunov_function:
+            return "the Lyapunov function given";
+        case StabilityTheorem::floquet:
+            return "Floquet multipliers";
+    }
+    return "";
+}
+
+namespace {
+
+void take(Stability& result, const Decision& decision) {
+    result.verdict = decision.verdict;
+    result.theorem = decision.theorem;
+    result.reason = decision.reason;
+}
+
+Decision by_integrals(const IntegralProof& proof, bool conserved) {
+    const std::string energy = proof.relative ? "Jacobi's integral T2 - T0 + V" : "the energy";
+    const std::string falls = conserved ? "" : ", which never grows,";
+    switch (proof.by) {
+        case IntegralProof::By::energy:
+            return {StabilityVerdict::stable,
+                    proof.relative ? StabilityTheorem::jacobi : StabilityTheorem::lagrange_dirichlet,
+                    fmt::format("{}{} has a strict minimum here: {} is positive definite to second degree", energy,
+                                falls, proof.relative ? "V - T0" : "V")};
+        case IntegralProof::By::momenta:
+            return {StabilityVerdict::stable, StabilityTheorem::routh,
+                    fmt::format("{}{} has a strict minimum among motions with the same momenta of the cyclic "
+                                "coordinates: the amended potential is positive definite to second degree",
+                                energy, falls)};
+        case IntegralProof::By::angular_momenta:
+            return {StabilityVerdict::stable, StabilityTheorem::chetaev_integrals,
+                    fmt::format(
+                        "a combination of {} with momenta and angular momenta is positive definite where these "
+                        "keep their values",
+                        energy)};
+    }
+    return {};
+}
+
+Decision by_potential(const Local& local, const PowerSign& power) {
+    const auto degenerate = degenerate_minimum(local, power);
+    if (!degenerate) return {};
+    return {degenerate->minimum ? StabilityVerdict::stable : StabilityVerdict::unstable,
+            StabilityTheorem::potential_form,
+            fmt::format(
+                "the second derivatives of the {}potential do not decide; its first term beyond them, of degree "
+                "{}, makes it {}",
+                local.cyclic_momenta.empty() ? "" : "amended ", degenerate->degree,
+                degenerate->minimum ? "a strict minimum" : "no minimum, and the position is left")};
+}
+
+/// Nonlinear equations whose first approximation says nothing: the first that decides.
+Decision critical_case(const Local& local, const PowerSign& power, const std::vector<RootOf>& roots) {
+    const std::function<Decision()> ways[] = {
+        [&] { return one_zero_root(local, roots); },
+        [&] { return pair_on_axis(local, roots); },
+        [&] {
+            const auto proof = proof_by_integrals(local, power);
+            return proof ? by_integrals(*proof, power.is_zero) : Decision{};
+        },
+        [&] { return by_potential(local, power); },
+        [&] { return family_of_motions(local, roots); },
+        [&] { return by_arnold(local, power, roots); },
+    };
+    for (const auto& way : ways) try {
+            if (Decision decision = way(); decision.verdict != StabilityVerdict::undecided) return decision;
+        } catch (const NotAnalytic&) {  // no series there, or a pivot that is not certain
+        }
+    return {};
+}
+
+/// What damping and gyroscopic forces have to do with a verdict that the eigenvalues gave.
+void name_forces(Decision& decision, const Local& local, const PowerSign& power) {
+    if (!power.known || !local.mechanism.constraints.empty() || !local.cyclic_momenta.empty()) return;
+    if (decision.verdict == StabilityVerdict::asymptotically_stable && !power.is_zero &&
+        proof_by_integrals(local, power)) {
+        decision.theorem = StabilityTheorem::kelvin_chetaev;
+        decision.reason += fmt::format("; the potential has a strict minimum, and the damping is {}",
+                                       damping_is_complete(local, power) ? "complete" : "pervasive");
+    }
+    if (decision.verdict != StabilityVerdict::unstable || !local.near.matrices.moving.empty()) return;
+    std::vector<int> rows;
+    for (std::size_t j = 0; j < local.split.u.size(); ++j)
+        if (local.is_essential(local.split.u[j])) rows.push_back(static_cast<int>(j));
+    if (rows.size() != local.essential.size() || !local.residuals.rates_are_speeds) return;
+    const bool has_rates = std::any_of(local.tangent.damping.entries.begin(), local.tangent.damping.entries.end(),
+                                       [](const Certain& c) { return !c.is_zero(); });
+    if (!has_rates) return;
+    const CertainMatrix P = local.tangent.stiffness.part(rows, local.essential);
+    const CertainMatrix K = Certain(Rational(1) / 2) * (P + transposed(P));
+    const auto signs = inertia(K);
+    if (!signs || signs->negative == 0) return;
+    if (signs->negative % 2 == 1 && signs->zero == 0) {
+        decision.theorem = StabilityTheorem::kelvin_odd;
+        decision.reason += fmt::format(
+            "; {} of {} degrees of freedom {} unstable without gyroscopic forces, an odd "
+            "number, which no gyroscopic forces stabilize",
+            signs->negative, K.rows, signs->negative == 1 ? "is" : "are");
+    } else if (damping_is_complete(local, power)) {
+        decision.theorem = StabilityTheorem::kelvin_chetaev;
+        decision.reason +=
+            "; the potential has no minimum, and complete damping destroys any gyroscopic stabilization";
+    }
+}
+
+/// Are the roots of det(M s² + …) those of a polynomial in s²? For systems with a Hamiltonian, and where no rate
+/// occurs.
+bool has_even_spectrum(const Local& local) {
+    const Mechanism& m = local.mechanism;
+    if (!local.residuals.rates_are_speeds) return false;
+    bool no_rates = m.constraints.empty() && local.near.matrices.moving.empty() && local.cyclic_momenta.empty();
+    for (const Certain& c : local.tangent.damping.entries) no_rates = no_rates && c.is_zero();
+    if (no_rates) return true;
+    for (const Mechanism::Constraint& c : m.constraints)
+        if (!c.holonomic) return false;
+    for (const bool dissipative : {true, false})
+        for (const GiNaC::ex& load : m.generalized_forces(dissipative))
+            if (!is_identically_zero(load, m)) return false;
+    return energy_of(m).jacobi_conserved;
+}
+
+/// The discs of a matrix that is known to the last digits of a double.
+CertainMatrix blurred(const Eigen::MatrixXd& A) {
+    CertainMatrix result(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
+    const double unit = 1e-13 * (A.size() == 0 ? 0.0 : A.cwiseAbs().maxCoeff());
+    for (int i = 0; i < result.rows; ++i)
+        for (int j = 0; j < result.columns; ++j)
+            if (A(i, j) != 0) result(i, j) = Certain::about(static_cast<Quad>(A(i, j)), unit);
+    return result;
+}
+
+Decision undecided(const std::vector<RootOf>& roots) {
+    const bool on_axis =
+        std::any_of(roots.begin(), roots.end(), [](const RootOf& r) { return r.side == Side::axis; });
+    return {
+        StabilityVerdict::undecided, StabilityTheorem::none,
+        fmt::format("the first approximation says nothing: no eigenvalue is surely to the right of the imaginary "
+                    "axis, and {}. Neither the energy, nor a combination of integrals, nor terms of higher degree "
+                    "decided",
+                    on_axis ? "some are on it" : "some are on it or too near to tell")};
+}
+
+/// What `linearize` takes as it is at the state, and stability may not.
+void check_steady(const LinearizedScene& near, std::size_t contacts) {
+    if (near.mechanism.unilateral.size() != contacts)
+        throw ModelError(
+            "a contact is closed at this state: a disturbance may open it, and what the motion does then no first "
+            "approximation tells. Give a state in which all contacts are open, or a constraint in place of the "
+            "contact");
+    for (const Mechanism::Input& input : near.mechanism.inputs)
+        for (const std::string& name : near.matrices.inputs)
+            if (name.substr(0, name.find('\'')) == input.derivative[0].get_name() &&
+                near.mechanism.z->depends(input.value, {near.mechanism.t}))
+                throw ModelError(
+                    fmt::format("the input {} changes with time, so that there is no equilibrium; give the period "
+                                "of the system, "
+                                "--period or `period` of [simulation], for its Floquet multipliers, or make the "
+                                "input constant",
+                                input.derivative[0].get_name()));
+}
+
+Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
+    Stability result{.title = scene.title};
+    const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
+    result.warnings = d.warnings;
+    const FloquetResult found = floquet(d, start_of(d.mechanism, options.at), options.exact_at, options.period);
+    result.period = found.period;
+    result.multipliers = found.multipliers;
+    result.radii = found.radii;
+    result.certain = true;
+    for (const std::vector<GiNaC::symbol>* list : {&d.mechanism.q, &d.mechanism.qdot})
+        for (const GiNaC::symbol& x : *list) result.states.push_back(x.get_name());
+    result.periodic_start = found.start;
+    take(result, found.decision);
+    return result;
+}
+
+}  // namespace
+
+Stability stability(Scene scene, const StabilityOptions& options) {
+    if (scene.polynomial) return stability_of_polynomial(scene, options);
+    if (options.period > 0 || scene.simulation.period) return stability_of_periodic(std::move(scene), options);
+    const std::size_t contacts = scene.unilateral.size();
+    Stability result{.title = scene.title};
+    LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
+    result.near = linearize(std::move(scene), linearize_options);
+    check_steady(*result.near, contacts);
+    result.near->mechanism = with_potential_of_loads(result.near->mechanism);
+    const LinearizedScene& near = *result.near;
+    result.warnings = near.warnings;
+    result.states = near.matrices.states;
+    result.A = near.matrices.A;
+    std::optional<Local> local;
+    try {
+        local.emplace(near, options.exact_at);
+    } catch (const NotAnalytic&) {
+    }
+    if (!local) {
+        result.eigenvalues = eigenvalues_of(blurred(result.A), false);
+        take(result, decide_first(result.eigenvalues));
+        if (result.verdict == StabilityVerdict::undecided) take(result, undecided(result.eigenvalues));
+        return result;
+    }
+    result.states = local->states;
+    result.A.resize(local->A.rows, local->A.rows);
+    for (int i = 0; i < local->A.rows; ++i)
+        for (int j = 0; j < local->A.rows; ++j) result.A(i, j) = local->A(i, j).number();
+    result.eigenvalues = eigenvalues_of(local->A, has_even_spectrum(*local));
+    result.certain = true;
+    if (local->A.rows == 0) {
+        take(result, {StabilityVerdict::stable, StabilityTheorem::routh,
+                      "all coordinates are cyclic, and their momenta are constant"});
+        return result;
+    }
+    const bool linear = is_linear(local->mechanism, local->equations);
+    Decision decision = linear ? decide_linear(result.eigenvalues, &local->A) : decide_first(result.eigenvalues);
+    PowerSign power;
+    try {
+        power = power_sign(*local);
+    } catch (const NotAnalytic&) {
+    }
+    if (decision.verdict == StabilityVerdict::undecided)
+        decision = critical_case(*local, power, result.eigenvalues);
+    else
+        name_forces(decision, *local, power);
+    if (decision.verdict == StabilityVerdict::undecided) decision = undecided(result.eigenvalues);
+    if (decision.verdict == StabilityVerdict::asymptotically_stable && !local->cyclic_momenta.empty()) {
+        decision.verdict = StabilityVerdict::stable;
+        decision.reason +=
+            "; the momenta of the cyclic coordinates keep their disturbed values, and the motion tends to "
+            "the steady motion that has these";
+    }
+    take(result, decision);
+    add_conditions(result, *local, options.exact_at);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "stability/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace alembert {
+
+using GiNaC::ex;
+using Side = RootOf::Side;
+
+namespace {
+
+std::string shown(const RootOf& root) {
+    const double re = root.value.real(), im = root.value.imag();
+    if (im == 0) return fmt::format("{:.8g}", re);
+    return fmt::format("{:.8g} {} {:.8g}i", re, im < 0 ? "-" : "+", std::abs(im));
+}
+
+const RootOf* first_on(const std::vector<RootOf>& roots, Side side) {
+    const auto found = std::find_if(roots.rbegin(), roots.rend(), [&](const RootOf& r) { return r.side == side; });
+    return found == roots.rend() ? nullptr : &*found;
+}
+
+std::vector<Rational> rationals(const CertainVector& values) {
+    std::vector<Rational> result;
+    for (const Certain& c : values)
+        if (const auto r = c.rational()) result.push_back(*r);
+    return result.size() == values.size() ? result : std::vector<Rational>();
+}
+
+/// Do multiple roots on the axis have as many eigenvectors as they count? All roots lie left or on the axis. With
+/// g, the product of (s − root) over the different roots on the axis, this is so if and only if g(A) and g(A)²
+/// have the same rank. Nothing where A is not rational.
+std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
+    std::vector<Rational> p = rationals(characteristic(A));
+    if (p.empty()) return {};
+    std::vector<Rational> mirrored = p;
+    for (std::size_t k = 1; k < p.size(); k += 2) mirrored[k] = -mirrored[k];
+    std::vector<Rational> g = common_divisor(p, mirrored), slope;
+    for (std::size_t k = 0; k + 1 < g.size(); ++k) slope.push_back(g[k] * static_cast<int>(g.size() - 1 - k));
+    const std::vector<Rational> repeated = slope.empty() ? std::vector<Rational>{1} : common_divisor(g, slope);
+    // g / repeated, by Horner's scheme on A afterwards.
+    std::vector<Rational> simple;
+    for (std::vector<Rational> rest = g; rest.size() >= repeated.size();) {
+        const Rational factor = rest[0] / repeated[0];
+        simple.push_back(factor);
+        for (std::size_t k = 0; k < repeated.size(); ++k) rest[k] = rest[k] - factor * repeated[k];
+        rest.erase(rest.begin());
+    }
+    CertainMatrix value(A.rows, A.rows);
+    for (const Rational& c : simple) {
+        value = value * A;
+        for (int i = 0; i < A.rows; ++i) value(i, i) += Certain(c);
+    }
+    const auto once = rank(value), twice = rank(value * value);
+    if (!once || !twice) return {};
+    return *once == *twice;
+}
+
+}  // namespace
+
+Decision decide_linear(const std::vector<RootOf>& roots, const CertainMatrix* A) {
+    const char* const what = A ? "eigenvalue" : "root";
+    if (const RootOf* const right = first_on(roots, Side::right))
+        return {StabilityVerdict::unstable, StabilityTheorem::hurwitz,
+                fmt::format("the {} {} has a positive real part", what, shown(*right))};
+    if (const RootOf* const unclear = first_on(roots, Side::unclear))
+        return {StabilityVerdict::undecided, StabilityTheorem::none,
+                fmt::format("the {} {} may lie on either side of the imaginary axis", what, shown(*unclear))};
+    const RootOf* const axis = first_on(roots, Side::axis);
+    if (!axis)
+        return {StabilityVerdict::asymptotically_stable, StabilityTheorem::hurwitz,
+                fmt::format("all {}s have negative real parts", what)};
+    const auto multiple = std::find_if(roots.begin(), roots.end(),
+                                       [](const RootOf& r) { return r.side == Side::axis && r.multiplicity > 1; });
+    if (multiple == roots.end())
+        return {StabilityVerdict::stable, StabilityTheorem::jordan,
+                fmt::format("no {} has a positive real part, and those on the imaginary axis are simple", what)};
+    if (!A)
+        return {StabilityVerdict::unstable, StabilityTheorem::jordan,
+                fmt::format("the root {} on the imaginary axis is a multiple one: solutions of the equation with "
+                            "this characteristic polynomial grow like a power of t",
+                            shown(*multiple))};
+    const std::optional<bool> semisimple = axis_is_semisimple(*A);
+    if (!semisimple)
+        return {
+            StabilityVerdict::undecided, StabilityTheorem::none,
+            fmt::format("{} on the imaginary axis is multiple to the last digit, and how many eigenvectors it has "
+                        "is not decided",
+                        shown(*multiple))};
+    if (*semisimple)
+        return {
+            StabilityVerdict::stable, StabilityTheorem::jordan,
+            "no eigenvalue has a positive real part, and those on the imaginary axis have as many eigenvectors as "
+            "they count (rank, exactly)"};
+    return {
+        StabilityVerdict::unstable, StabilityTheorem::jordan,
+        fmt::format("the multiple eigenvalue {} on the imaginary axis has a Jordan block (rank, exactly): motions "
+                    "grow like a power of t",
+                    shown(*multiple))};
+}
+
+Decision decide_first(const std::vector<RootOf>& roots) {
+    if (const RootOf* const right = first_on(roots, Side::right))
+        return {
+            StabilityVerdict::unstable, StabilityTheorem::first_approximation,
+            fmt::format("the eigenvalue {} of the first approximation has a positive real part", shown(*right))};
+    if (!first_on(roots, Side::axis) && !first_on(roots, Side::unclear))
+        return {StabilityVerdict::asymptotically_stable, StabilityTheorem::first_approximation,
+                "all eigenvalues of the first approximation have negative real parts"};
+    return {};
+}
+
+bool is_linear(const Mechanism& m, const Equations& e) {
+    if (!m.constraints.empty() || !m.unilateral.empty() || !e.speeds_are_rates()) return false;
+    std::vector<GiNaC::symbol> state = m.q;
+    state.insert(state.end(), m.qdot.begin(), m.qdot.end());
+    for (int i = 0; i < m.size(); ++i) {
+        for (int j = 0; j <= i; ++j)
+            if (m.z->depends(e.M(i, j), state)) return false;
+        if (m.z->tree_size(e.forcing(i)) > 2000) return false;
+        const ex f = m.z->expand(e.forcing(i));
+        for (const GiNaC::symbol& x : state)
+            if (m.z->depends(f.diff(x), state)) return false;
+    }
+    return true;
+}
+
+std::vector<RootOf> eigenvalues_of(const CertainMatrix& A, bool even) {
+    std::vector<RootOf> result;
+    const auto blocks = even ? std::vector<std::vector<int>>() : diagonal_blocks(A);
+    if (even && A.rows > 0) result = roots_of(characteristic(A), true);
+    for (const std::vector<int>& block : blocks) {
+        const std::vector<RootOf> own = roots_of(characteristic(A.part(block, block)));
+        result.insert(result.end(), own.begin(), own.end());
+    }
+    // The same root in several blocks counts for each of them.
+    for (RootOf& r : result) {
+        r.multiplicity = static_cast<int>(std::count_if(result.begin(), result.end(), [&](const RootOf& other) {
+            return std::abs(other.value - r.value) <= r.radius + other.radius;
+        }));
+    }
+    std::sort(result.begin(), result.end(), [](const RootOf& a, const RootOf& b) {
+        return std::pair(a.value.real(), a.value.imag()) < std::pair(b.value.real(), b.value.imag());
+    });
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Numbers with bounds, roots with discs and symbolic conditions, against exact arithmetic and textbooks.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <random>
+
+#include "stability/conditions.hpp"
+#include "stability/spectrum.hpp"
+
+using namespace alembert;
+using GiNaC::ex;
+
+TEST_CASE("stability: numbers are exact where they can be, and intervals hold the value elsewhere") {
+    const Certain pi = Certain::pi_multiple(0, 1);
+    CHECK((sin(pi / 6) - Certain(Rational(1) / 2)).is_zero());
+    CHECK((cos(pi / 4) * cos(pi / 4) - Certain(Rational(1) / 2)).is_zero());
+    CHECK((sqrt(Certain(8)) * sqrt(Certain(2)) - 4).is_zero());
+    CHECK(((1 + sqrt(Certain(5))) / 2 * ((1 - sqrt(Certain(5))) / 2) + 1).is_zero());
+    CHECK((atan(Certain(1)) - pi / 4).is_zero());
+    CHECK(sin(Certain(3)).sign() == 1);
+    CHECK(!(exp(Certain(1)) - exp(Certain(1))).sign());
+    CHECK((exp(Certain(1)) - 2).sign() == 1);
+    CHECK(std::abs(sqrt(Certain(2)).number() - 1.4142135623730951) < 1e-16);
+}
+
+TEST_CASE("stability: Routh-Hurwitz conditions of third and fourth order are the textbook's") {
+    const GiNaC::symbol a1("a1"), a2("a2"), a3("a3"), a4("a4");
+    const auto holds = [](const std::vector<ex>& found, const std::vector<ex>& wanted) {
+        if (found.size() != wanted.size()) return false;
+        for (const ex& w : wanted)
+            if (std::none_of(found.begin(), found.end(), [&](const ex& f) { return (f - w).expand().is_zero(); }))
+                return false;
+        return true;
+    };
+    CHECK(holds(hurwitz_conditions({1, a1, a2}), {a1, a2}));
+    CHECK(holds(hurwitz_conditions({1, a1, a2, a3}), {a1, a3, a1 * a2 - a3}));
+    CHECK(holds(hurwitz_conditions({1, a1, a2, a3, a4}), {a1, a2, a4, a1 * a2 * a3 - a3 * a3 - a1 * a1 * a4}));
+    const auto array = routh_array({1, a1, a2, a3, a4});
+    REQUIRE(array.size() == 5);
+    CHECK((array[2][0] - (a1 * a2 - a3) / a1).normal().is_zero());
+    CHECK((array[3][0] - (a3 - a1 * a1 * a4 / (a1 * a2 - a3))).normal().is_zero());
+    CHECK((array[4][0] - a4).is_zero());
+}
+
+TEST_CASE("stability: 10000 random polynomials satisfy the conditions exactly where all roots lie to the left") {
+    const GiNaC::symbol a1("a1"), a2("a2"), a3("a3"), a4("a4");
+    const std::vector<ex> symbols{a1, a2, a3, a4};
+    std::mt19937 random(20261);
+    std::uniform_int_distribution<int> coefficient(-3, 12);
+    int stable = 0;
+    for (const int order : {3, 4}) {
+        SymbolicPolynomial p{1};
+        p.insert(p.end(), symbols.begin(), symbols.begin() + order);
+        // As polynomials in doubles, which hold these whole numbers exactly.
+        const std::vector<ex> conditions = hurwitz_conditions(p), all = hurwitz_determinants(p);
+        for (int k = 0; k < 5000; ++k) {
+            GiNaC::exmap values;
+            CertainVector numbers{1};
+            for (int i = 0; i < order; ++i) {
+                const int value = coefficient(random);
+                values[symbols[static_cast<std::size_t>(i)]] = value;
+                numbers.push_back(value);
+            }
+            const auto positive = [&](const std::vector<ex>& list) {
+                return std::all_of(list.begin(), list.end(), [&](const ex& e) {
+                    return e.subs(values, GiNaC::subs_options::no_pattern).info(GiNaC::info_flags::positive);
+                });
+            };
+            bool left = true;
+            for (const RootOf& root : roots_of(numbers)) {
+                REQUIRE(root.side != RootOf::Side::unclear);
+                left = left && root.side == RootOf::Side::left;
+            }
+            if (positive(conditions) != left || positive(all) != left) {
+                CAPTURE(order);
+                CAPTURE(values);
+                CHECK(false);
+            }
+            stable += left ? 1 : 0;
+        }
+    }
+    CHECK(stable > 1000);
+    CHECK(stable < 9000);
+}
+
+TEST_CASE(
+    "stability: discs hold the roots from which a polynomial was made, equal ones and those on the axis too") {
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> whole(-4, 4), times(1, 2);
+    for (int k = 0; k < 200; ++k) {
+        std::vector<std::complex<double>> made;
+        CertainVector p{1};
+        const auto multiply = [&](const CertainVector& factor) {
+            CertainVector product(p.size() + factor.size() - 1, Certain(0));
+            for (std::size_t i = 0; i < p.size(); ++i)
+                for (std::size_t j = 0; j < factor.size(); ++j) product[i + j] += p[i] * factor[j];
+            p = product;
+        };
+        for (int f = 0; f < 3; ++f) {
+            const int re = whole(random), im = whole(random), count = times(random);
+            for (int c = 0; c < count; ++c)
+                if (im == 0) {
+                    multiply({1, -re});
+                    made.emplace_back(re, 0);
+                } else {
+                    multiply({1, -2 * re, re * re + im * im});
+                    made.emplace_back(re, im);
+                    made.emplace_back(re, -im);
+                }
+        }
+        std::vector<RootOf> found = roots_of(p);
+        REQUIRE(found.size() == made.size());
+        for (const std::complex<double>& root : made) {
+            const auto one = std::find_if(found.begin(), found.end(),
+                                          [&](const RootOf& r) { return std::abs(r.value - root) <= r.radius; });
+            REQUIRE(one != found.end());
+            CHECK(one->radius < 1e-14);
+            CHECK(one->side == (root.real() < 0   ? RootOf::Side::left
+                                : root.real() > 0 ? RootOf::Side::right
+                                                  : RootOf::Side::axis));
+            CHECK(one->multiplicity == std::count(made.begin(), made.end(), root));
+            found.erase(one);
+        }
+    }
+}

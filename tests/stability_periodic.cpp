@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Periodic systems against Hill's determinant and published thresholds; the boundaries of the bicycle and of
+// Ziegler's pendulum; and what is refused.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "alembert/error.hpp"
+#include "scenes.hpp"
+#include "stability/stability.hpp"
+
+using namespace alembert;
+
+namespace {
+
+using V = StabilityVerdict;
+
+Stability judged(const Scene& scene, const std::vector<std::string>& at, double period = 0) {
+    StabilityOptions options{.period = period};
+    for (const std::string& item : at) {
+        const std::string name = item.substr(0, item.find('=')), number = item.substr(item.find('=') + 1);
+        options.at.emplace_back(name, std::stod(number));
+        options.exact_at.emplace_back(name, number);
+    }
+    return stability(scene, options);
+}
+
+/// 2 cos πν of x'' + (a − 2q cos 2t) x = 0 by Hill's determinant: sin²(πν/2) = Δ(0) sin²(π√a/2) (Whittaker &
+/// Watson, §19.42), Δ of 2·4000 + 1 rows.
+double trace_by_hill(double a, double q) {
+    const auto xi = [&](int n) { return q / (4.0 * n * n - a); };
+    double before = 1, last = 1;
+    for (int n = -3999; n <= 4000; ++n) {
+        const double next = last - xi(n) * xi(n - 1) * before;
+        before = last;
+        last = next;
+    }
+    const double s = std::sin(M_PI * std::sqrt(a) / 2);
+    return 2 - 4 * last * s * s;
+}
+
+}  // namespace
+
+TEST_CASE("stability: Floquet multipliers of Mathieu's equation agree with Hill's determinant to 1e-10") {
+    const Scene scene = parse_scene(R"toml([parameters]
+a = 1
+q = 0.5
+[coordinates]
+x = 0
+[energy]
+lagrangian = "x'^2/2 - (a - 2*q*cos(2*t))*x^2/2"
+[simulation]
+period = "pi"
+)toml",
+                                    "mathieu.toml");
+    for (const auto& [a, q] :
+         {std::pair("1.3", "0.5"), std::pair("3", "0.5"), std::pair("2.1", "1.7"), std::pair("6.5", "3")}) {
+        CAPTURE(a);
+        const Stability s = judged(scene, {std::string("a=") + a, std::string("q=") + q});
+        REQUIRE(s.multipliers.size() == 2);
+        const double trace = s.multipliers[0].real() + s.multipliers[1].real(),
+                     hill = trace_by_hill(std::stod(a), std::stod(q));
+        CHECK(std::abs(trace - hill) < 1e-10);
+        CHECK((s.verdict == V::unstable) == (std::abs(hill) > 2));
+        CHECK((s.verdict == V::stable) == (std::abs(hill) < 2));
+        CHECK(s.theorem == StabilityTheorem::floquet);
+    }
+}
+
+TEST_CASE(
+    "stability: Kapitza's pendulum has its threshold where Mathieu's equation has it, and near that of "
+    "averaging") {
+    const Scene scene = parse_scene(R"toml([parameters]
+A = 0.1
+above = 1
+Omega = "above*14.17289002081848*sqrt(9.81)"
+[inputs]
+yp = "A*cos(Omega*t)"
+[coordinates]
+theta = "pi"
+[energy]
+lagrangian = "theta'^2/2 - yp'*theta'*sin(theta) + 9.81*cos(theta)"
+[simulation]
+period = "2*pi/Omega"
+)toml",
+                                    "kapitza.toml");
+    CHECK(judged(scene, {"above=1.0000001"}).verdict ==
+          V::undecided);  // on the circle: critical, as the scene is nonlinear
+    const Stability below = judged(scene, {"above=0.9999999"});
+    CHECK(below.verdict == V::unstable);
+    CHECK(below.theorem == StabilityTheorem::floquet);
+    CHECK(std::abs(std::sqrt(2.0) / 0.1 - 14.17289002081848) < 0.04);  // averaging: A² Ω² = 2 g l
+}
+
+TEST_CASE("stability: van der Pol's orbit is found from a guess, with its period and multiplier") {
+    const Scene scene = parse_scene(R"toml([coordinates]
+x = 2
+[energy]
+kinetic = "x'^2/2"
+potential = "x^2/2"
+[forces]
+x = "(1 - x^2)*x'"
+)toml",
+                                    "vdp.toml");
+    const Stability s = judged(scene, {}, 6.6);
+    CHECK(s.verdict == V::asymptotically_stable);
+    CHECK(std::abs(s.period - 6.6632868593231301) < 1e-14);  // Andersen & Geer, SIAM J. Appl. Math. 42 (1982) 678
+    REQUIRE(s.multipliers.size() == 2);
+    CHECK(std::abs(s.multipliers[0] - 1.0) < 1e-12);
+    CHECK(std::abs(s.multipliers[1].real() - std::exp(-7.0588846)) < 1e-8);  // ∫(1 − x²)dt over the orbit
+}
+
+TEST_CASE("stability: the bicycle's weave and capsize speeds are the published ones to 1e-9") {
+    const Scene scene = read_scene(test::source_path("scenes/gallery/bicycle.toml"));
+    const auto real_part = [&](double v, bool weave) {  // of the pair, or of the slow real root
+        const Stability s = stability(scene, {.at = {{"v", v}, {"kick", 0}}});
+        double found = weave ? -1e9 : 1e9;
+        for (const RootOf& root : s.eigenvalues) {
+            if (std::abs(root.value) < 1e-12) continue;
+            if (weave && root.value.imag() != 0) found = root.value.real();
+            if (!weave && root.value.imag() == 0 && std::abs(root.value.real()) < std::abs(found))
+                found = root.value.real();
+        }
+        return found;
+    };
+    for (const auto& [speed, weave] : {std::pair(4.29238253634111, true), std::pair(6.02426201538837, false)}) {
+        double a = speed - 0.01, b = speed + 0.013, fa = real_part(a, weave), fb = real_part(b, weave);
+        for (int k = 0; k < 6 && std::abs(b - a) > 1e-12; ++k) {
+            const double c = b - fb * (b - a) / (fb - fa);
+            a = std::exchange(b, c);
+            fa = std::exchange(fb, real_part(c, weave));
+        }
+        CHECK(std::abs(b - speed) < 1e-9);
+    }
+}
+
+TEST_CASE(
+    "stability: Ziegler's pendulum flutters at (7/2 - sqrt 2) k/l, and with a little damping at 41/28 of it") {
+    const Scene scene = parse_scene(R"toml([parameters]
+P = 1
+c = 0
+[coordinates]
+a = 0
+b = 0
+[[frame]]
+name = "upper"
+rotate = [["z", "b"]]
+[[particle]]
+name = "A"
+mass = 2
+position = ["cos(a)", "sin(a)"]
+[[particle]]
+name = "B"
+mass = 1
+from = "A"
+position = ["cos(b)", "sin(b)"]
+[[force]]
+at = "B"
+vector = ["-P", 0]
+axes = "upper"
+[[spring]]
+along = "a"
+stiffness = 1
+[[spring]]
+along = "b - a"
+stiffness = 1
+[[damper]]
+along = "a"
+damping = "c"
+[[damper]]
+along = "b - a"
+damping = "c"
+)toml",
+                                    "ziegler.toml");
+    CHECK(judged(scene, {"P=2.08578"}).verdict == V::undecided);  // on the axis; the equations are nonlinear
+    CHECK(judged(scene, {"P=2.08579"}).verdict == V::unstable);
+    CHECK(judged(scene, {"P=1.4642", "c=0.0001"}).verdict == V::asymptotically_stable);
+    CHECK(judged(scene, {"P=1.4643", "c=0.0001"}).verdict == V::unstable);
+}
+
+TEST_CASE("stability: what is no equilibrium, touches, or changes with time is refused, each with its reason") {
+    const auto refused = [](const std::string& text, const std::string& with, double period = 0) {
+        try {
+            judged(parse_scene(text, "case.toml"), {}, period);
+        } catch (const ModelError& e) {
+            CAPTURE(std::string(e.what()));
+            CHECK(std::string(e.what()).find(with) != std::string::npos);
+            return;
+        }
+        CHECK_MESSAGE(false, with);
+    };
+    const std::string pendulum =
+        "[coordinates]\nx = 0.5\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"-cos(x)\"\n";
+    refused(pendulum, "no equilibrium and no steady motion: x'' = -0.47");
+    refused("[inputs]\nF = \"sin(t)\"\n" + pendulum + "[forces]\nx = \"F\"\n", "");
+    refused(
+        "[inputs]\nF = \"sin(t)\"\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
+        "\"x^2/2\"\n[forces]\nx = \"F\"\n",
+        "the input F changes with time");
+    refused(
+        "[inputs]\nF = \"sin(t)\"\n[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = "
+        "\"x^2\"\n[forces]\nx = \"F\"\n",
+        "do not have the period", 3);
+    refused(
+        "gravity = [0, -9.81]\n[coordinates]\ny = 0\n[[particle]]\nname = \"P\"\nmass = 1\nposition = [0, \"y\"]\n"
+        "[[unilateral]]\nname = \"floor\"\ngap = \"y\"\n",
+        "a contact is closed");
+    refused("[parameters]\nK = 0\n[polynomial]\ncoefficients = [\"K\", 1]\n",
+            "the first coefficient of [polynomial] is zero");
+    CHECK_THROWS_AS(parse_scene("[polynomial]\ncoefficients = [1]\n", "case.toml"), SceneError);
+    CHECK_THROWS_AS(parse_scene("[polynomial]\n", "case.toml"), SceneError);
+    CHECK_THROWS_AS(parse_scene("[coordinates]\nx = 0\n[polynomial]\ncoefficients = [1, 2]\n", "case.toml"),
+                    SceneError);
+    CHECK_THROWS_AS(build(parse_scene("[polynomial]\ncoefficients = [1, 2]\n", "case.toml")), ModelError);
+}
