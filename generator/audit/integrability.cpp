@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "alembert/tolerances.hpp"
 #include "exact/null_fields.hpp"
 #include "exact/variety.hpp"
 #include "lower/lower.hpp"
@@ -24,7 +25,6 @@ namespace {
 constexpr int few = 3, many = 16;  // points; many where few give no bound
 constexpr double surely = -60;
 constexpr int largest_program = 500000;
-constexpr double seen = 1e-8;  // of the sum of the sizes of its terms: a value that is not zero in floating point
 
 /// d³F/dt³ of every input, which the mechanism has no symbol for. Inputs may hold each other.
 std::vector<ex> third_derivatives(const Mechanism& m) {
@@ -296,8 +296,8 @@ private:
                 for (Eigen::Index i = 0; i < Y.cols(); ++i) Y(b, i) = value[kept_nodes_[b][i]];
             if (!Y.allFinite()) return false;
             Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(Y);
-            decomposed.setThreshold(seen);
-            return decomposed.rank() == Y.rows() && decomposed.maxPivot() > seen;
+            decomposed.setThreshold(tolerance::surely_not_zero);
+            return decomposed.rank() == Y.rows() && decomposed.maxPivot() > tolerance::surely_not_zero;
         });
     }
 
@@ -313,7 +313,9 @@ private:
                     size += std::abs(term);
                     largest = std::max(largest, std::abs(value[Y[i]]));
                 }
-                if (std::isfinite(sum) && std::abs(sum) > seen * size && largest > seen) return true;
+                if (std::isfinite(sum) && std::abs(sum) > tolerance::surely_not_zero * size &&
+                    largest > tolerance::surely_not_zero)
+                    return true;
             }
         }
         return false;

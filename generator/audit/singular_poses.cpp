@@ -10,13 +10,13 @@
 #include <random>
 
 #include "alembert/dense.hpp"
+#include "alembert/tolerances.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
 
 namespace {
 
-constexpr double small = 1e-9;
 constexpr int starts = 48, most_rounds = 60;
 constexpr int largest = 30000;  // entries of the derivatives of A
 
@@ -128,10 +128,10 @@ private:
         if (!A_.allFinite() || !f_.allFinite()) return std::nullopt;
         double size = 1;
         for (const double x : q) size = std::max(size, std::abs(x));
-        if (f_.lpNorm<Eigen::Infinity>() > small * size) return std::nullopt;
+        if (f_.lpNorm<Eigen::Infinity>() > tolerance::dependent_row * size) return std::nullopt;
         const SingularValues svd = singular_values(A_);
         SingularPose pose{.q = q, .rank = 0, .among = {}};
-        for (const double sigma : svd.values) pose.rank += sigma > small;
+        for (const double sigma : svd.values) pose.rank += sigma > tolerance::dependent_row;
         if (pose.rank == A_.rows()) return std::nullopt;
         const Eigen::MatrixXd null = svd.left.rightCols(A_.rows() - pose.rank);
         for (Eigen::Index k = 0; k < A_.rows(); ++k)

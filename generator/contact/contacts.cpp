@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "alembert/tolerances.hpp"
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
 
@@ -27,7 +28,7 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
         const Mechanism::Constraint& gap = mechanism.unilateral[k].gap;
         const bool is_closed = std::find(closed.begin(), closed.end(), static_cast<int>(k)) != closed.end();
         mechanism.events.push_back({gap.name, is_closed ? GiNaC::ex(gap.multiplier) : *gap.position});
-        mechanism.occasions.push_back({.stop = true});
+        mechanism.event_actions.push_back({.stop = true});
     }
     return mechanism;
 }
@@ -39,7 +40,7 @@ Program view_of(const Mechanism& mechanism) {
     Mechanism closed = with_all_closed(mechanism);
     closed.outputs.clear();
     closed.events.clear();
-    closed.occasions.clear();
+    closed.event_actions.clear();
     Energy energy = energy_of(mechanism);
     energy.power = 0;  // it holds multipliers
     Program program = lower(closed, routh(closed), energy);
@@ -145,7 +146,6 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
 // M q'' − f = Aᵀλ + Gᵀπ, of full rank in λ and π but for bilateral rows that depend on each other.
 std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state,
                                                 const Lasting& lasting) {
-    constexpr double nothing = 1e-9;  // of the largest force
     if (lasting.closed.empty()) return {};
     const Situation here = view.at(state);
     const auto closed = static_cast<Eigen::Index>(lasting.closed.size());
@@ -159,7 +159,7 @@ std::vector<std::string> touching_without_force(const ContactView& view, const S
     std::vector<std::string> names;
     for (Eigen::Index k = 0; k < closed; ++k) {
         const double size = rows.row(here.bilateral.rows.rows() + k).cwiseAbs().maxCoeff();
-        if (force[k] * size <= nothing * here.f.cwiseAbs().maxCoeff())
+        if (force[k] * size <= tolerance::balanced_load * here.f.cwiseAbs().maxCoeff())
             names.push_back(view.names()[static_cast<std::size_t>(lasting.closed[static_cast<std::size_t>(k)])]);
     }
     return names;

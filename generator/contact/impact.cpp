@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "alembert/tolerances.hpp"
 #include "contact/impact_algebra.hpp"
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
@@ -18,13 +19,11 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double closed = 1e-9;  // of the sum of the sizes of a gap's terms
-
 /// Mass matrix, rows and positions. No accelerations: constraints that only an impact can impose may leave none.
 Program program_of(Mechanism m) {
     m.outputs.clear();
     m.events.clear();
-    m.occasions.clear();
+    m.event_actions.clear();
     Energy energy = energy_of(m);
     energy.power = 0;
     return lower(m, routh(m), energy);
@@ -95,12 +94,12 @@ private:
             double size = size_of_terms(program_, nodes_[at], value_);
             for (int i = 0; i < m_.size(); ++i) size += std::abs(wanted(at + 3 + i) * result.start.q[i]);
             const double gap = wanted(at);
-            if (gap < -closed * size)
+            if (gap < -tolerance::closed_gap * size)
                 throw ModelError(
                     fmt::format("the gap '{}' is {:.6g} at the start; expected zero (contact) or more: give "
                                 "initial values at which nothing penetrates",
                                 m_.unilateral[u].gap.name, gap));
-            if (gap <= closed * size) result.contacts.push_back(static_cast<int>(u));
+            if (gap <= tolerance::closed_gap * size) result.contacts.push_back(static_cast<int>(u));
         }
     }
 
@@ -109,7 +108,7 @@ private:
         const std::vector<double> rounded = rounding_errors(program_, result.start.state());
         for (std::size_t k = 0; k < velocity.size(); ++k)
             if (std::abs(value_[velocity[k]]) >
-                closed * size_of_terms(program_, velocity[k], value_) + rounded[velocity[k]])
+                tolerance::closed_gap * size_of_terms(program_, velocity[k], value_) + rounded[velocity[k]])
                 result.imposed.push_back(m_.constraints[k].name);
     }
 

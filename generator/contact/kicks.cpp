@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "alembert/tolerances.hpp"
 #include "lower/lower.hpp"
 #include "state/assemble.hpp"
 
@@ -14,7 +15,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double negligible = 1e-9, lost = 1e-12, epsilon = std::numeric_limits<double>::epsilon();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -31,7 +32,7 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
         wanted.insert(wanted.end(), gradient.begin(), gradient.end());
     }
     for (const Mechanism::Speed& speed : m.speeds) wanted.push_back(speed.form);
-    for (const Mechanism::Occasion& event : m.occasions)
+    for (const Mechanism::EventAction& event : m.event_actions)
         wanted.insert(wanted.end(), event.impulse.begin(), event.impulse.end());
     const std::vector<int> nodes = lower_expressions(program_, m, wanted);
     auto next = nodes.begin();
@@ -45,7 +46,7 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     bends_ = taken(m.events.size());
     for (std::size_t k = 0; k < m.events.size(); ++k) gradients_.push_back(taken(m.q.size()));
     speeds_ = taken(m.speeds.size());
-    for (const Mechanism::Occasion& event : m.occasions) impulses_.push_back(taken(event.impulse.size()));
+    for (const Mechanism::EventAction& event : m.event_actions) impulses_.push_back(taken(event.impulse.size()));
 }
 
 Eigen::VectorXd KickView::impulse(int event, const State<double>& state) const {
@@ -62,22 +63,22 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
     for (std::size_t k = 0; k < values_.size(); ++k) {
         const double value = b[values_[k]], slope = b[slopes_[k]], bend = b[bends_[k]];
         double size = size_of_terms(program_, values_[k], b);
-        const bool has_jumped = std::abs(value - a[values_[k]]) > negligible * size;
+        const bool has_jumped = std::abs(value - a[values_[k]]) > tolerance::jump * size;
         const double rounding = 2 * std::abs(value) + 16 * epsilon * size;
         for (std::size_t i = 0; i < after.q.size(); ++i)
             size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
         PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
         if (has_jumped) {  // the value as it is tells
-        } else if (std::abs(slope) > negligible * std::abs(one.slope)) {
+        } else if (std::abs(slope) > tolerance::jump * std::abs(one.slope)) {
             one.side = slope > 0 ? 1 : -1;
             one.hold = rounding / std::abs(slope);
             if (slope * bend < 0)
                 one.hold = std::min(one.hold, std::abs(slope / bend) / 2);  // a quarter of the flight
-        } else if (std::abs(bend) > negligible * size_of_terms(program_, bends_[k], b)) {
+        } else if (std::abs(bend) > tolerance::jump * size_of_terms(program_, bends_[k], b)) {
             one.side = bend > 0 ? 1 : -1;
             one.hold = std::sqrt(2 * rounding / std::abs(bend));
         } else {
-            one.band = lost * size;
+            one.band = tolerance::passed_zero * size;
         }
         result.push_back(one);
     }

@@ -16,7 +16,7 @@
 #include "formalism/link_axes.hpp"
 #include "formalism/named.hpp"
 #include "formalism/obstacle.hpp"
-#include "formalism/recursion.hpp"
+#include "formalism/tree_recursions.hpp"
 #include "model/mechanism.hpp"
 
 namespace alembert {

@@ -18,7 +18,7 @@
 /// tridiagonal matrices this is the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707,
 /// section 2.) J and D are positive, as M is definite.
 
-#include "formalism/recursion.hpp"
+#include "formalism/tree_recursions.hpp"
 
 namespace alembert {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "alembert/error.hpp"
+#include "alembert/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "formalism/elements.hpp"
 #include "linear/linearize_symbolic.hpp"
@@ -19,8 +20,7 @@ namespace alembert {
 
 namespace {
 
-constexpr double closed_gap = 1e-9;  // · max(1, |q|)
-constexpr std::size_t widest = 60;   // letters of an element in symbols
+constexpr std::size_t widest = 60;  // letters of an element in symbols
 
 using SymbolRows = decltype(LinearizedScene::symbols);
 
@@ -88,8 +88,8 @@ void close_contacts(Derived& d, const Start& start) {
     need_rates(d);
     const ContactView view(d.mechanism);
     const State<double> state = start.state();
-    check_gaps(d.scene, d.mechanism, view, state, closed_gap);
-    const Lasting lasting = contacts_at_rest(view, state, closed_gap);
+    check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
+    const Lasting lasting = contacts_at_rest(view, state, tolerance::closed_gap);
     const std::vector<std::string> idle = touching_without_force(view, state, lasting);
     if (!idle.empty())
         throw ModelError(fmt::format(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
+/// The recursions of formalism/tree_recursions.hpp, instantiated with nodes of a program.
 ///
 ///     const RecursionForm form{LinkAxes::still, RecursionForm::Solve::articulated};
 ///     const RecursionNodes nodes = recursion(program, tree, z, form, lowering);

@@ -13,7 +13,7 @@
 /// rotations that are numbers are taken apart: with parameters in them, axes might become parallel, and the
 /// division by their sine zero.
 
-#include "formalism/recursion.hpp"
+#include "formalism/tree_recursions.hpp"
 #include "program/symbolic_scalar.hpp"
 
 namespace alembert {

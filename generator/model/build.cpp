@@ -41,13 +41,13 @@ void add_outputs(Building& here) {
         here.attempt([&] {
             SourceScope source(*here.m.z, "event " + e.name.text);
             here.m.events.push_back({e.name.text, here.m.z->name(here.translator.scalar(e.when))});
-            Mechanism::Occasion occasion{.stop = e.stop, .direction = e.direction};
-            if (!e.impulses.empty()) occasion.impulse.assign(here.m.q.size(), 0);
+            Mechanism::EventAction action{.stop = e.stop, .direction = e.direction};
+            if (!e.impulses.empty()) action.impulse.assign(here.m.q.size(), 0);
             for (const GeneralizedForce& f : e.impulses)
                 for (int i = 0; i < here.m.size(); ++i)
                     if (here.m.q[i].get_name() == f.coordinate.text)
-                        occasion.impulse[i] = here.m.z->name(here.translator.scalar(f.value));
-            here.m.occasions.push_back(std::move(occasion));
+                        action.impulse[i] = here.m.z->name(here.translator.scalar(f.value));
+            here.m.event_actions.push_back(std::move(action));
         });
 }
 

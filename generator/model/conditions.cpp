@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "alembert/tolerances.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 #include "model/energy.hpp"
@@ -129,11 +130,10 @@ void add_constraint(Building& here, const ConstraintRule& rule, int index) {
 
 // A direction in which no coordinate moves the bodies against each other.
 void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
-    constexpr double closed = 1e-9;  // of lengths of order one; what initial values may break a constraint by
     const bool moves = here.m.z->depends(value, {here.m.t}) &&
                        !is_identically_zero(here.m.explicit_time_derivative({value})[0], here.m);
     const double gap = moves ? std::nan("") : here.places.number(value);
-    if (std::abs(gap) <= closed) return;
+    if (std::abs(gap) <= tolerance::initial_values) return;
     throw SceneMistake{
         {joint.name.place,
          fmt::format("joint '{}' cannot close: in its locked direction {} (translations x, y, z, then rotations, "

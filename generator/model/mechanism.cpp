@@ -76,7 +76,8 @@ std::vector<ex> Mechanism::explicit_time_derivative(const std::vector<ex>& value
 }
 
 bool Mechanism::has_kicks() const {
-    return std::any_of(occasions.begin(), occasions.end(), [](const Occasion& o) { return !o.impulse.empty(); });
+    return std::any_of(event_actions.begin(), event_actions.end(),
+                       [](const EventAction& o) { return !o.impulse.empty(); });
 }
 
 std::vector<ex> Mechanism::generalized_forces(bool dissipative) const {

@@ -160,12 +160,12 @@ struct Mechanism {
     std::vector<Definition> outputs, events;
 
     /// What a zero of an event does, beside being told.
-    struct Occasion {
+    struct EventAction {
         bool stop = false;
         int direction = 0;                    ///< +1: only where the value grows, −1: falls, 0: both
         std::vector<GiNaC::ex> impulse = {};  ///< Q̂ by coordinate, in q, t and the rates before; empty: none
     };
-    std::vector<Occasion> occasions;  ///< one for each of `events`
+    std::vector<EventAction> event_actions;  ///< one for each of `events`
 
     /// Do rates jump at an event?
     bool has_kicks() const;

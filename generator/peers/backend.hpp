@@ -2,7 +2,7 @@
 #pragma once
 
 /// SUNDIALS as a back end of `simulate`: a shared object of its own, `alembert-sundials.so`, that CMake builds
-/// where it finds libsundials-dev. The program opens it when it is asked for (commands/foreign.hpp), so that
+/// where it finds libsundials-dev. The program opens it when it is asked for (run/sundials_methods.hpp), so that
 /// nothing of SUNDIALS is linked into either the program or the runtime.
 ///
 /// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs where it has one,

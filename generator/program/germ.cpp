@@ -2,6 +2,7 @@
 // Series in ε with leading term c ε^v:  (c ε^v (1 + r))^a = c^a ε^(va) Σ binomial(a, k) r^k,   f(c + δ) = Σ
 // f^(k)(c)/k! δ^k. Taylor coefficients of tanh and atan come from y' = 1 − y² and y' (1 + x²) = 1.
 #include "program/germ.hpp"
+#include "alembert/tolerances.hpp"
 
 #include <cmath>
 
@@ -13,7 +14,6 @@ using Real = Germ::Real;
 
 constexpr double known_to = 6;       // power of ε up to which a series is kept
 constexpr std::size_t longest = 14;  // Taylor coefficients
-constexpr double same = 1e-9;        // exponents that differ by less are equal
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
 /// Of sin(c + s), or cos with a quarter turn more.
@@ -57,7 +57,7 @@ Germ Germ::path(Real x, Real error, const std::vector<Real>& steps) {
 
 Germ::Term Germ::at(double exponent) const {
     for (const Term& term : terms_)
-        if (std::abs(term.exponent - exponent) < same) return term;
+        if (std::abs(term.exponent - exponent) < tolerance::same_exponent) return term;
     return {exponent, 0, 0};
 }
 
@@ -87,7 +87,7 @@ void Germ::tidy() {
     std::vector<Term> kept;
     for (const Term& term : terms_) {
         if (term.exponent > known_to && (term.value != 0 || term.error != 0)) order_ = std::min(order_, known_to);
-        if (!kept.empty() && term.exponent - kept.back().exponent < same) {
+        if (!kept.empty() && term.exponent - kept.back().exponent < tolerance::same_exponent) {
             kept.back().value += term.value;
             kept.back().error += term.error + rounding * std::abs(kept.back().value);
         } else {
@@ -101,7 +101,8 @@ void Germ::tidy() {
             return;
         }
         if (std::abs(term.value) <= term.error) term.value = 0;
-        if (term.exponent < order_ - same && (term.value != 0 || term.error != 0)) terms_.push_back(term);
+        if (term.exponent < order_ - tolerance::same_exponent && (term.value != 0 || term.error != 0))
+            terms_.push_back(term);
     }
 }
 
@@ -173,10 +174,10 @@ Germ operator/(const Germ& a, const Germ& b) {
 }
 
 Germ Germ::through(const std::vector<Real>& taylor) const {
-    if (!defined_ || valuation() < -same) return undefined();
+    if (!defined_ || valuation() < -tolerance::same_exponent) return undefined();
     Germ rest = *this;
     const Real error = at(0).error;
-    std::erase_if(rest.terms_, [](const Term& term) { return term.exponent < same; });
+    std::erase_if(rest.terms_, [](const Term& term) { return term.exponent < tolerance::same_exponent; });
     // f(c ± e): the error of the constant coefficient goes through the slope.
     Germ result(taylor.back());
     for (std::size_t k = taylor.size() - 1; k-- > 0;) {
@@ -273,9 +274,9 @@ Germ atan2(const Germ& y, const Germ& x) {
     const Germ::Term *first_y = y.leading(), *first_x = x.leading();
     if (first_y == nullptr && first_x == nullptr) return Germ(0);
     if (first_y == nullptr) return x.side() < 0 ? Germ(pi) : Germ(0);
-    const bool steep =
-        first_x == nullptr || first_y->exponent < first_x->exponent - same ||
-        (first_y->exponent < first_x->exponent + same && std::abs(first_y->value) > std::abs(first_x->value));
+    const bool steep = first_x == nullptr || first_y->exponent < first_x->exponent - tolerance::same_exponent ||
+                       (first_y->exponent < first_x->exponent + tolerance::same_exponent &&
+                        std::abs(first_y->value) > std::abs(first_x->value));
     if (steep) return Germ(y.side() * pi / 2, rounding) - atan(x / y);
     return x.side() > 0 ? atan(y / x) : Germ(y.side() * pi, rounding) + atan(y / x);
 }

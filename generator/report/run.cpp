@@ -29,7 +29,7 @@ Json json_of(const EventRecord& event, const Mechanism& m) {
     if (event.impulse.empty()) return result;
     result["impulses"] = Json::object();
     for (std::size_t i = 0; i < event.impulse.size(); ++i)
-        if (!m.occasions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
+        if (!m.event_actions[k].impulse[i].is_zero()) result["impulses"][m.q[i].get_name()] = event.impulse[i];
     result["energy_gain"] = event.energy_gain;
     return result;
 }

@@ -7,13 +7,12 @@
 #include <array>
 #include <cmath>
 
-#include "run/modes.hpp"
+#include "alembert/tolerances.hpp"
+#include "run/loaded_modes.hpp"
 
 namespace alembert {
 
 namespace {
-
-constexpr double strictest = 1e-13;  // a tenth of that, and rounding has the word on where a gap is zero
 
 double thread_seconds() {
     timespec now{};
@@ -67,8 +66,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     const KickView kicks(d.mechanism);
     const Contacts contacts = contacts_of(d, start, view, kicks);
     const MethodChoice choice;  // for its compilation: methods that need nothing else are measured
-    Modes modes(request, d, start, first, Work::left_out, choice,
-                [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
+    LoadedModes modes(request, d, start, first, Work::left_out, choice,
+                      [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;
     initial.insert(initial.end(), first.qdot.begin(), first.qdot.end());
     Options options{.start = start.t,
@@ -88,7 +87,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
         return motion;
     };
 
-    const PhasedMotion reference = run(Method::verner98, strictest), other = run(Method::dop853, strictest);
+    const PhasedMotion reference = run(Method::verner98, tolerance::finest_contacts),
+                       other = run(Method::dop853, tolerance::finest_contacts);
     if (reference.failure) throw_failure(*reference.failure);
     Bounces result;
     result.end = reference.final_time();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alembert/error.hpp"
+#include "alembert/tolerances.hpp"
 #include "contact/contacts.hpp"
 #include "lower/lower.hpp"
 #include "program/without_rounding.hpp"
@@ -16,8 +17,6 @@
 namespace alembert {
 
 namespace {
-
-constexpr double closed_gap = 1e-9;  // · max(1, |q|), as much as the initial values of a constraint may be off
 
 Evaluation::Named named_values(const Program& program, const std::vector<double>& value, Group group) {
     Evaluation::Named result;
@@ -47,8 +46,8 @@ std::vector<double> accelerations_at(const Derived& d, const Program& program, c
 std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     need_rates(d);
     const ContactView view(d.mechanism);
-    check_gaps(d.scene, d.mechanism, view, state, closed_gap);
-    const std::vector<int> closed = contacts_at_rest(view, state, closed_gap).closed;
+    check_gaps(d.scene, d.mechanism, view, state, tolerance::closed_gap);
+    const std::vector<int> closed = contacts_at_rest(view, state, tolerance::closed_gap).closed;
     if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
     return closed;
 }

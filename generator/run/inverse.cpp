@@ -9,6 +9,7 @@
 
 #include "alembert/dense.hpp"
 #include "alembert/error.hpp"
+#include "alembert/tolerances.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "scene/hints.hpp"
@@ -17,8 +18,6 @@
 namespace alembert {
 
 namespace {
-
-constexpr double consistent = 1e-9;  // · the size of the terms
 
 struct Loads {
     Eigen::VectorXd acceleration, load, multiplier;
@@ -90,7 +89,7 @@ Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
     for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
         const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()),
                      off = s.A.row(k).dot(a) - s.gamma[k];
-        if (std::abs(off) > consistent * std::max(1.0, size))
+        if (std::abs(off) > tolerance::balanced_load * std::max(1.0, size))
             throw ModelError(
                 fmt::format("the accelerations given break constraint '{}', by {:.3g}; give those of as many "
                             "coordinates as there are degrees of freedom, {}, and the others follow",

@@ -6,8 +6,8 @@
 #include "alembert/error.hpp"
 #include "program/recurrence.hpp"
 #include "run/canonical.hpp"
-#include "run/foreign.hpp"
 #include "run/separable.hpp"
+#include "run/sundials_methods.hpp"
 
 namespace alembert {
 
@@ -67,7 +67,7 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& d) 
     const std::string given = name_given(request, d);
     if (given == "auto") return std::nullopt;
     const auto known = method_named(given);
-    if (is_foreign(given))
+    if (is_sundials(given))
         throw ModelError(fmt::format("method '{}' is one of 'simulate' alone; take bdf or radau", given));
     if (!known)
         throw ModelError(
@@ -79,9 +79,9 @@ std::optional<Method> given_method(const RunOptions& request, const Derived& d) 
 
 MethodChoice method_for(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {
     const std::string name = name_given(request, d);
-    if (is_foreign(name)) {
-        need_foreign(d, name);
-        return {.method = Method::bdf, .foreign = name};  // which has the Jacobian emitted
+    if (is_sundials(name)) {
+        need_sundials(d, name);
+        return {.method = Method::bdf, .sundials = name};  // which has the Jacobian emitted
     }
     if (const auto given = given_method(request, d)) {
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
@@ -100,7 +100,7 @@ double longest_step(const RunOptions& wishes, const Start& start) {
 }
 
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start) {
-    const bool fixed = has_fixed_step(choice.method) && choice.foreign.empty();
+    const bool fixed = has_fixed_step(choice.method) && choice.sundials.empty();
     if (fixed && wishes.max_step >= 0)
         throw ModelError(
             fmt::format("a longest step of {:g} s was asked for, but {} has a fixed step; methods that choose "

@@ -29,8 +29,8 @@ namespace alembert {
 struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
-    std::string why = {};      ///< empty where the method was given
-    std::string foreign = {};  ///< a method of somebody else's in the place of `method` (foreign.hpp)
+    std::string why = {};       ///< empty where the method was given
+    std::string sundials = {};  ///< a method of somebody else's in the place of `method` (sundials_methods.hpp)
 };
 
 /// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a

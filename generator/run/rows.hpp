@@ -4,7 +4,7 @@
 /// The rows that a run leaves behind: what stands in its CSV file, and what plots are drawn from.
 
 #include "reaction/joint_reactions.hpp"
-#include "run/modes.hpp"
+#include "run/loaded_modes.hpp"
 
 namespace alembert {
 
@@ -27,7 +27,7 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 
 /// The table with these columns. Where rates jump there are two rows for one time, before and after; where they
 /// only change their law, one. Reactions are at the parameters of `first`.
-Table rows_of(const PhasedMotion& motion, const Derived& derived, Modes& modes, const JointReactions* reactions,
-              const State<double>& first);
+Table rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
+              const JointReactions* reactions, const State<double>& first);
 
 }  // namespace alembert

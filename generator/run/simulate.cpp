@@ -68,10 +68,11 @@ public:
         run_.timings = {.derive = run_.seconds, .emit = process_seconds() - begin};
         Watch watch{.drift =
                         Drift(run_.mechanism.size(), static_cast<int>(first_.qdot.size()), !energy_.conserved)};
-        Modes modes(wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
-                    [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
-                        if (!watch.is_over) look(watch, mode, t, state, rate);
-                    });
+        LoadedModes modes(
+            wishes_, run_, start_, first_, energy_.conserved ? Work::left_out : Work::integrated, choice_,
+            [&](LoadedMode& mode, double t, std::span<const double> state, std::span<const double> rate) {
+                if (!watch.is_over) look(watch, mode, t, state, rate);
+            });
         modes.take_free(std::move(program));
         modes.on_side_change = [&](const SideChange& change, const std::string& name) {
             if (!watch.is_over) run_.side_changes.push_back({change.time, name, change.kind});
@@ -125,14 +126,14 @@ private:
         watch.drift.jump(free.module.table(), free.par, t, a.data(), b.data(), jump);
     }
 
-    PhasedMotion followed(Modes& modes, const Options& options, const std::vector<double>& from) const {
+    PhasedMotion followed(LoadedModes& modes, const Options& options, const std::vector<double>& from) const {
         modes.forget();
         return follow(
             contacts_, [&](const std::vector<int>& closed) -> const ContactMode& { return modes(closed).contact; },
             from, options);
     }
 
-    void integrate(Modes& modes) {
+    void integrate(LoadedModes& modes) {
         initial_ = start_.q;
         initial_.insert(initial_.end(), first_.qdot.begin(), first_.qdot.end());
         if (!energy_.conserved) initial_.push_back(0);
@@ -160,7 +161,7 @@ private:
         run_.constraint_drift = watch.constraint_drift;
     }
 
-    void estimate(Modes& modes, const LoadedMode& free, const Watch& watch) {
+    void estimate(LoadedModes& modes, const LoadedMode& free, const Watch& watch) {
         const double begin = process_seconds();
         const std::size_t coordinates = start_.q.size(), speeds = first_.qdot.size();
         Components components = components_of(free.program, coordinates, speeds);
@@ -176,7 +177,7 @@ private:
                 return followed(modes, options, from);
             },
             options_, initial_, components);
-        const bool fixed = has_fixed_step(options_.method) && choice_.foreign.empty();
+        const bool fixed = has_fixed_step(options_.method) && choice_.sundials.empty();
         const bool conserved = run_.energy.conserved;
         run_.doubts = doubts(
             {.error = *run_.estimate,
@@ -194,7 +195,7 @@ private:
     }
 
     /// Names, rows and the end, so that nobody has to ask the loaded modes again.
-    void describe(Modes& modes, const LoadedMode& free) {
+    void describe(LoadedModes& modes, const LoadedMode& free) {
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
         run_.solver = {.formulation = free.source.formulation,
@@ -217,7 +218,7 @@ private:
         if (run_.motion.failure) run_.failure = reason_of(*run_.motion.failure, modes);
     }
 
-    std::string reason_of(const Failure& failure, Modes& modes) const {
+    std::string reason_of(const Failure& failure, LoadedModes& modes) const {
         if (failure.kind == FailureKind::no_contact_mode || failure.kind == FailureKind::endless_kicks ||
             failure.kind == FailureKind::no_side)
             return failure.message;

@@ -225,7 +225,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     s.timings.compile = compiled.from_cache ? 0.0 : compiled.seconds;
     Beginnings begin = beginnings(wishes, s, grid, load(compiled.object));
     begin.ensemble.work = energy.conserved ? Work::left_out : Work::integrated;
-    for (const Mechanism::Occasion& event : m.occasions) {
+    for (const Mechanism::EventAction& event : m.event_actions) {
         begin.ensemble.stops.push_back(event.stop);
         begin.ensemble.directions.push_back(event.direction);
     }

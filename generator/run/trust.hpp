@@ -30,7 +30,7 @@
 
 #include "alembert/quick_times.hpp"
 #include "run/estimate.hpp"
-#include "run/modes.hpp"
+#include "run/loaded_modes.hpp"
 
 namespace alembert {
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "alembert/dense.hpp"
+#include "alembert/tolerances.hpp"
 #include "lower/lower.hpp"
 #include "program/rounding.hpp"
 
@@ -20,8 +21,6 @@ namespace alembert {
 namespace {
 
 constexpr int most_rounds = 100;
-constexpr double allowed = 1e-9;  // of the sum of the sizes of a constraint's terms (scene-language.md)
-
 class Assembly {
 public:
     Assembly(Start& start, const Mechanism& m, const Program& p, const Overrides& held)
@@ -103,7 +102,8 @@ private:
             }
             const double rounding = 64 * std::numeric_limits<double>::epsilon() * row * largest;
             if (!(misfit <=
-                  allowed * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) + rounding))
+                  tolerance::initial_values * (size_of_terms(p_, speeds[k], value) + std::abs(start_.speeds[k])) +
+                      rounding))
                 throw ModelError(
                     fmt::format("speed '{}' is {:.6g} at the start and cannot be had: the other speeds and the "
                                 "constraints leave it off by {:.6g} at these coordinates",
@@ -159,8 +159,8 @@ private:
                                   rounded = rounding_errors(p_, start_.state());
         for (std::size_t k = 0; k < nodes.size(); ++k) {
             const double misfit = std::abs(value[nodes[k]]);
-            if (misfit <= allowed * size_of_terms(p_, nodes[k], value) + (solved ? rounding(k, x, value) : 0) +
-                              rounded[nodes[k]])
+            if (misfit <= tolerance::initial_values * size_of_terms(p_, nodes[k], value) +
+                              (solved ? rounding(k, x, value) : 0) + rounded[nodes[k]])
                 continue;
             if (!std::isfinite(misfit))
                 throw ModelError(

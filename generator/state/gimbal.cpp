@@ -7,13 +7,12 @@
 #include <algorithm>
 
 #include "alembert/dense.hpp"
+#include "alembert/tolerances.hpp"
 #include "lower/lower.hpp"
 
 namespace alembert {
 
 namespace {
-
-constexpr double near = 1e-3;
 
 /// Smallest singular value over the largest of a matrix with three rows, row by row at `nodes`.
 double evenness(const Program& program, const std::vector<int>& nodes, const State<double>& state) {
@@ -64,10 +63,10 @@ std::optional<std::string> gimbal_lock(const Scene& scene, const Mechanism& m, c
             }
         if (count < 3) continue;
         const std::vector<int> nodes = lower_expressions(program, m, entries);
-        if (evenness(program, nodes, here) > near) continue;
+        if (evenness(program, nodes, here) > tolerance::gimbal_lock) continue;
         State<double> beside = here;
         for (std::size_t i = 0; i < beside.q.size(); ++i) beside.q[i] += 0.3 + 0.1 * static_cast<double>(i);
-        if (evenness(program, nodes, beside) < near) continue;
+        if (evenness(program, nodes, beside) < tolerance::gimbal_lock) continue;
         return fmt::format(
             "the angles {} of frame '{}' are in gimbal lock: two of them turn body '{}' about the same line, and "
             "the third "

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "alembert/dense.hpp"
+#include "alembert/tolerances.hpp"
 #include "lower/lower.hpp"
 #include "state/assemble.hpp"
 
@@ -16,8 +17,6 @@ namespace alembert {
 namespace {
 
 constexpr int states = 8;
-constexpr double negligible = 1e-9;
-
 /// Which rows are combinations of those before them in `order` (Gram-Schmidt, twice).
 std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order) {
     std::vector<bool> result(order.size());
@@ -27,7 +26,7 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
         const double size = row.norm();
         for (int round = 0; round < 2; ++round)
             for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        result[k] = !(row.norm() > negligible * size);
+        result[k] = !(row.norm() > tolerance::dependent_row * size);
         if (!result[k]) basis.push_back(row.normalized());
     }
     return result;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "alembert/tolerances.hpp"
 #include "formalism/kinematics.hpp"
 #include "lower/lower.hpp"
 #include "lower/start.hpp"
@@ -16,8 +17,6 @@ namespace alembert {
 namespace {
 
 constexpr int states = 8;
-constexpr double negligible = 1e-9;
-
 /// The first row that is a combination of those before it, or −1 (Gram-Schmidt, twice).
 int first_dependent(const Eigen::MatrixXd& rows) {
     std::vector<Eigen::RowVectorXd> basis;
@@ -25,7 +24,7 @@ int first_dependent(const Eigen::MatrixXd& rows) {
         Eigen::RowVectorXd row = rows.row(k);
         for (int round = 0; round < 2; ++round)
             for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        if (!(row.norm() > negligible * rows.row(k).norm())) return static_cast<int>(k);
+        if (!(row.norm() > tolerance::dependent_row * rows.row(k).norm())) return static_cast<int>(k);
         basis.push_back(row.normalized());
     }
     return -1;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "alembert/run.hpp"
+#include "alembert/tolerances.hpp"
 
 namespace alembert {
 
@@ -17,7 +18,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double finest = 1e-13;  // tolerance that rounding allows
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_events_at_once = 100;
 
@@ -48,7 +48,7 @@ public:
         : contacts_(contacts),
           modes_(modes),
           options_(options),
-          tolerance_(std::max(options.tolerance, finest)),
+          tolerance_(std::max(options.tolerance, tolerance::finest_contacts)),
           count_(static_cast<int>(contacts.names.size())),
           in_phases_(count_ > 0 || contacts.kicks.any()),
           t_(options.start),

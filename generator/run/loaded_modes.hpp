@@ -4,7 +4,7 @@
 /// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A
 /// scene without unilateral constraints has the one mode {}.
 ///
-///     Modes modes(request, derived, start, first, Work::left_out, method, on_step);
+///     LoadedModes modes(request, derived, start, first, Work::left_out, method, on_step);
 ///     const LoadedMode& lying = modes({0});
 ///     lying.contact.rhs(t, state, rate);
 
@@ -55,7 +55,7 @@ bool has_jumps(const Mechanism& mechanism);
 /// Throws ModelError where the state has speeds that the motion with jumps is not followed in.
 Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view, const KickView& kicks);
 
-class Modes {
+class LoadedModes {
 public:
     /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode
     /// of each step. Implicit methods have the solvers emitted with their Jacobian, unless it would take long to
@@ -63,8 +63,8 @@ public:
     /// emitted.
     using OnModeStep =
         std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
-    Modes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first,
-          Work work, const MethodChoice& method, OnModeStep on_step);
+    LoadedModes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first,
+                Work work, const MethodChoice& method, OnModeStep on_step);
 
     /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what
     /// the stages throw.

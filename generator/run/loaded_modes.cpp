@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/modes.hpp"
+#include "run/loaded_modes.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "emit/taylor.hpp"
 #include "program/differentiate.hpp"
 #include "run/canonical.hpp"
-#include "run/foreign.hpp"
 #include "run/sides.hpp"
+#include "run/sundials_methods.hpp"
 #include "state/diagnose.hpp"
 
 namespace alembert {
@@ -47,7 +47,8 @@ Contacts contacts_of(const Derived& d, const Start& start, const ContactView& vi
                       .restitution = restitutions(m, start.parameters),
                       .situation = [&view, at](double t, const double* y) { return view.at(at(t, y)); },
                       .on_jump = {}};
-    for (const Mechanism::Occasion& event : m.occasions) contacts.kicks.events.push_back(!event.impulse.empty());
+    for (const Mechanism::EventAction& event : m.event_actions)
+        contacts.kicks.events.push_back(!event.impulse.empty());
     contacts.kicks.coordinates = m.size();
     contacts.kicks.impulse = [&kicks, at](int event, double t, const double* y) {
         return kicks.impulse(event, at(t, y));
@@ -71,8 +72,8 @@ Program with_jacobian(Program program, Method method, bool with_power) {
     return found ? std::move(found->program) : program;
 }
 
-Modes::Modes(const RunOptions& options, const Derived& derived, const Start& start, const State<double>& first,
-             Work work, const MethodChoice& method, OnModeStep on_step)
+LoadedModes::LoadedModes(const RunOptions& options, const Derived& derived, const Start& start,
+                         const State<double>& first, Work work, const MethodChoice& method, OnModeStep on_step)
     : wishes_(options),
       derived_(derived),
       start_(start),
@@ -81,27 +82,27 @@ Modes::Modes(const RunOptions& options, const Derived& derived, const Start& sta
       method_(method),
       on_step_(std::move(on_step)) {}
 
-void Modes::take_free(Program program) {
+void LoadedModes::take_free(Program program) {
     free_ = std::move(program);
 }
 
-int Modes::operations() const {
+int LoadedModes::operations() const {
     int most = 0;
     for (const auto& [closed, mode] : loaded_) most = std::max(most, mode->source.operations.total());
     return most;
 }
 
-void Modes::forget() {
+void LoadedModes::forget() {
     for (auto& entry : loaded_) entry.second->projection.forget();
 }
 
-LoadedMode& Modes::operator()(const std::vector<int>& closed) {
+LoadedMode& LoadedModes::operator()(const std::vector<int>& closed) {
     std::unique_ptr<LoadedMode>& mode = loaded_[closed];
     if (!mode) mode = made(closed);
     return *mode;
 }
 
-Rhs Modes::with_jacobian(LoadedMode& mode) {
+Rhs LoadedModes::with_jacobian(LoadedMode& mode) {
     if (!mode.when_stiff) {
         mode.when_stiff = mode.contact.rhs;
         double clock = process_seconds();
@@ -121,7 +122,7 @@ Rhs Modes::with_jacobian(LoadedMode& mode) {
     return *mode.when_stiff;
 }
 
-CompileOptions Modes::options_of_compiler() const {
+CompileOptions LoadedModes::options_of_compiler() const {
     return {.compiler = {}, .extra_flags = {}, .fast_math = wishes_.fast_math, .cache = {}};
 }
 
@@ -148,8 +149,8 @@ void LoadedMode::measure_sides(const Trajectory& motion) {
     }
 }
 
-void Modes::hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
-                       const SeriesModule& series) {
+void LoadedModes::hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
+                             const SeriesModule& series) {
     LoadedMode* const self = &mode;
     Switching system = switching_of(
         mode.module, start_.parameters, std::move(names), work_,
@@ -181,7 +182,7 @@ void Modes::hold_signs(LoadedMode& mode, std::vector<std::string> names, std::si
     rhs.dimension = dimension;
 }
 
-std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
+std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     double clock = process_seconds();
     const auto lap = [&clock] {
         const double before = clock;
@@ -201,7 +202,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
                                            failure_at(derived, first_).value_or("the mass matrix is singular")),
                                start_.t, start_.q);
     std::optional<Switched> jumps;
-    if (method_.foreign.empty() && !needs_canonical(method_.method)) jumps = switched(program);
+    if (method_.sundials.empty() && !needs_canonical(method_.method)) jumps = switched(program);
     const Program& smooth = jumps ? jumps->program : program;
     const std::optional<Differentiated> derivatives =
         uses_jacobian(method_.method) ? affordable_derivatives(smooth, work_) : std::nullopt;
@@ -228,7 +229,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
     values.resize(values.size() + sides, 1.0);
     std::vector<bool> stops;
     std::vector<int> directions;
-    for (const Mechanism::Occasion& event : derived.mechanism.occasions) {
+    for (const Mechanism::EventAction& event : derived.mechanism.event_actions) {
         stops.push_back(event.stop);
         directions.push_back(event.direction);
     }
@@ -253,7 +254,7 @@ std::unique_ptr<LoadedMode> Modes::made(const std::vector<int>& closed) {
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
     // The work is to balance the energy: it has a tolerance like the rest, where there is one.
     if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
-    if (!method_.foreign.empty()) mode->contact.by = foreign_integrator(method_.foreign, module, values);
+    if (!method_.sundials.empty()) mode->contact.by = sundials_integrator(method_.sundials, module, values);
     LoadedMode* const self = mode.get();
     if (jumps) hold_signs(*self, names_of_sides(self->program, jumps->functions), events, series_module);
     if (constrained) {

@@ -3,7 +3,7 @@
 
 /// cvode and ida of SUNDIALS as methods of `simulate`, where the program was built with them (peers/backend.hpp).
 ///
-///     if (is_foreign(name)) mode.by = foreign_integrator(name, module, parameters);
+///     if (is_sundials(name)) mode.by = sundials_integrator(name, module, parameters);
 
 #include <string>
 #include <string_view>
@@ -14,14 +14,14 @@
 
 namespace alembert {
 
-bool is_foreign(std::string_view method);
+bool is_sundials(std::string_view method);
 
 /// Throws ModelError for a scene that they do not follow: contacts, events that stop; for ida, speeds with
 /// constraints.
-void need_foreign(const Derived& derived, std::string_view method);
+void need_sundials(const Derived& derived, std::string_view method);
 
 /// Throws CompileError where this build has no SUNDIALS.
-Integrator foreign_integrator(std::string_view method, const Module& module,
-                              const std::vector<double>& parameters);
+Integrator sundials_integrator(std::string_view method, const Module& module,
+                               const std::vector<double>& parameters);
 
 }  // namespace alembert

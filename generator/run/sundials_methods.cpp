@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "run/foreign.hpp"
+#include "run/sundials_methods.hpp"
 
 #include <fmt/format.h>
 
@@ -37,11 +37,11 @@ const Backend& backend(std::string_view method) {
 
 }  // namespace
 
-bool is_foreign(std::string_view method) {
+bool is_sundials(std::string_view method) {
     return method == cvode || method == ida;
 }
 
-void need_foreign(const Derived& d, std::string_view method) {
+void need_sundials(const Derived& d, std::string_view method) {
     const auto refuse = [&](const std::string& why) {
         throw ModelError(fmt::format("method '{}' does not follow {}; take radau (stiff) or dop853", method, why));
     };
@@ -51,8 +51,8 @@ void need_foreign(const Derived& d, std::string_view method) {
         refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");
 }
 
-Integrator foreign_integrator(std::string_view method, const Module& module,
-                              const std::vector<double>& parameters) {
+Integrator sundials_integrator(std::string_view method, const Module& module,
+                               const std::vector<double>& parameters) {
     const Backend& own = backend(method);
     return (method == ida ? own.ida : own.cvode)(module, parameters);
 }
