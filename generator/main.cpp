@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "alembert/error.hpp"
+#include "commands/help.hpp"
 #include "commands/streams.hpp"
 #include "commands/verb.hpp"
 
@@ -45,11 +46,18 @@ int guarded(const alembert::Chosen& chosen) {
 
 int main(int argc, char** argv) {
     alembert::guard_streams();
-    CLI::App app{"alembert derives the equations of motion of a mechanical system, and runs them."};
+    CLI::App app{"alembert derives the equations of motion of a mechanical system, proves them, and runs them.",
+                 "alembert"};
+    app.footer("alembert derive scenes/textbook/double_pendulum.toml");
+    alembert::set_help(app);
     app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
     app.require_subcommand(1);
     alembert::Chosen chosen;
     alembert::add_verbs(app, chosen);
+    if (const std::string mistake = alembert::mistake_in(app, {argv + 1, argv + argc}); !mistake.empty()) {
+        std::cerr << mistake;
+        return alembert::finished(input_is_wrong);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

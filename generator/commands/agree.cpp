@@ -9,7 +9,7 @@ namespace alembert {
 namespace {
 
 int run(const SceneOptions& options) {
-    const Agreed agreed = agree(read_scene(options.scene));
+    const Agreed agreed = agree(scene_of(options.scene));
     warn(agreed.warnings);
     if (options.json)
         show(as_json(agreed));
@@ -21,8 +21,11 @@ int run(const SceneOptions& options) {
 }  // namespace
 
 void add_agree(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SceneOptions>(app, chosen, "agree",
-                                 "derive by every formalism that applies, and prove that they say the same", run);
+    add_scene_verb<SceneOptions>(app, chosen,
+                                 {.name = "agree",
+                                  .about = "derives by every formalism that applies, and proves them equal",
+                                  .example = "alembert agree scenes/textbook/sled.toml"},
+                                 run);
 }
 
 }  // namespace alembert

@@ -10,7 +10,7 @@ namespace alembert {
 namespace {
 
 int run(const SceneOptions& options) {
-    const Audited audited = audit(read_scene(options.scene));
+    const Audited audited = audit(scene_of(options.scene));
     warn(audited.warnings);
     if (options.json)
         show(as_json(audited));
@@ -26,8 +26,11 @@ int run(const SceneOptions& options) {
 
 void add_audit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SceneOptions>(
-        app, chosen, "audit",
-        "constraints: kinds, rank, which are redundant or integrable, whether the initial state obeys them", run);
+        app, chosen,
+        {.name = "audit",
+         .about = "examines the constraints: kinds, rank, what is redundant or integrable",
+         .example = "alembert audit scenes/textbook/sled.toml"},
+        run);
 }
 
 }  // namespace alembert

@@ -2,7 +2,9 @@
 #include "report/bench.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 
 namespace alembert {
@@ -20,7 +22,7 @@ int run(const BenchVerb& verb) {
     options.wishes.by = verb.by;
     Progress progress;
     options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Bench measured = bench(read_scene(verb.scene), options);
+    const Bench measured = bench(scene_of(verb.scene), options);
     progress.wipe();
     warn(measured.warnings);
     if (!verb.csv.empty()) write_file(verb.csv, as_csv(measured), {verb.scene});
@@ -36,23 +38,24 @@ int run(const BenchVerb& verb) {
 
 void add_bench(CLI::App& app, Chosen& chosen) {
     add_scene_verb<BenchVerb>(
-        app, chosen, "bench", "speed against error: every method over a range of tolerances, against a reference",
+        app, chosen,
+        {.name = "bench",
+         .about = "measures speed against error: every method over a range of tolerances",
+         .example = "alembert bench scenes/textbook/double_pendulum.toml --duration 1 --svg bench.svg"},
         run, [](CLI::App& verb, BenchVerb& bench) {
             RunOptions& wishes = bench.options.wishes;
             verb.add_flag("--peers", bench.options.peers,
-                          "CVODE, IDA, odeint and GSL too, on the same right-hand side, where they are installed");
-            verb.add_option("--csv", bench.csv, "CSV file");
-            verb.add_option("--svg", bench.svg, "work-precision plot");
-            verb.add_option("--duration", wishes.duration, "seconds from the start")->check(nonnegative_number());
-            verb.add_option("--method", wishes.method, "this one alone");
-            verb.add_option("--max-step", wishes.max_step,
-                            "longest step, in seconds, for methods that choose their steps")
-                ->check(positive_number());
-            verb.add_option("--budget", wishes.budget, "right-hand sides of one run, at the most")
-                ->check(positive_number());
+                          "also CVODE, IDA, odeint, GSL, where they are installed");
+            verb.add_option("--csv", bench.csv, "table as CSV")->type_name(values::file);
+            verb.add_option("--svg", bench.svg, "SVG picture of time against error")->type_name(values::file);
+            add_duration_option(verb, wishes);
+            verb.add_option("--method", wishes.method, "this one alone")->type_name(values::method);
+            add_limits(verb, wishes);
             verb.add_option("--reference-seconds", bench.options.reference_seconds,
                             "processor time for each of the reference's methods")
+                ->type_name(values::seconds)
                 ->check(positive_number());
+            add_by_option(verb, bench.by);
         });
 }
 

@@ -2,6 +2,7 @@
 #include "report/check.hpp"
 
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "scene/claims_file.hpp"
 
@@ -23,7 +24,7 @@ int exit_code(const Checked& checked) {
 }
 
 int run(const CheckOptions& options) {
-    Scene scene = read_scene(options.scene);
+    Scene scene = scene_of(options.scene);
     if (!options.claims.empty()) scene = with_claims(std::move(scene), options.claims);
     const CheckedScene checked = check(std::move(scene), options.by);
     warn(checked.warnings);
@@ -37,12 +38,17 @@ int run(const CheckOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<CheckOptions>(
-        app, chosen, "check", "hold a hand derivation against the derived equations", run,
-        [](CLI::App& verb, CheckOptions& options) {
-            verb.add_option("claims", options.claims,
-                            "a file of claims, one equation a line; without it the scene's [[claim]]s");
-        });
+    add_scene_verb<CheckOptions>(app, chosen,
+                                 {.name = "check",
+                                  .about = "holds a hand derivation against the derived equations",
+                                  .example = "alembert check scenes/textbook/double_pendulum.toml"},
+                                 run, [](CLI::App& verb, CheckOptions& options) {
+                                     verb.add_option(
+                                             "claims", options.claims,
+                                             "a file, one equation a line; default: the scene's [[claim]]s")
+                                         ->type_name(values::claims);
+                                     add_by_option(verb, options.by);
+                                 });
 }
 
 }  // namespace alembert

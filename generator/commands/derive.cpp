@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "report/derivation.hpp"
 
@@ -13,7 +14,7 @@ struct DeriveVerb : SceneOptions {
 };
 
 int run(const DeriveVerb& options) {
-    const DerivedScene d = derive(read_scene(options.scene), {.by = options.by, .reactions = options.reactions});
+    const DerivedScene d = derive(scene_of(options.scene), {.by = options.by, .reactions = options.reactions});
     warn(d.warnings);
     if (options.json)
         show(as_json(d));
@@ -25,14 +26,19 @@ int run(const DeriveVerb& options) {
 }  // namespace
 
 void add_derive(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<DeriveVerb>(app, chosen, "derive", "print the equations of motion in textbook form", run,
-                               [](CLI::App& verb, DeriveVerb& options) {
-                                   verb.add_option("--format", options.page.format, "text, latex or mathml")
-                                       ->check(CLI::IsMember({"text", "latex", "mathml"}));
-                                   verb.add_flag("--steps", options.page.steps,
-                                                 "show coordinates, T, V, generalized forces, then the equations");
-                                   add_reactions_option(verb, options.reactions);
-                               });
+    add_scene_verb<DeriveVerb>(
+        app, chosen,
+        {.name = "derive",
+         .about = "prints the equations of motion in the form of a textbook",
+         .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
+        run, [](CLI::App& verb, DeriveVerb& options) {
+            add_by_option(verb, options.by);
+            verb.add_option("--format", options.page.format, "text (default), latex or mathml")
+                ->type_name(values::format)
+                ->check(CLI::IsMember({"text", "latex", "mathml"}).description(""));
+            verb.add_flag("--steps", options.page.steps, "also coordinates, T, V, generalized forces, own steps");
+            add_reactions_option(verb, options.reactions);
+        });
 }
 
 }  // namespace alembert

@@ -6,6 +6,7 @@
 #include "alembert/error.hpp"
 #include "commands/output.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "report/emission.hpp"
 
@@ -21,7 +22,7 @@ struct EmitVerb : SceneOptions {
 int run(const EmitVerb& options) {
     EmissionOptions wishes = options.emission;
     wishes.by = options.by;
-    const Emission e = emission(read_scene(options.scene), wishes);
+    const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
@@ -40,12 +41,18 @@ int run(const EmitVerb& options) {
 
 void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
-        app, chosen, "emit", "write the specialized C++", run, [](CLI::App& verb, EmitVerb& options) {
-            verb.add_option("-o,--output", options.folder, "folder")->required();
+        app, chosen,
+        {.name = "emit",
+         .about = "writes the C++ of the system: right-hand side, energies, projection",
+         .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
+        run, [](CLI::App& verb, EmitVerb& options) {
+            verb.add_option("-o,--output", options.folder, "the folder; the file is named after the scene")
+                ->type_name(values::folder)
+                ->required();
             verb.add_flag("--fold", options.emission.fold, "parameters as constants");
-            verb.add_flag("--jacobian", options.emission.jacobian,
-                          "with the derivatives of the right-hand side by state and parameters");
-            verb.add_flag("--batch", options.emission.batch, "the same functions for eight systems at once too");
+            verb.add_flag("--jacobian", options.emission.jacobian, "also the derivatives of the right-hand side");
+            verb.add_flag("--batch", options.emission.batch, "also the same functions for eight systems at once");
+            add_by_option(verb, options.by);
         });
 }
 

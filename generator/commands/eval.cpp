@@ -14,7 +14,7 @@ struct EvalOptions : SceneOptions {
 
 int run(const EvalOptions& options) {
     const Evaluation e =
-        evaluate(read_scene(options.scene),
+        evaluate(scene_of(options.scene),
                  {.by = options.by, .at = overrides_of(options.at), .reactions = options.reactions});
     warn(e.warnings);
     if (options.json)
@@ -27,9 +27,13 @@ int run(const EvalOptions& options) {
 }  // namespace
 
 void add_eval(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<EvalOptions>(app, chosen, "eval", "evaluate once, at the initial state or the one given", run,
-                                [](CLI::App& verb, EvalOptions& options) {
+    add_scene_verb<EvalOptions>(app, chosen,
+                                {.name = "eval",
+                                 .about = "evaluates the equations once: accelerations, energies, reactions",
+                                 .example = "alembert eval scenes/textbook/double_pendulum.toml --at theta1=0.3"},
+                                run, [](CLI::App& verb, EvalOptions& options) {
                                     add_at_option(verb, options.at);
+                                    add_by_option(verb, options.by);
                                     add_reactions_option(verb, options.reactions);
                                 });
 }

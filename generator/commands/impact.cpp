@@ -3,15 +3,13 @@
 
 #include "commands/show.hpp"
 #include "commands/verb.hpp"
-#include "formalism/formalisms.hpp"
 
 namespace alembert {
 
 namespace {
 
 int run(const SceneOptions& options) {
-    if (!options.by.empty()) formalism(options.by);  // any will do: the momenta are the same in all
-    const Struck struck = impact(read_scene(options.scene));
+    const Struck struck = impact(scene_of(options.scene));
     warn(struck.warnings);
     if (options.json)
         show(as_json(struck));
@@ -23,8 +21,10 @@ int run(const SceneOptions& options) {
 }  // namespace
 
 void add_impact(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SceneOptions>(app, chosen, "impact",
-                                 "the rates after the scene's impulses, sudden constraints and closed contacts",
+    add_scene_verb<SceneOptions>(app, chosen,
+                                 {.name = "impact",
+                                  .about = "calculates the rates after impulses and sudden constraints",
+                                  .example = "alembert impact scenes/textbook/struck_rods.toml"},
                                  run);
 }
 

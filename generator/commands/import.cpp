@@ -6,6 +6,7 @@
 
 #include "commands/output.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "scene/text.hpp"
 #include "urdf/robot_scene.hpp"
@@ -53,12 +54,16 @@ int run(const ImportOptions& options) {
 
 void add_import(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<ImportOptions>();
-    CLI::App* const verb = app.add_subcommand("import", "write the scene of a robot description (URDF)");
-    verb->add_option("robot", options->robot, "the robot, an .urdf file")->required();
-    verb->add_option("-o,--output", options->output, "the scene to be written")->required();
-    verb->add_flag("--floating", options->floating, "the root link moves freely; otherwise it is the ground");
+    CLI::App* const verb = add_verb(app, {.name = "import",
+                                          .about = "writes the scene of a robot description (URDF)",
+                                          .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
+    verb->add_option("robot", options->robot, "the robot, an .urdf file")->type_name(values::robot)->required();
+    verb->add_option("-o,--output", options->output, "the scene to be written")
+        ->type_name(values::file)
+        ->required();
+    verb->add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
     verb->add_flag("--quaternion", options->quaternion,
-                   "what floats turns by a quaternion; otherwise by yaw, pitch and roll");
+                   "what floats turns by a quaternion; default: yaw, pitch, roll");
     verb->add_flag("--json", options->json, "print one JSON object");
     verb->callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }

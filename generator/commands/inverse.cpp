@@ -13,7 +13,7 @@ struct InverseVerb : SceneOptions {
 
 int run(const InverseVerb& options) {
     const InverseLoads needed =
-        inverse(read_scene(options.scene), {.by = options.by, .at = overrides_of(options.at)});
+        inverse(scene_of(options.scene), {.by = options.by, .at = overrides_of(options.at)});
     warn(needed.warnings);
     if (options.json)
         show(as_json(needed));
@@ -26,8 +26,14 @@ int run(const InverseVerb& options) {
 
 void add_inverse(CLI::App& app, Chosen& chosen) {
     add_scene_verb<InverseVerb>(
-        app, chosen, "inverse", "the loads along the coordinates that accelerations need: --at \"theta1''=2\"",
-        run, [](CLI::App& verb, InverseVerb& options) { add_at_option(verb, options.at); });
+        app, chosen,
+        {.name = "inverse",
+         .about = "calculates the loads along the coordinates that accelerations need",
+         .example = "alembert inverse scenes/textbook/double_pendulum.toml --at \"theta1''=2\""},
+        run, [](CLI::App& verb, InverseVerb& options) {
+            add_at_option(verb, options.at);
+            add_by_option(verb, options.by);
+        });
 }
 
 }  // namespace alembert

@@ -15,7 +15,7 @@ int run(const LinearizeVerb& verb) {
     LinearizeOptions options{.by = verb.by, .at = overrides_of(verb.at)};
     for (const std::string& item : verb.at)
         options.exact_at.emplace_back(item.substr(0, item.find('=')), item.substr(item.find('=') + 1));
-    const LinearizedScene near = linearize(read_scene(verb.scene), options);
+    const LinearizedScene near = linearize(scene_of(verb.scene), options);
     warn(near.warnings);
     if (verb.json)
         show(as_json(near));
@@ -27,9 +27,15 @@ int run(const LinearizeVerb& verb) {
 }  // namespace
 
 void add_linearize(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<LinearizeVerb>(app, chosen, "linearize",
-                                  "matrices and eigenvalues near an equilibrium or a steady motion", run,
-                                  [](CLI::App& verb, LinearizeVerb& options) { add_at_option(verb, options.at); });
+    add_scene_verb<LinearizeVerb>(
+        app, chosen,
+        {.name = "linearize",
+         .about = "gives matrices and eigenvalues near an equilibrium or a steady motion",
+         .example = "alembert linearize scenes/textbook/coupled_oscillators.toml --at x1=0 x2=0"},
+        run, [](CLI::App& verb, LinearizeVerb& options) {
+            add_at_option(verb, options.at);
+            add_by_option(verb, options.by);
+        });
 }
 
 }  // namespace alembert

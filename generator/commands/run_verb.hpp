@@ -13,8 +13,12 @@ struct RunVerb : SceneOptions {
     std::string output;  ///< a CSV file; empty: none
 };
 
-/// --duration, --tolerance, --method, --step, --max-step, -o, --budget, --fast-math.
+/// --duration, --tolerance, --method, --step, -o, --max-step, --budget, --fast-math, --by.
 void add_run_options(CLI::App& verb, RunVerb& options);
+
+/// --duration alone; --max-step and --budget.
+void add_duration_option(CLI::App& verb, RunOptions& wishes);
+void add_limits(CLI::App& verb, RunOptions& wishes);
 
 /// --show NAME,NAME…: what a picture shows; refused without the option `picture`, which must be there already.
 void add_show_option(CLI::App& verb, std::string& list, const std::string& picture);

@@ -13,6 +13,12 @@ void show(const std::string& text) {
     std::cout << text;
 }
 
+Scene scene_of(const std::string& file) {
+    Scene scene = read_scene(file);
+    scene.on_warning = [](const std::string& warning) { warn({warning}); };
+    return scene;
+}
+
 void warn(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) std::cerr << warning;
 }

@@ -4,6 +4,7 @@
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
 
@@ -23,7 +24,7 @@ int run(const SimulateVerb& verb) {
     wishes.columns = shown_names(verb.show);
     Progress progress;
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
-    const Run run = simulate(read_scene(verb.scene), wishes);
+    const Run run = simulate(scene_of(verb.scene), wishes);
     progress.wipe();
     warn(run.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(run.rows), {verb.scene});
@@ -42,16 +43,23 @@ int run(const SimulateVerb& verb) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SimulateVerb>(
-        app, chosen, "simulate", "emit, compile and integrate", run, [](CLI::App& verb, SimulateVerb& options) {
-            add_run_options(verb, options);
-            verb.add_option("--sample", options.wishes.sample, "seconds between rows")->check(positive_number());
-            verb.add_flag("!--no-estimate", options.wishes.estimate,
-                          "no second run to estimate the error: half the time");
-            add_reactions_option(verb, options.wishes.reactions);
-            verb.add_option("--plot", options.plot, "SVG picture of the motion over time");
-            add_show_option(verb, options.show, "--plot");
-        });
+    add_scene_verb<SimulateVerb>(app, chosen,
+                                 {.name = "simulate",
+                                  .about = "emits, compiles and integrates, and says how large the error is",
+                                  .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
+                                 run, [](CLI::App& verb, SimulateVerb& options) {
+                                     add_run_options(verb, options);
+                                     verb.add_option("--sample", options.wishes.sample,
+                                                     "time between rows of the table")
+                                         ->type_name(values::seconds)
+                                         ->check(positive_number());
+                                     verb.add_option("--plot", options.plot, "SVG picture of the motion over time")
+                                         ->type_name(values::file);
+                                     add_show_option(verb, options.show, "--plot");
+                                     verb.add_flag("!--no-estimate", options.wishes.estimate,
+                                                   "no second run to estimate the error: half the time");
+                                     add_reactions_option(verb, options.wishes.reactions);
+                                 });
 }
 
 }  // namespace alembert

@@ -7,6 +7,7 @@
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/values.hpp"
 #include "commands/vary.hpp"
 #include "report/sweep.hpp"
 #include "report/sweep_plot.hpp"
@@ -31,7 +32,7 @@ int run(const SweepVerb& verb) {
     wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
     const Grid grid = grid_of(verb.vary);
     if (!verb.svg.empty()) need_pictured(grid);
-    const Sweep swept = sweep(read_scene(verb.scene), grid, wishes, verb.threads);
+    const Sweep swept = sweep(scene_of(verb.scene), grid, wishes, verb.threads);
     progress.wipe();
     warn(swept.warnings);
     if (!verb.output.empty()) write_file(verb.output, as_csv(swept), {verb.scene});
@@ -60,16 +61,21 @@ int run(const SweepVerb& verb) {
 
 void add_sweep(CLI::App& app, Chosen& chosen) {
     add_scene_verb<SweepVerb>(
-        app, chosen, "sweep", "integrate from many initial states or with many parameters, a row for each", run,
-        [](CLI::App& verb, SweepVerb& options) {
-            add_run_options(verb, options);
+        app, chosen,
+        {.name = "sweep",
+         .about = "integrates from many initial states or with many parameters",
+         .example = "alembert sweep scenes/textbook/double_pendulum.toml --vary theta1=0:3:100"},
+        run, [](CLI::App& verb, SweepVerb& options) {
             verb.add_option("--vary", options.vary,
-                            "NAME=FROM:TO:COUNT: a coordinate, a rate (\"theta1'=0:1:10\"), a parameter, t; "
-                            "several make a grid")
+                            "COUNT values of a coordinate, a rate, a parameter or t; several make a grid")
+                ->type_name(values::range)
                 ->required();
-            verb.add_option("--threads", options.threads, "as many as there are cores where it is missing")
-                ->check(CLI::Range(1, 1024));
-            verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, a map over two");
+            add_run_options(verb, options);
+            verb.add_option("--threads", options.threads, "default: as many as there are cores")
+                ->type_name(values::count)
+                ->check(CLI::Range(1, 1024).description(""));
+            verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, maps over two")
+                ->type_name(values::file);
             add_show_option(verb, options.show, "--svg");
         });
 }

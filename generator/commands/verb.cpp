@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "formalism/formalisms.hpp"
+#include "alembert/error.hpp"
+#include "commands/values.hpp"
 
 namespace alembert {
 
@@ -20,7 +21,7 @@ CLI::Validator number(bool zero) {
             return is_right ? std::string()
                             : text + ": expected a number " + (zero ? "of zero or more" : "above zero");
         },
-        zero ? "NONNEGATIVE" : "POSITIVE");
+        "");
 }
 
 }  // namespace
@@ -33,22 +34,33 @@ CLI::Validator nonnegative_number() {
 }
 
 void add_scene_options(CLI::App& verb, SceneOptions& options) {
-    verb.add_option("scene", options.scene, "the scene, a TOML file")->required();
+    verb.add_option("scene", options.scene, "the scene, a TOML file")->type_name(values::scene)->required();
     verb.add_flag("--json", options.json, "print one JSON object");
-    verb.add_option("--by", options.by, "formalism: " + formalism_names());
+}
+
+void add_by_option(CLI::App& verb, std::string& by) {
+    verb.add_option("--by", by, "the formalism; default: the program chooses")->type_name(values::formalism);
+}
+
+CLI::App* add_verb(CLI::App& app, const VerbText& text) {
+    CLI::App* const verb = app.add_subcommand(text.name, text.about);
+    verb->footer(text.example);
+    return verb;
 }
 
 void add_reactions_option(CLI::App& verb, bool& reactions) {
-    verb.add_flag("--reactions", reactions, "the reaction of each constraint along each coordinate, lambda*df/dq");
+    verb.add_flag("--reactions", reactions, "what constraints exert along coordinates, and joints");
 }
 
 void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
-    verb.add_option("--at", at, "NAME=VALUE: a coordinate, a rate (\"theta1'=1\"), a parameter, t");
+    verb.add_option("--at", at, "sets a coordinate, a rate (\"theta1'=1\"), a parameter, t")
+        ->type_name(values::assignment);
 }
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
-    for (const auto add : {add_derive, add_agree, add_audit, add_check, add_eval, add_linearize, add_inverse,
-                           add_impact, add_emit, add_import, add_simulate, add_sweep, add_bench})
+    for (const auto add :
+         {add_derive, add_agree, add_audit, add_check, add_eval, add_linearize, add_inverse, add_impact, add_emit,
+          add_import, add_simulate, add_sweep, add_bench, add_completion, add_manual})
         add(app, chosen);
 }
 

@@ -48,6 +48,8 @@ void add_inverse(CLI::App& app, Chosen& chosen);
 void add_linearize(CLI::App& app, Chosen& chosen);
 void add_simulate(CLI::App& app, Chosen& chosen);
 void add_sweep(CLI::App& app, Chosen& chosen);
+void add_completion(CLI::App& app, Chosen& chosen);
+void add_manual(CLI::App& app, Chosen& chosen);
 
 /// All of them, in the order in which --help shows them.
 void add_verbs(CLI::App& app, Chosen& chosen);
@@ -65,15 +67,24 @@ void add_reactions_option(CLI::App& verb, bool& reactions);
 /// --at, of the verbs that look at one state.
 void add_at_option(CLI::App& verb, std::vector<std::string>& at);
 
+/// --by, of the verbs in which the formalism makes a difference.
+void add_by_option(CLI::App& verb, std::string& by);
+
 void add_scene_options(CLI::App& verb, SceneOptions& options);
+
+/// What `--help` says of a verb. The example is a command line that works in the folder of the repository.
+struct VerbText {
+    const char *name, *about, *example;
+};
+CLI::App* add_verb(CLI::App& app, const VerbText& text);
 
 /// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run`
 /// does the work and gives the exit code.
 template <typename Options>
-void add_scene_verb(CLI::App& app, Chosen& chosen, const char* name, const char* about, int (*run)(const Options&),
+void add_scene_verb(CLI::App& app, Chosen& chosen, const VerbText& text, int (*run)(const Options&),
                     const std::function<void(CLI::App&, Options&)>& more = {}) {
     const auto options = std::make_shared<Options>();
-    CLI::App* const verb = app.add_subcommand(name, about);
+    CLI::App* const verb = add_verb(app, text);
     add_scene_options(*verb, *options);
     if (more) more(*verb, *options);
     verb->callback([options, run, &chosen] {

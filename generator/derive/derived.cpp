@@ -101,8 +101,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
     for (const int k : redundant)
-        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k]))
-            d.warnings.push_back(*std::move(warning));
+        if (auto warning = warning_of_redundancy(d, d.mechanism.constraints[k])) d.warn(*std::move(warning));
     d.mechanism = without_constraints(std::move(d.mechanism), redundant);
     refuse_contradiction(d.mechanism);
     if (options.reactions) d.reaction_outputs = add_reactions(d.mechanism);
@@ -111,7 +110,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
-        d.warnings.emplace_back(
+        d.warn(
             "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
             "others at "
             "every pose, and numbers lose accuracy near such poses; give the scene generalized speeds, "

@@ -73,7 +73,7 @@ std::string described(const std::vector<std::string>& names, const std::vector<Q
     return result + line;
 }
 
-std::string counted(int count, const std::string& noun) {
+std::string counted(long count, const std::string& noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 

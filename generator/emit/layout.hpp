@@ -25,6 +25,6 @@ std::string quoted(const std::vector<std::string>& names);
 std::string described(const std::vector<std::string>& names, const std::vector<Quantity>& quantities);
 
 /// "1 division", "2 divisions".
-std::string counted(int count, const std::string& noun);
+std::string counted(long count, const std::string& noun);
 
 }  // namespace alembert

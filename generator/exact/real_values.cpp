@@ -213,13 +213,7 @@ std::string text_of(const numeric& value) {
         stream << value;
         return stream.str();
     }
-    const long former = GiNaC::Digits;
-    GiNaC::Digits = 30;
-    stream << GiNaC::ex_to<numeric>(GiNaC::ex(value).evalf());
-    GiNaC::Digits = former;
-    std::string text = stream.str();
-    std::replace(text.begin(), text.end(), 'E', 'e');
-    return text;
+    return fmt::format("{:.17g}", value.to_double());  // as many digits as determine a double
 }
 
 std::string text_of(const RealState& state, const Key& key) {

@@ -16,6 +16,8 @@
 #include "formalism/routh.hpp"
 #include "formalism/routhian.hpp"
 #include "formalism/schiehlen.hpp"
+#include "scene/scene.hpp"
+#include "scene/text.hpp"
 
 namespace alembert {
 
@@ -102,8 +104,12 @@ std::string formalism_names() {
 const Formalism& formalism(const std::string& name) {
     for (const Formalism& f : formalisms())
         if (f.name == name) return f;
-    throw ModelError(
-        fmt::format("the formalism '{}' is not supported; expected one of: {}", name, formalism_names()));
+    std::vector<std::string> names;
+    for (const Formalism& f : formalisms()) names.push_back(f.name);
+    const std::string meant = nearest(name, names);
+    throw ModelError(fmt::format("there is no formalism {}{}; expected one of: {}", in_quotes(name),
+                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
+                                 formalism_names()));
 }
 
 }  // namespace alembert

@@ -11,6 +11,7 @@
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "model/geometry.hpp"
+#include "program/rounding.hpp"
 
 namespace alembert {
 
@@ -181,11 +182,14 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     return result;
 }
 
-std::vector<JointLoad> JointReactions::at(const Program& solved, const State<double>& state) const {
-    State<double> whole = state;
-    std::vector<double> value = interpret(solved, whole);
+namespace {
+
+/// Values of the program of reactions at a state, with q'' and the multipliers that `solved` gives there.
+template <typename Real>
+std::vector<Real> values_at(const JointReactions& r, const Program& solved, State<Real> whole) {
+    std::vector<Real> value = interpret(solved, whole);
     const auto group = [&](Group name) {
-        std::vector<double> numbers;
+        std::vector<Real> numbers;
         for (const int id : solved.nodes_of(name)) numbers.push_back(value[id]);
         return numbers;
     };
@@ -195,19 +199,33 @@ std::vector<JointLoad> JointReactions::at(const Program& solved, const State<dou
         whole.qdot = group(Group::rate);
         whole.qddot = group(Group::second_rate);
     }
-    whole.unknown.assign(multipliers.size(), 0);
+    whole.unknown.assign(r.multipliers.size(), 0);
     for (const Root& root : solved.roots) {
         if (root.group != Group::multiplier) continue;
-        const auto found = std::lower_bound(multipliers.begin(), multipliers.end(), root.name);
-        if (found != multipliers.end() && *found == root.name)
-            whole.unknown[static_cast<std::size_t>(found - multipliers.begin())] = value[root.node];
+        const auto found = std::lower_bound(r.multipliers.begin(), r.multipliers.end(), root.name);
+        if (found != r.multipliers.end() && *found == root.name)
+            whole.unknown[static_cast<std::size_t>(found - r.multipliers.begin())] = value[root.node];
     }
-    const std::vector<double> here = interpret(program, whole);
-    const std::vector<int> force = program.nodes_of(Group::force), moment = program.nodes_of(Group::moment);
+    return interpret(r.program, whole);
+}
+
+std::vector<JointLoad> loads_of(const JointReactions& r, const std::vector<double>& value) {
+    const std::vector<int> force = r.program.nodes_of(Group::force), moment = r.program.nodes_of(Group::moment);
     std::vector<JointLoad> result;
-    for (std::size_t k = 0; k < joints.size(); ++k)
-        result.push_back({joints[k], three(here, force, k), three(here, moment, k)});
+    for (std::size_t k = 0; k < r.joints.size(); ++k)
+        result.push_back({r.joints[k], three(value, force, k), three(value, moment, k)});
     return result;
+}
+
+}  // namespace
+
+std::vector<JointLoad> JointReactions::at(const Program& solved, const State<double>& state) const {
+    return loads_of(*this, values_at(*this, solved, state));
+}
+
+std::vector<JointLoad> JointReactions::without_rounding(const Program& solved, const State<double>& state) const {
+    return loads_of(*this, alembert::without_rounding(values_at(*this, solved, state),
+                                                      values_at(*this, solved, in_long_double(state))));
 }
 
 }  // namespace alembert

@@ -45,6 +45,9 @@ struct JointReactions {
 
     /// `program` gives q'' and the multipliers at the state that it counts by.
     std::vector<JointLoad> at(const Program& program, const State<double>& state) const;
+
+    /// The same, with 0 for what is rounding alone (rounding.hpp).
+    std::vector<JointLoad> without_rounding(const Program& program, const State<double>& state) const;
 };
 
 /// Throws what `build` throws for the scene that has been cut, and ModelError where a Lagrangian is given.

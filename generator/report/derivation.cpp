@@ -57,6 +57,15 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     return blocks;
 }
 
+/// "The equation of x has been divided by m*l." or, where that is 1/6, "… multiplied by 6."
+std::string scaling(const Phrase& row, const Phrase& divisor, const Notation& n) {
+    const bool is_fraction = divisor.kind == Phrase::Kind::quotient && divisor.args[0].is_number(1);
+    const bool is_part = divisor.kind == Phrase::Kind::number && divisor.value < 1;
+    const Phrase factor = is_fraction ? divisor.args[1] : is_part ? phrases::number(1 / divisor.value) : divisor;
+    return fmt::format("The equation of {} has been {} by {}.", n.inline_phrase(row),
+                       is_fraction || is_part ? "multiplied" : "divided", n.inline_phrase(factor));
+}
+
 }  // namespace
 
 Json as_json(const DerivedScene& d) {
@@ -175,10 +184,7 @@ std::string as_page(const DerivedScene& d, const PageOptions& options) {
     }
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
-            blocks.push_back(
-                {fmt::format("The equation of {} has been divided by {}.", n.inline_phrase(shown.rows[i]),
-                             n.inline_phrase(*shown.equations[i].divided_by)),
-                 {}});
+            blocks.push_back({scaling(shown.rows[i], *shown.equations[i].divided_by, n), {}});
     return n.page(blocks);
 }
 

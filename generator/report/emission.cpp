@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "report/emission.hpp"
 
+#include "emit/layout.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -29,16 +30,16 @@ Json as_json(const Emission& e, const std::string& path) {
 std::string as_text(const Emission& e, const std::string& path) {
     const Operations& count = e.source.operations;
     std::string page;
-    put(page,
-        "{}\n{}; {} operations a right-hand side ({} additions, {} multiplications, {} divisions, {} functions)\n",
-        path, e.source.formulation, count.total(), count.additions, count.multiplications, count.divisions,
-        count.functions);
+    put(page, "{}\n{}; {} a right-hand side ({}, {}, {}, {})\n", path, e.source.formulation,
+        counted(count.total(), "operation"), counted(count.additions, "addition"),
+        counted(count.multiplications, "multiplication"), counted(count.divisions, "division"),
+        counted(count.functions, "function"));
     if (e.derivatives)
-        put(page, "the Jacobian takes {} operations ({})\n", e.derivatives->operations.total(),
+        put(page, "the Jacobian takes {} ({})\n", counted(e.derivatives->operations.total(), "operation"),
             e.derivatives->route);
     if (e.choice.runner_up)
-        put(page, "next best: {}, {} operations\n", e.choice.runner_up->formulation,
-            e.choice.runner_up->cost.operations);
+        put(page, "next best: {}, {}\n", e.choice.runner_up->formulation,
+            counted(e.choice.runner_up->cost.operations, "operation"));
     if (!e.mechanism.unilateral.empty())
         page +=
             "this is the motion while all gaps are open; simulate emits the other contact modes as it meets "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "emit/layout.hpp"
 #include "report/page.hpp"
 
 namespace alembert {
@@ -105,11 +106,19 @@ std::string warning_of(const Run& run) {
     return run.doubts.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
 }
 
+/// " of 67 operations"; nothing where all accelerations are constants.
+std::string of_operations(const Run& run) {
+    const int count = run.solver.operations;
+    if (count == 0) return "";
+    const bool varies = run.motion.phases.size() > 1 && !run.contacts.empty();
+    return fmt::format(" of {}{}", varies ? "at most " : "", counted(count, "operation"));
+}
+
 /// The method, the end of the motion and who was in contact then.
 void add_motion(std::string& page, const Run& run) {
     const Statistics& s = run.motion.statistics;
-    put(page, "{} with {}: {} steps, {} rejected, {} evaluations of {} operations\n", run.solver.formulation,
-        s.method, s.steps, s.rejected, s.evaluations, run.solver.operations);
+    put(page, "{} with {}: {}, {} rejected, {}{}\n", run.solver.formulation, s.method, counted(s.steps, "step"),
+        s.rejected, counted(s.evaluations, "evaluation"), of_operations(run));
     if (!run.why_method.empty()) put(page, "{}: {}\n", s.method, run.why_method);
     if (s.switched) put(page, "{}\n", described(*s.switched));
     if (run.solver.jacobian_operations)

@@ -9,6 +9,7 @@
 #include "alembert/error.hpp"
 #include "contact/contacts.hpp"
 #include "lower/lower.hpp"
+#include "program/rounding.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
 
@@ -50,6 +51,16 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     const std::vector<int> closed = contacts_at_rest(view, state, closed_gap).closed;
     if (!closed.empty()) d = derived_again(d, with_closed(d.mechanism, closed), "routh");
     return closed;
+}
+
+/// `value` with 0 for what is rounding alone; accelerations are calculated anew in more bits too.
+std::vector<double> reactions_without_rounding(const Program& program, const State<double>& state,
+                                               const std::vector<double>& value) {
+    State<long double> wide = in_long_double(state);
+    const std::vector<long double> first = interpret(program, wide);
+    wide.qddot.clear();
+    for (const int id : program.nodes_of(Group::acceleration)) wide.qddot.push_back(first[id]);
+    return without_rounding(value, interpret(program, wide));
 }
 
 }  // namespace
@@ -94,9 +105,12 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         e.residuals.push_back({m.constraints[k].name, {position[k], velocity[k]}});
     e.outputs = named_values(program, value, Group::output);
     if (options.reactions) {
-        for (const ReactionOutput& r : e.reaction_outputs)
+        const std::vector<double> plain = reactions_without_rounding(program, state, value);
+        for (const ReactionOutput& r : e.reaction_outputs) {
+            e.outputs[r.output].second = plain[program.nodes_of(Group::output)[r.output]];
             e.reactions.push_back({r.constraint, r.coordinate, e.outputs[r.output].second});
-        if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).at(program, state);
+        }
+        if (!m.joints.empty()) e.joint_loads = joint_reactions(e.scene, m).without_rounding(program, state);
     }
     return e;
 }

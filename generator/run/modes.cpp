@@ -84,6 +84,12 @@ void Modes::take_free(Program program) {
     free_ = std::move(program);
 }
 
+int Modes::operations() const {
+    int most = 0;
+    for (const auto& [closed, mode] : loaded_) most = std::max(most, mode->source.operations.total());
+    return most;
+}
+
 void Modes::forget() {
     for (auto& entry : loaded_) entry.second->projection.forget();
 }

@@ -65,6 +65,9 @@ public:
     /// Takes the program of the mode {} from one who has it.
     void take_free(Program program);
 
+    /// Of one right-hand side: the largest of the modes that have been asked for.
+    int operations() const;
+
     /// Before another run (Projection::forget).
     void forget();
 

@@ -187,7 +187,7 @@ private:
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;
         run_.solver = {.formulation = free.source.formulation,
-                       .operations = free.source.operations.total(),
+                       .operations = modes.operations(),
                        .jacobian_operations = free.jacobian_operations,
                        .from_cache = free.from_cache};
         for (const Quantity& q : free.program.coordinates) run_.coordinates.push_back(q.name);
@@ -233,7 +233,7 @@ private:
 Run simulate(Scene scene, const RunOptions& wishes) {
     Run result{derived(std::move(scene), {.by = wishes.by, .use = Use::run, .reactions = wishes.reactions})};
     if (!result.mechanism.impulses.empty())
-        result.warnings.push_back(
+        result.warn(
             fmt::format("{}: the motion starts with the rates before the scene's impulses; 'alembert impact' "
                         "gives those after\n",
                         result.scene.file));

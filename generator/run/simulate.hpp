@@ -38,7 +38,7 @@ struct Timings {
 /// What was made to run.
 struct Solver {
     std::string formulation;                 ///< formalism and form, for people
-    int operations = 0;                      ///< of one right-hand side
+    int operations = 0;                      ///< of one right-hand side, the largest of all contact modes
     std::optional<int> jacobian_operations;  ///< where it is emitted
     bool from_cache = false;
 };

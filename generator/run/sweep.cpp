@@ -88,7 +88,7 @@ void check_bodies_along(Sweep& s) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s.scene, {one});
-            if (told.insert(one.place).second) s.warnings.push_back(describe(s.scene, {one}));
+            if (told.insert(one.place).second) s.warn(describe(s.scene, {one}));
         }
     }
 }
@@ -197,7 +197,7 @@ Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes, int threads
     const Mechanism& m = s.mechanism;
     need_smooth_motion(m);
     if (!m.impulses.empty())
-        s.warnings.push_back(
+        s.warn(
             fmt::format("{}: the motions start with the rates before the scene's impulses; 'alembert impact' "
                         "gives those after\n",
                         s.scene.file));

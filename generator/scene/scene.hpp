@@ -10,6 +10,7 @@
 /// know without algebra (a negative mass at the scene's values, a singular system) is the model's to say.
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -257,6 +258,9 @@ struct Scene {
     Simulation simulation;
     std::vector<Claim> claims;
     std::vector<Diagnostic> warnings;
+    /// Told each warning, of the reader and of all later stages, as soon as it is found: it is not lost where an
+    /// error follows. Where it is empty, warnings are kept with the results.
+    std::function<void(const std::string&)> on_warning = {};
 };
 
 /// Reads and checks a scene. Throws SceneError with every mistake found, or if the file cannot be read.

@@ -15,12 +15,18 @@ std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mecha
     return {describe(scene, warnings)};
 }
 
+void Prepared::warn(std::string warning) {
+    if (scene.on_warning)
+        scene.on_warning(warning);
+    else
+        warnings.push_back(std::move(warning));
+}
+
 Prepared prepared(Scene scene, const Overrides& at) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
-    if (!result.scene.warnings.empty()) result.warnings.push_back(describe(result.scene, result.scene.warnings));
+    if (!result.scene.warnings.empty()) result.warn(describe(result.scene, result.scene.warnings));
     result.mechanism = build(result.scene);
-    for (std::string& warning : check_bodies(result.scene, result.mechanism, at))
-        result.warnings.push_back(std::move(warning));
+    for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warn(std::move(warning));
     return result;
 }
 

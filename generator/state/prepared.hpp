@@ -23,6 +23,9 @@ struct Prepared {
     Scene scene;
     Mechanism mechanism;
     std::vector<std::string> warnings;  ///< lines for a person, each ending with a line break
+
+    /// Tells it at once, or keeps it in `warnings` (Scene::on_warning).
+    void warn(std::string warning);
 };
 
 /// Builds the mechanism and checks the bodies at the scene's values with those of `at` in their place. A moment of

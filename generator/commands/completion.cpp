@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Completion scripts, written from the tree of verbs and options. What options take, values.hpp says. Names are
+// those of the program alone: letters, digits and hyphens. Descriptions are quoted.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "alembert/error.hpp"
+#include "commands/help.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "commands/verb.hpp"
+#include "report/page.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Files = ValueKind::Files;
+
+std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
+    return app.get_subcommands({});
+}
+
+std::string names_of(const CLI::App& app) {
+    std::string names;
+    for (const CLI::App* verb : verbs_of(app)) names += (names.empty() ? "" : " ") + verb->get_name();
+    return names;
+}
+
+/// What a positional argument or an option takes; of VERB the verbs themselves.
+ValueKind kind_of(const std::string& value, const CLI::App& app) {
+    if (value == values::verb) {
+        ValueKind kind{.name = value};
+        for (const CLI::App* verb : verbs_of(app)) kind.words.push_back(verb->get_name());
+        return kind;
+    }
+    const ValueKind* const known = value_kind(value);
+    return known == nullptr ? ValueKind{.name = value} : *known;
+}
+
+std::string bash_reply(const ValueKind& kind) {
+    if (!kind.words.empty())
+        return fmt::format("mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$cur\")", fmt::join(kind.words, " "));
+    switch (kind.files) {
+        case Files::any:
+            return "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$cur\")";
+        case Files::folders:
+            return "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -d -- \"$cur\")";
+        case Files::ending:
+            return fmt::format(
+                "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -X '!*.{}' -- \"$cur\"; "
+                "compgen -d -- \"$cur\")",
+                kind.ending);
+        default:
+            return ":";
+    }
+}
+
+std::string bash(const CLI::App& app) {
+    std::string options, positions, all;
+    for (const CLI::App* verb : verbs_of(app)) {
+        std::string names;
+        int position = 0;
+        for (const OptionText& option : options_of(*verb)) {
+            if (option.positional) {
+                put(positions, "        {}.{}) {} ;;\n", verb->get_name(), position++,
+                    bash_reply(kind_of(option.names[0], app)));
+                continue;
+            }
+            for (const std::string& name : option.names) {
+                names += (names.empty() ? "" : " ") + name;
+                if (!option.value.empty())
+                    put(options, "        {}.{}) {}; return ;;\n", verb->get_name(), name,
+                        bash_reply(kind_of(option.value, app)));
+            }
+        }
+        put(all, "            {}) words='{}' ;;\n", verb->get_name(), names);
+    }
+    return fmt::format(R"(# Completion of alembert for bash, written by 'alembert completion bash'.
+_alembert() {{
+    local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD - 1]}} verb='' words='' position=-1 i
+    COMPREPLY=()
+    for ((i = 1; i < COMP_CWORD; ++i)); do
+        case ${{COMP_WORDS[i]}} in
+            -*) ;;
+            *) [ -n "$verb" ] && ((++position)) || verb=${{COMP_WORDS[i]}} ;;
+        esac
+    done
+    if [ -z "$verb" ]; then
+        mapfile -t COMPREPLY < <(compgen -W '{} --help --version' -- "$cur")
+        return
+    fi
+    case $verb.$prev in
+{}    esac
+    if [[ $cur == -* ]]; then
+        case $verb in
+{}        esac
+        mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
+        return
+    fi
+    case $verb.$((position < 0 ? 0 : position + 1)) in
+{}    esac
+}}
+complete -F _alembert alembert
+)",
+                       names_of(app), options, all, positions);
+}
+
+/// In single quotes of a shell.
+std::string quoted(std::string text) {
+    for (std::size_t at = text.find('\''); at != std::string::npos; at = text.find('\'', at + 4))
+        text.replace(at, 1, "'\\''");
+    return "'" + text + "'";
+}
+
+/// A description inside a specification of _arguments.
+std::string zsh_escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result;
+}
+
+std::string zsh_action(const ValueKind& kind) {
+    if (!kind.words.empty()) return fmt::format(":{}:({})", kind.name, fmt::join(kind.words, " "));
+    switch (kind.files) {
+        case Files::any:
+            return fmt::format(":{}:_files", kind.name);
+        case Files::folders:
+            return fmt::format(":{}:_files -/", kind.name);
+        case Files::ending:
+            return fmt::format(":{}:_files -g \"*.{}\"", kind.name, kind.ending);
+        default:
+            return fmt::format(":{}: ", zsh_escaped(kind.name));
+    }
+}
+
+std::string zsh(const CLI::App& app) {
+    std::string described, cases;
+    for (const CLI::App* verb : verbs_of(app)) {
+        put(described, "        {}\n", quoted(verb->get_name() + ":" + zsh_escaped(verb->get_description())));
+        put(cases, "        {})\n            _arguments", verb->get_name());
+        for (const OptionText& option : options_of(*verb)) {
+            if (option.positional) {
+                put(cases, " \\\n                {}",
+                    quoted((option.required ? "" : ":") + zsh_action(kind_of(option.names[0], app))));
+                continue;
+            }
+            for (const std::string& name : option.names)
+                put(cases, " \\\n                {}",
+                    quoted(fmt::format("{}{}[{}]{}", option.repeated ? "*" : "", name, zsh_escaped(option.about),
+                                       option.value.empty() ? "" : zsh_action(kind_of(option.value, app)))));
+        }
+        cases += "\n            ;;\n";
+    }
+    return fmt::format(R"(#compdef alembert
+# Completion of alembert for zsh, written by 'alembert completion zsh'.
+_alembert() {{
+    local -a verbs=(
+{}    )
+    if ((CURRENT == 2)); then
+        _describe verb verbs
+        return
+    fi
+    local verb=$words[2]
+    shift words
+    ((CURRENT--))
+    case $verb in
+{}    esac
+}}
+if [ "$funcstack[1]" = _alembert ]; then _alembert "$@"; else compdef _alembert alembert; fi
+)",
+                       described, cases);
+}
+
+std::string fish_arguments(const ValueKind& kind) {
+    if (!kind.words.empty()) return fmt::format(" -a {}", quoted(fmt::format("{}", fmt::join(kind.words, " "))));
+    switch (kind.files) {
+        case Files::any:
+            return " -F";
+        case Files::folders:
+            return " -a '(__fish_complete_directories)'";
+        case Files::ending:
+            return fmt::format(" -k -a '(__fish_complete_suffix .{})'", kind.ending);
+        default:
+            return "";
+    }
+}
+
+std::string fish(const CLI::App& app) {
+    std::string text =
+        "# Completion of alembert for fish, written by 'alembert completion fish'.\ncomplete -c alembert -f\n";
+    for (const CLI::App* verb : verbs_of(app))
+        put(text, "complete -c alembert -n __fish_use_subcommand -a {} -d {}\n", verb->get_name(),
+            quoted(verb->get_description()));
+    for (const CLI::App* verb : verbs_of(app)) {
+        const std::string start =
+            fmt::format("complete -c alembert -n '__fish_seen_subcommand_from {}'", verb->get_name());
+        for (const OptionText& option : options_of(*verb)) {
+            const ValueKind kind = kind_of(option.positional ? option.names[0] : option.value, app);
+            if (option.positional) {
+                if (const std::string arguments = fish_arguments(kind); !arguments.empty())
+                    put(text, "{}{}\n", start, arguments);
+                continue;
+            }
+            text += start;
+            for (const std::string& name : option.names)
+                text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+            if (!option.value.empty()) text += " -r" + fish_arguments(kind);
+            put(text, " -d {}\n", quoted(option.about));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app, Chosen& chosen) {
+    const auto shell = std::make_shared<std::string>();
+    CLI::App* const verb =
+        add_verb(app, {.name = "completion",
+                       .about = "prints a script with which a shell completes alembert's commands",
+                       .example = "alembert completion bash > alembert.bash"});
+    verb->add_option("shell", *shell, "bash, zsh or fish")->type_name(values::shell)->required();
+    verb->callback([shell, &app, &chosen] {
+        chosen = {"completion", [shell, &app] {
+                      if (*shell == "bash")
+                          show(bash(app));
+                      else if (*shell == "zsh")
+                          show(zsh(app));
+                      else if (*shell == "fish")
+                          show(fish(app));
+                      else
+                          throw ModelError(fmt::format("'{}': expected bash, zsh or fish", *shell));
+                      return 0;
+                  }};
+    });
+}
+
+}  // namespace alembert

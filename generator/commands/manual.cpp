@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Pages of the manual in roff (man(7)), written from the tree of verbs and options.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "alembert/error.hpp"
+#include "commands/help.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "commands/verb.hpp"
+#include "report/page.hpp"
+#include "scene/scene.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// Text as roff prints it: backslashes and hyphens are themselves, and no line is a request.
+std::string roff(const std::string& text) {
+    std::string result;
+    if (!text.empty() && (text[0] == '.' || text[0] == '\'')) result = "\\&";
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\')
+            result += "\\e";
+        else if (text[i] == '-')
+            result += "\\-";
+        else if (text[i] == '\'')
+            result += "\\(aq";
+        else if (text.compare(i, 3, "…") == 0)
+            result += "...", i += 2;
+        else
+            result += text[i];
+    }
+    return result;
+}
+
+std::string bold(const std::string& text) {
+    return "\\fB" + roff(text) + "\\fR";
+}
+std::string italic(const std::string& text) {
+    return "\\fI" + roff(text) + "\\fR";
+}
+
+std::string page_name(const CLI::App& app) {
+    return app.get_parent() == nullptr ? "alembert" : "alembert-" + app.get_name();
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+void begin(std::string& page, const CLI::App& app, const std::string& about) {
+    put(page, ".TH {} 1 \"\" \"alembert {}\" \"User Commands\"\n", upper(page_name(app)), ALEMBERT_VERSION);
+    put(page, ".SH NAME\n{} \\- {}\n", roff(page_name(app)), roff(about));
+}
+
+void add_option(std::string& page, const OptionText& option) {
+    std::string names;
+    for (const std::string& name : option.names)
+        names += (names.empty() ? "" : ", ") + (option.positional ? italic(name) : bold(name));
+    if (!option.value.empty()) names += " " + italic(option.value + (option.repeated ? "…" : ""));
+    put(page, ".TP\n{}\n{}.\n", names, roff(option.about));
+}
+
+void end(std::string& page, const CLI::App& app, const std::string& also) {
+    page += ".SH EXIT STATUS\n";
+    for (const auto& [code, meaning] : exit_codes()) put(page, ".TP\n{}\n{}.\n", code, roff(meaning));
+    page +=
+        ".SH ENVIRONMENT\n.TP\n.B CXX\nThe C++ compiler of motions; g++ or clang++ where it is not set.\n"
+        ".TP\n.B XDG_CACHE_HOME\nCompiled solvers are kept in its folder alembert, or in ~/.cache/alembert.\n"
+        ".TP\n.B NO_COLOR\nWhere it is set and not empty, nothing is colored.\n";
+    put(page, ".SH EXAMPLES\n.EX\n{}\n.EE\n", roff(app.get_footer()));
+    put(page, ".SH SEE ALSO\n{}\n", also);
+}
+
+std::string page_of_verb(const CLI::App& verb) {
+    std::string page;
+    begin(page, verb, verb.get_description());
+    put(page, ".SH SYNOPSIS\n{}\n.SH DESCRIPTION\n", bold(usage_of(verb)));
+    put(page, "{}.\nThe reference is docs/commands.md of the documentation.\n.SH OPTIONS\n",
+        roff(verb.get_description()));
+    for (const OptionText& option : options_of(verb)) add_option(page, option);
+    for (const OptionText& option : options_of(verb)) {
+        const ValueKind* const kind = value_kind(option.value);
+        if (kind != nullptr && !kind->plural.empty())
+            put(page, ".SH {}\n{}.\n", upper(kind->plural), roff(fmt::format("{}", fmt::join(kind->words, ", "))));
+    }
+    end(page, verb, ".BR alembert (1)");
+    return page;
+}
+
+std::string page_of_program(const CLI::App& app) {
+    std::string page, also;
+    begin(page, app, "derives, proves, emits and integrates equations of motion");
+    put(page, ".SH SYNOPSIS\n{} {} [{} ...]\n.SH DESCRIPTION\n{}\n", bold("alembert"), italic("VERB"),
+        italic("OPTION"), roff(app.get_description()));
+    page += ".SH VERBS\n";
+    for (const CLI::App* verb : app.get_subcommands({})) {
+        put(page, ".TP\n{}\n{}.\n", bold(verb->get_name()), roff(verb->get_description()));
+        put(also, "{}.BR {} (1)", also.empty() ? "" : ",\n", roff(page_name(*verb)));
+    }
+    end(page, app, also);
+    return page;
+}
+
+}  // namespace
+
+void add_manual(CLI::App& app, Chosen& chosen) {
+    const auto name = std::make_shared<std::string>();
+    CLI::App* const verb = add_verb(app, {.name = "man",
+                                          .about = "prints a page of the manual, of the program or of a verb",
+                                          .example = "alembert man simulate | man -l -"});
+    verb->add_option("verb", *name, "whose page; without it that of the program")->type_name(values::verb);
+    verb->callback([name, &app, &chosen] {
+        chosen = {"man", [name, &app] {
+                      if (name->empty()) return show(page_of_program(app)), 0;
+                      std::vector<std::string> known;
+                      for (const CLI::App* one : app.get_subcommands({})) {
+                          if (one->get_name() == *name) return show(page_of_verb(*one)), 0;
+                          known.push_back(one->get_name());
+                      }
+                      throw ModelError(fmt::format("there is no verb '{}'; expected one of: {}", *name,
+                                                   fmt::join(known, ", ")));
+                  }};
+    });
+}
+
+}  // namespace alembert

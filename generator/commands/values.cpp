@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/values.hpp"
+
+#include <algorithm>
+
+#include "alembert/integrate.hpp"
+#include "formalism/formalisms.hpp"
+
+namespace alembert {
+
+namespace {
+
+std::vector<std::string> formalism_words() {
+    std::vector<std::string> words;
+    for (const Formalism& f : formalisms()) words.push_back(f.name);
+    return words;
+}
+
+/// The integrators of the program, the choice of one, and those of SUNDIALS.
+std::vector<std::string> method_words() {
+    std::vector<std::string> words{"auto"};
+    for (const Method method : all_methods()) words.emplace_back(name(method));
+    words.insert(words.end(), {"cvode", "ida"});
+    return words;
+}
+
+std::vector<ValueKind> all_kinds() {
+    using Files = ValueKind::Files;
+    return {{.name = values::scene, .files = Files::ending, .ending = "toml"},
+            {.name = values::robot, .files = Files::ending, .ending = "urdf"},
+            {.name = values::claims, .files = Files::any},
+            {.name = values::file, .files = Files::any},
+            {.name = values::folder, .files = Files::folders},
+            {.name = values::formalism, .plural = "Formalisms", .words = formalism_words()},
+            {.name = values::method, .plural = "Methods", .words = method_words()},
+            {.name = values::format, .words = {"text", "latex", "mathml"}},
+            {.name = values::shell, .words = {"bash", "zsh", "fish"}}};
+}
+
+}  // namespace
+
+const ValueKind* value_kind(const std::string& name) {
+    static const std::vector<ValueKind> all = all_kinds();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const ValueKind& kind) { return kind.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace alembert
