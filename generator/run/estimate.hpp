@@ -5,8 +5,8 @@
 ///
 ///     const ErrorEstimate estimate = error_estimate(motion, run, options, initial, kinds);
 ///     estimate.value;          // max |y − y₂| / max(1, |y₂|) of coordinates and speeds at the end
-///     estimate.scaled;         // max |y − y₂| / (how far components of its kind move), which sees a small motion
-///     too
+///     // max |y − y₂| / (how far components of its kind move), which sees a small motion too
+///     estimate.scaled;
 ///
 /// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and
 /// the largest |u| of their speeds, in the run that moves less. No motion counts as smaller than what rounding may
