@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a person at a terminal gets: colours, lines that fit, help, completion, the manual, and what is said of mistakes
-// on the command line.
+// What a person at a terminal gets: colours, lines that fit, help, completion, the manual, and what is said of
+// mistakes on the command line.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -35,8 +35,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 /// Characters, all of which are one column wide here.
 std::size_t columns(const std::string& line) {
-    return static_cast<std::size_t>(
-        std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    return static_cast<std::size_t>(std::count_if(
+        line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 }  // namespace
@@ -56,7 +56,8 @@ TEST_CASE("terminal: verdicts and carets are in colour there, and nowhere else, 
     CHECK(run({"derive", broken}).err.find('\033') == std::string::npos);
     // Somebody else's escape sequences stay text.
     const std::string hostile = temporary("hostile.toml", "title = \"\\u001b[31mred\"\n" + pendulum);
-    CHECK(on_terminal("TERM=xterm \"$ALEMBERT\" derive \"$1\"", {hostile}, 100).find("\033[31m") == std::string::npos);
+    CHECK(on_terminal("TERM=xterm \"$ALEMBERT\" derive \"$1\"", {hostile}, 100).find("\033[31m") ==
+          std::string::npos);
 }
 
 TEST_CASE("terminal: equations are wrapped at operators to its width, and read the same as in a pipe") {
@@ -110,9 +111,12 @@ TEST_CASE("completion: bash completes verbs, options, methods and scenes") {
     const std::string folder = alembert::test::temporary_folder("completion");
     const auto completes = [&](const std::string& words, const std::string& result) {
         const auto got = run_shell(
-            "cd \"$1\" && touch some.toml other.txt && \"$ALEMBERT\" completion bash >c.bash && bash -n c.bash && bash -c '. "
-            "./c.bash; COMP_WORDS=(" + words + "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); compopt() { :; }; _alembert; "
-            "printf \"%s \" \"${COMPREPLY[@]}\"'",
+            "cd \"$1\" && touch some.toml other.txt && \"$ALEMBERT\" completion bash >c.bash && bash -n c.bash && "
+            "bash -c '. "
+            "./c.bash; COMP_WORDS=(" +
+                words +
+                "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); compopt() { :; }; _alembert; "
+                "printf \"%s \" \"${COMPREPLY[@]}\"'",
             {folder});
         INFO(got.err);
         CHECK(got.exit == 0);
@@ -127,13 +131,15 @@ TEST_CASE("completion: bash completes verbs, options, methods and scenes") {
     completes("alembert man be", "bench ");
     for (const char* const shell : {"zsh", "fish"}) {
         const auto checked = run_shell(
-            "command -v $1 >/dev/null || exit 0; \"$ALEMBERT\" completion $1 >\"$2/c\" && $1 -n \"$2/c\"", {shell, folder});
+            "command -v $1 >/dev/null || exit 0; \"$ALEMBERT\" completion $1 >\"$2/c\" && $1 -n \"$2/c\"",
+            {shell, folder});
         INFO(shell << checked.err);
         CHECK(checked.exit == 0);
     }
-    const auto fish = run_shell("command -v fish >/dev/null || { echo verlet; exit 0; }; HOME=$1 fish -c "
-                                "'\"$ALEMBERT\" completion fish | source; complete -C \"alembert simulate --method verl\"'",
-                                {folder});
+    const auto fish = run_shell(
+        "command -v fish >/dev/null || { echo verlet; exit 0; }; HOME=$1 fish -c "
+        "'\"$ALEMBERT\" completion fish | source; complete -C \"alembert simulate --method verl\"'",
+        {folder});
     CHECK(fish.out.find("verlet") != std::string::npos);
 }
 
@@ -166,7 +172,8 @@ TEST_CASE("warnings: those found before an error are told too") {
     // The inertia breaks the triangle inequality (a warning), and the formalism does not exist (an error).
     const std::string scene = temporary(
         "warned.toml",
-        "[parameters]\nJ = 1\n[coordinates]\na = 0\n[[frame]]\nname = \"B\"\nparent = \"N\"\nrotate = [\"z\", \"a\"]\n[[body]]\n"
+        "[parameters]\nJ = 1\n[coordinates]\na = 0\n[[frame]]\nname = \"B\"\nparent = \"N\"\nrotate = [\"z\", "
+        "\"a\"]\n[[body]]\n"
         "name = \"b\"\nframe = \"B\"\nmass = 1\ninertia = { xx = 1, yy = 1, zz = 5 }\nposition = [0, 0, 0]\n");
     const auto fine = run({"eval", scene});
     INFO(fine.err);
@@ -182,8 +189,9 @@ TEST_CASE("wording: numbers of one, fractions, rounding and digits read as a per
     const std::string scene = temporary("pendulum.toml", pendulum);
     CHECK(run({"emit", scene, "-o", alembert::test::temporary_folder("solver")}).out.find("1 multiplication,") !=
           std::string::npos);
-    CHECK(run({"derive", source_path("scenes/gallery/universal_double_pendulum.toml")}).out.find("divided by 1/") ==
-          std::string::npos);
+    CHECK(
+        run({"derive", source_path("scenes/gallery/universal_double_pendulum.toml")}).out.find("divided by 1/") ==
+        std::string::npos);
     const auto ball = run({"simulate", source_path("scenes/textbook/bouncing_ball.toml"), "--no-estimate"});
     CHECK(ball.out.find("of 0 operations") == std::string::npos);
     const auto rest = run({"check", scene, temporary("rest.txt", "rest\ntheta = 0\n")});

@@ -19,7 +19,7 @@ int run(const DeriveVerb& options) {
     if (options.json)
         show(as_json(d));
     else
-        show(as_page(d, options.page));
+        options.page.format == "text" ? show_formulas(as_page(d, options.page)) : show(as_page(d, options.page));
     return 0;
 }
 

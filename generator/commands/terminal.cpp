@@ -64,7 +64,8 @@ std::string marked_message(const std::string& message, const Ink& ink, const std
         if (is_caret(line))
             result += tone + std::string(line) + ink.end;
         else if (place != line.npos)
-            result += ink.strong + std::string(line.substr(0, place + 1)) + ink.end + std::string(line.substr(place + 1));
+            result += ink.strong + std::string(line.substr(0, place + 1)) + ink.end +
+                      std::string(line.substr(place + 1));
         else
             result += line;
         if (end < rest.size()) result += '\n';

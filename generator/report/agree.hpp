@@ -2,11 +2,12 @@
 #pragma once
 
 #include "agree/agree.hpp"
+#include "report/ink.hpp"
 #include "report/json.hpp"
 
 namespace alembert {
 
 Json as_json(const Agreed& agreed);
-std::string as_text(const Agreed& agreed);
+std::string as_text(const Agreed& agreed, const Ink& ink = {});
 
 }  // namespace alembert

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Marks around words that a terminal shows in colour. Views take an Ink and put its marks; the default has none, so
-/// that text for files and pipes is plain.
+/// Marks around words that a terminal shows in colour. Views take an Ink and put its marks; the default has none,
+/// so that text for files and pipes is plain.
 ///
 ///     as_text(checked, {});                // "proved     theta'' + …"
 ///     as_text(checked, terminal_ink());    // the verdict between marks, which streams.hpp turns into colours

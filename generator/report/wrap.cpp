@@ -51,8 +51,8 @@ MeasuredLine measured(std::string_view line) {
     return result;
 }
 
-/// The last one that fits, of those the least deep in parentheses and before an operator; not in the first half of the
-/// line where it can be avoided.
+/// The last one that fits, of those the least deep in parentheses and before an operator; not in the first half of
+/// the line where it can be avoided.
 std::optional<std::size_t> best(const MeasuredLine& line, int width) {
     const int half = line.indent + (width - line.indent) / 2;
     const BreakPoint* chosen = nullptr;
