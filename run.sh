@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# ./run.sh SCENE: builds alembert, then derives, emits and simulates the scene. The exit code is alembert's (5: the setup failed).
+# ./run.sh SCENE: builds alembert, then derives, emits and simulates the scene, and makes its page. The exit code is alembert's (5: the setup failed).
 set -eu
 
 if [ $# -ne 1 ]; then
@@ -34,4 +34,8 @@ printf '\n%s\n\n' "Equations of motion"
 printf '\n%s\n\n' "Files written"
 "$alembert" emit "$scene" -o "$folder"
 printf '\n%s\n\n' "Motion"
-"$alembert" simulate "$scene" -o "$folder/$name.csv"
+code=0
+"$alembert" simulate "$scene" -o "$folder/$name.csv" || code=$?  # the page shows what went wrong
+printf '\n%s\n\n' "Page (open it in a browser)"
+"$alembert" report "$scene" -o "$folder/$name.html"
+exit "$code"

@@ -69,6 +69,7 @@ every() { # SCENE
     run derive "$scene" --steps --reactions
     for format in latex mathml; do run derive "$scene" --format "$format" --steps --reactions; done
     run derive "$scene" --json --reactions
+    run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
     for verb in agree audit check eval linearize inverse impact; do run "$verb" "$scene"; done
     for verb in agree audit check linearize; do run "$verb" "$scene" --json; done
@@ -79,6 +80,7 @@ every() { # SCENE
     for method in radau taylor; do run simulate "$scene" "${short[@]}" --method "$method" --no-estimate; done
     run sweep "$scene" "${short[@]}" --vary t=0:0.1:11 --threads 2
     run sweep "$scene" "${short[@]}" --vary t=0:0.1:2 --json -o "$folder/table.csv"
+    run report "$scene" "${short[@]}" -o "$folder/page.html"
     run bench "$scene" "${short[@]}" --reference-seconds 0.1 --csv "$folder/b.csv" --svg "$folder/b.svg"
     rm -rf "$folder"
 }

@@ -234,14 +234,14 @@ Agreement agree(const std::vector<Equations>& equations, const Mechanism& m, dou
     return result;
 }
 
-Agreed agree(Scene scene) {
+Agreed agree(Scene scene, double seconds) {
     const auto start = std::chrono::steady_clock::now();
     Agreed result{prepared(std::move(scene))};
     Mechanism& m = result.mechanism;
     if (!m.speeds.empty()) m = without_constraints(std::move(m), redundant_constraints(m));
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
     result.derivations = derive_all(m);
-    result.agreement = agree(result.derivations.equations, m);
+    result.agreement = agree(result.derivations.equations, m, seconds);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

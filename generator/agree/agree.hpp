@@ -47,6 +47,6 @@ struct Agreed : Prepared {
 };
 
 /// Derives by every formalism that applies, and compares. Throws SceneError for a mistake in the scene.
-Agreed agree(Scene scene);
+Agreed agree(Scene scene, double seconds = 10);
 
 }  // namespace alembert

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/output.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "report/derivation.hpp"
+#include "report/figure.hpp"
 
 namespace alembert {
 
@@ -11,11 +13,14 @@ namespace {
 struct DeriveVerb : SceneOptions {
     PageOptions page;
     bool reactions = false;
+    std::string draw;  ///< an SVG file; empty: none
 };
 
 int run(const DeriveVerb& options) {
+    check_output(options.draw, {options.scene});
     const DerivedScene d = derive(scene_of(options.scene), {.by = options.by, .reactions = options.reactions});
     warn(d.warnings);
+    if (!options.draw.empty()) write_file(options.draw, figure_of(d.scene), {options.scene});
     if (options.json)
         show(as_json(d));
     else
@@ -37,6 +42,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                 ->type_name(values::format)
                 ->check(CLI::IsMember({"text", "latex", "mathml"}).description(""));
             verb.add_flag("--steps", options.page.steps, "also coordinates, T, V, generalized forces, own steps");
+            verb.add_option("--draw", options.draw, "SVG figure of the system")->type_name(values::file);
             add_reactions_option(verb, options.reactions);
         });
 }

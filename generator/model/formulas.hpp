@@ -23,6 +23,8 @@ public:
     GiNaC::ex value(const Expression& expression) { return translator_.scalar(expression); }
     void know(const std::string& name, const GiNaC::ex& value) { translator_.know(name, value); }
     void has_no_derivative(const GiNaC::symbol& symbol) { translator_.has_no_derivative(symbol); }
+    /// The frames and points of the scene.
+    Places& places() { return places_; }
 
 private:
     Translator translator_;

@@ -7,9 +7,7 @@
 
 namespace alembert {
 
-namespace {
-
-const char* word(Agreement::Verdict verdict) {
+const char* name_of(Agreement::Verdict verdict) {
     return std::array{"proved", "refuted", "undecided"}[static_cast<std::size_t>(verdict)];
 }
 
@@ -25,14 +23,12 @@ std::string how_it_was_proved(const Agreement& a) {
         a.points, a.failure);
 }
 
-}  // namespace
-
 Json as_json(const Agreed& agreed) {
     const Agreement& a = agreed.agreement;
     Json json;
     json["formalisms"] = Json::array();
     for (const Equations& e : agreed.derivations.equations) json["formalisms"].push_back(e.formalism);
-    json["verdict"] = word(a.verdict);
+    json["verdict"] = name_of(a.verdict);
     json["method"] = a.normal_form ? "proved" : "sampled";
     json["points"] = a.points;
     json["failure_bound_log2"] = a.failure;
@@ -50,7 +46,7 @@ std::string as_text(const Agreed& agreed, const Ink& ink) {
                                                                          : ink.unsure;
     std::string names;
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
-    std::string text = fmt::format("{}: {}{}{}\n", names, tone, word(a.verdict), ink.end);
+    std::string text = fmt::format("{}: {}{}{}\n", names, tone, name_of(a.verdict), ink.end);
     text += a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason + "\n";
     for (const auto& [name, reason] : agreed.derivations.refused)
         text += fmt::format("{} does not apply: {}\n", name, reason);

@@ -10,4 +10,9 @@ namespace alembert {
 Json as_json(const Agreed& agreed);
 std::string as_text(const Agreed& agreed, const Ink& ink = {});
 
+/// In a sentence.
+std::string how_it_was_proved(const Agreement& agreement);
+/// "proved".
+const char* name_of(Agreement::Verdict verdict);
+
 }  // namespace alembert

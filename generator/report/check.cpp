@@ -7,11 +7,24 @@
 
 namespace alembert {
 
-namespace {
-
 const char* name_of(Verdict verdict) {
     return std::array{"proved", "refuted", "undecided", "vacuous"}[static_cast<std::size_t>(verdict)];
 }
+
+std::string words_of(const Slip& slip) {
+    if (slip.kind == "sign") return "a sign: of the term " + slip.term;
+    if (slip.kind == "factor") return "a factor: in the term " + slip.term;
+    if (slip.kind == "lost_dot") return "a lost dot or square: in the term " + slip.term;
+    if (slip.kind == "missing_term") return "a term is missing: " + slip.term;
+    if (slip.kind == "extra_term") return "a term too many: " + slip.term;
+    if (slip.kind == "swapped_trig") return "sine and cosine exchanged: in the term " + slip.term;
+    if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
+    if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
+    if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
+    return "unknown";
+}
+
+namespace {
 
 Json json_of(const Claim& claim, const CheckedClaim& checked) {
     Json json;
@@ -36,19 +49,6 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     }
     if (!checked.reason.empty()) json["reason"] = checked.reason;
     return json;
-}
-
-std::string words_of(const Slip& slip) {
-    if (slip.kind == "sign") return "a sign: of the term " + slip.term;
-    if (slip.kind == "factor") return "a factor: in the term " + slip.term;
-    if (slip.kind == "lost_dot") return "a lost dot or square: in the term " + slip.term;
-    if (slip.kind == "missing_term") return "a term is missing: " + slip.term;
-    if (slip.kind == "extra_term") return "a term too many: " + slip.term;
-    if (slip.kind == "swapped_trig") return "sine and cosine exchanged: in the term " + slip.term;
-    if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
-    if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
-    if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
-    return "unknown";
 }
 
 std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {

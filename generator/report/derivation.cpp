@@ -113,22 +113,20 @@ Json as_json(const DerivedScene& d) {
     return result;
 }
 
-std::string as_page(const DerivedScene& d, const PageOptions& options) {
+std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with_steps) {
     const Derivation& shown = d.shown;
-    const Notation n = notation_of(options.format);
     std::vector<Block> blocks;
-    if (options.format == "text" && !d.scene.title.empty()) blocks.push_back({d.scene.title, {}});
     if (!shown.definitions.empty()) {
         blocks.push_back({"The equations are beyond the readable size; intermediate symbols:", {}});
         for (const auto& [name, value] : shown.definitions)
             blocks.back().equalities.emplace_back(n.phrase(name), n.phrase(value));
         for (const Section& section : shown.sections) {
-            if (!options.steps) break;
+            if (!with_steps) break;
             blocks.push_back({section.words, {}});
             for (const Statement& s : section.statements)
                 blocks.back().equalities.emplace_back(n.left(s), n.phrase(s.value));
         }
-    } else if (options.steps) {
+    } else if (with_steps) {
         for (Block& block : steps(shown, n)) blocks.push_back(std::move(block));
     }
     const bool free =
@@ -185,6 +183,13 @@ std::string as_page(const DerivedScene& d, const PageOptions& options) {
     for (std::size_t i = 0; i < shown.equations.size(); ++i)
         if (shown.equations[i].divided_by)
             blocks.push_back({scaling(shown.rows[i], *shown.equations[i].divided_by, n), {}});
+    return blocks;
+}
+
+std::string as_page(const DerivedScene& d, const PageOptions& options) {
+    const Notation n = notation_of(options.format);
+    std::vector<Block> blocks = blocks_of(d, n, options.steps);
+    if (options.format == "text" && !d.scene.title.empty()) blocks.insert(blocks.begin(), {d.scene.title, {}});
     return n.page(blocks);
 }
 

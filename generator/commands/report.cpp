@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "alembert/error.hpp"
+#include "commands/output.hpp"
+#include "commands/progress.hpp"
+#include "commands/run_verb.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "report/scene_page.hpp"
+
+namespace alembert {
+
+namespace {
+
+struct ReportVerb : SceneOptions {
+    std::string output;
+    RunOptions wishes{.budget = 3'000'000};
+    bool moves = true;
+};
+
+/// What the mistake is, where the scene is no mechanism; then the page shows it.
+[[noreturn]] void report_mistake(const ReportVerb& verb, const std::string& message) {
+    write_file(verb.output, error_page(verb.scene, message), {verb.scene});
+    throw;
+}
+
+int run(const ReportVerb& verb) {
+    check_output(verb.output, {verb.scene});
+    Progress progress;
+    OverviewOptions options{.by = verb.by, .wishes = verb.wishes, .moves = verb.moves};
+    options.wishes.progress = [&progress](std::string_view what, double part) { progress.at(what, part); };
+    std::optional<Overview> all;
+    try {
+        all = overview(read_scene(verb.scene), options);
+    } catch (const SceneError& mistake) {
+        report_mistake(verb, mistake.what());
+    } catch (const ModelError& mistake) {
+        report_mistake(verb, mistake.what());
+    }
+    progress.wipe();
+    warn(all->warnings);
+    write_file(verb.output, as_html(*all, {.version = ALEMBERT_VERSION, .by = verb.by}), {verb.scene});
+    if (verb.json)
+        show(Json{{"file", verb.output}});
+    else
+        show("wrote " + verb.output + "\n");
+    return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<ReportVerb>(
+        app, chosen,
+        {.name = "report",
+         .about = "writes one page with all about the scene, with a figure that moves",
+         .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
+        run, [](CLI::App& verb, ReportVerb& options) {
+            verb.add_option("-o,--output", options.output, "the page, HTML")->type_name(values::file)->required();
+            add_by_option(verb, options.by);
+            add_duration_option(verb, options.wishes);
+            verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
+                ->type_name(values::count)
+                ->check(positive_number());
+            verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
+        });
+}
+
+}  // namespace alembert

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
+
+#include "figure/parts.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr std::size_t small = 12;  // coordinates of a scene whose velocity constraints are looked into for wheels
+
+/// Nothing but energies: no mass has a place.
+bool has_geometry(const Mechanism& m) {
+    return !m.masses.empty() && !m.given_lagrangian;
+}
+
+void add_axes(Sketch& sketch) {
+    const int origin = sketch.place("O");
+    const int at = sketch.spot(origin);
+    std::vector<int> points{at};
+    for (int k = 0; k < 3; ++k) points.push_back(sketch.spot(origin, -1, Eigen::Vector3d::Unit(k)));
+    sketch.add({.kind = FigureElement::Kind::axes, .points = points, .label = "N"});
+}
+
+}  // namespace
+
+Asked asked(Sketch& sketch) {
+    Asked result;
+    const Mechanism& m = sketch.m;
+    Formulas& formulas = sketch.formulas;
+    const auto along = [&](const Link& link) {
+        return link.between ? -1 : sketch.scalar(formulas.value(link.along));
+    };
+    for (const Link& spring : sketch.scene.springs) result.spring_along.push_back(along(spring));
+    for (const Link& damper : sketch.scene.dampers) result.damper_along.push_back(along(damper));
+    const auto vector = [&](const Vector& v, const Name& axes) {
+        return sketch.track(formulas.places().along(v, axes));
+    };
+    for (const Force& f : sketch.scene.forces) result.forces.push_back(vector(f.vector, f.axes));
+    for (const Torque& t : sketch.scene.torques) result.torques.push_back(vector(t.vector, t.axes));
+    for (const Impulse& s : sketch.scene.impulses) result.impulses.push_back(vector(s.vector, s.axes));
+    for (const RollingRule& r : sketch.scene.rolling) result.contacts.push_back(vector(r.contact, r.axes));
+    for (const Mechanism::Constraint& c : m.constraints) {
+        result.constraints.push_back(c.position ? sketch.scalar(*c.position) : -1);
+        result.rows.emplace_back();
+        if (m.q.size() > small) continue;
+        for (const GiNaC::ex& entry : c.row) result.rows.back().push_back(sketch.scalar(entry));
+    }
+    for (const Mechanism::Unilateral& u : m.unilateral) result.gaps.push_back(sketch.scalar(*u.gap.position));
+    return result;
+}
+
+Drawing draw(const Scene& scene, const Mechanism& mechanism) {
+    if (!has_geometry(mechanism))
+        return {.obstacle = "The scene gives energies and no geometry, so there is no figure of it."};
+    Sketch sketch(scene, mechanism);
+    Asked tracks = asked(sketch);
+    sketch.sample();
+    spread(sketch, tracks);
+    add_bodies(sketch, tracks);
+    add_particles(sketch);
+    add_constraints(sketch, tracks);
+    add_springs(sketch, tracks);
+    add_hinges(sketch);
+    add_coordinates(sketch);
+    add_loads(sketch, tracks);
+    add_axes(sketch);
+    if (sketch.down.norm() > 0)
+        sketch.add(
+            {.kind = FigureElement::Kind::gravity, .points = {sketch.spot(sketch.gravity())}, .label = "g"});
+    return sketch.finished();
+}
+
+}  // namespace alembert

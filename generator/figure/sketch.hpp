@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The places of a scene at some states, and what they tell: which distances never change, what a body carries,
+/// what turns by which coordinate.
+///
+/// All questions are answered by numbers at random states (rates zero), with the program's own expressions: a
+/// distance is constant if it is the same at all of them. Of draw.cpp and the files beside it.
+
+#include <functional>
+#include <optional>
+
+#include "figure/drawing.hpp"
+#include "lower/start.hpp"
+#include "model/formulas.hpp"
+
+namespace alembert {
+
+/// A number of a figure as expressions need it: its first twelve digits.
+GiNaC::ex exactly(double value);
+
+class Sketch {
+public:
+    Sketch(const Scene& scene, const Mechanism& mechanism);
+
+    /// A place or a direction, as three numbers at each sampled state.
+    using Track = std::vector<Eigen::Vector3d>;
+    static constexpr int states = 6;       ///< with the scene's parameters; the first is the initial state
+    static constexpr int at_one_time = 4;  ///< the first of these are at the initial time
+
+    /// A named place of the scene.
+    struct Site {
+        enum class Of { origin, point, mass, joint } of;
+        std::string name;
+        int track;
+        int mass = -1;     ///< position in Mechanism::masses
+        std::string from;  ///< the place from which the scene gives it
+    };
+
+    /// A new place, made of expressions; its numbers are there after `sample`.
+    int track(const Vector3& value);
+    /// A new scalar, as the first component of a track.
+    int scalar(const GiNaC::ex& value) { return track({value, 0, 0}); }
+    void sample();
+
+    const Eigen::Vector3d& at(int state, int track) const { return numbers_[state][track]; }
+    bool is_finite(int track) const;
+    bool is_fixed(int track) const;
+    bool is_driven(int track) const;                     ///< moves with time alone
+    bool same(int a, int b) const;                       ///< the same place at all states
+    std::optional<double> distance(int a, int b) const;  ///< if it is constant
+    /// Is the place fixed in the body with these axes (three tracks) and this mass centre?
+    bool is_fixed_in(const std::array<int, 3>& axes, int centre, int place) const;
+    /// f = sign·g + constant at all states, f and g being functions of the state's number. Gives sign and
+    /// constant.
+    std::optional<std::pair<double, double>> shifted(const std::function<double(int)>& f,
+                                                     const std::function<double(int)>& g) const;
+    double coordinate(int state, int k) const { return at_[state].q[k]; }
+    /// The parameter that equals a distance, or half of it, whatever the parameters' values; empty if there is
+    /// none.
+    std::string name_of_length(int a, int b) const;
+    /// The value of a track at the initial state with coordinate k changed.
+    Eigen::Vector3d with(int state, int track, int k, double value) const;
+
+    /// The first site of those at the same place.
+    const Site& canonical(int track) const;
+    const Site* site(const std::string& name) const;
+    /// A site of the scene: point, mass or origin.
+    int place(const std::string& name) const { return site(name)->track; }
+
+    void add(FigureElement element) { elements.push_back(std::move(element)); }
+    int gravity() const { return gravity_; }
+    /// An index into the poses of the drawing for a track.
+    int spot(int track, int zeroed = -1, const Eigen::Vector3d& own_shift = {0, 0, 0});
+    Drawing finished();
+
+    const Scene& scene;
+    const Mechanism& m;
+    Formulas formulas;
+    Start start;
+    std::vector<Site> sites;
+    struct Frame3 {
+        std::array<int, 3> axes;
+        int centre;
+        int mass;
+        Eigen::Vector3d inertia{0, 0, 0};  ///< per unit of mass, where there is a mass
+        double weight = 0;                 ///< its mass
+        std::string name;
+    };
+    std::vector<Frame3> bodies;
+    std::vector<int> free_track;  ///< of mass centres, by the position in Mechanism::masses
+    std::vector<double> masses;   ///< numbers, by the position in Mechanism::masses
+    bool is_plane = false;
+    int normal = 2;
+    double scale = 1;  ///< the size of the figure
+    std::vector<FigureElement> elements;
+    std::vector<std::string> notes;
+    /// Tracks that are drawn away from their place: masses that move on one line, drawn apart.
+    std::vector<std::pair<int, Eigen::Vector3d>> displaced;
+    Eigen::Vector3d down{0, 0, 0};
+
+private:
+    void collect_sites();
+    void collect_masses();
+    void find_plane();
+
+    std::vector<Vector3> values_;
+    std::vector<State<double>> at_;  ///< `states`, then one with other parameters
+    std::vector<Track> numbers_;     ///< by state
+    Program program_;
+    std::vector<int> nodes_;
+    std::vector<int> mass_tracks_;
+    int gravity_ = -1;
+    std::vector<Drawing::Spot> spots_;
+    std::vector<int> spot_tracks_;
+};
+
+}  // namespace alembert

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "overview/overview.hpp"
+
+#include <algorithm>
+
+#include "lower/lower.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr int rows_shown = 480;                // of a motion
+constexpr std::size_t poses_shown = 360;       // of a figure
+constexpr std::size_t numbers_shown = 60'000;  // points times poses, so that the page stays small
+constexpr double seconds_for_agreement = 1;    // of the normal form; sampling decides beyond
+constexpr int readable_size = 10;  // coordinates up to which all formalisms are compared and constraints audited
+
+template <typename Make>
+auto attempted(const Make& make) {
+    PartOfOverview<decltype(make())> part;
+    try {
+        part.value = make();
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        part.problem = error.what();
+    }
+    return part;
+}
+
+template <typename T>
+PartOfOverview<T> left_out(const std::string& why) {
+    return {.problem = why, .was_asked = false};
+}
+
+State<double> start_state(const Mechanism& m) {
+    Start start = start_of(m);
+    try {
+        Start moved = start;
+        assemble(moved, m, lower_constraints(m), {}, false);
+        return moved.state();
+    } catch (const std::exception&) {
+        return start.state();
+    }
+}
+
+State<double> state_of_row(const Table& rows, std::size_t row, State<double> like) {
+    const std::size_t n = like.q.size();
+    like.t = rows.at(row, 0);
+    for (std::size_t k = 0; k < n; ++k) {
+        like.q[k] = rows.at(row, 1 + k);
+        like.qdot[k] = rows.at(row, 1 + n + k);
+    }
+    return like;
+}
+
+/// T and V on every row.
+void watch_energies(WatchedMotion& motion, const Mechanism& m, const State<double>& start) {
+    if (m.given_lagrangian) return;
+    Program program = begun(m);
+    const std::vector<int> nodes = lower_expressions(program, m, {m.kinetic_energy(), m.potential_energy()});
+    for (std::size_t row = 0; row < motion.run.rows.rows(); ++row) {
+        const std::vector<double> value = interpret(program, state_of_row(motion.run.rows, row, start));
+        motion.kinetic.push_back(value[nodes[0]]);
+        motion.potential.push_back(value[nodes[1]]);
+    }
+}
+
+void watch_constraints(WatchedMotion& motion, const Mechanism& m, const State<double>& start) {
+    if (m.constraints.empty()) return;
+    const Program program = lower_constraints(m);
+    const std::vector<int> position = program.nodes_of(Group::position),
+                           velocity = program.nodes_of(Group::velocity);
+    for (const Mechanism::Constraint& c : m.constraints) motion.constraints.push_back(c.name);
+    motion.position.resize(position.size());
+    motion.velocity.resize(velocity.size());
+    for (std::size_t row = 0; row < motion.run.rows.rows(); ++row) {
+        const std::vector<double> value = interpret(program, state_of_row(motion.run.rows, row, start));
+        for (std::size_t k = 0; k < position.size(); ++k) motion.position[k].push_back(value[position[k]]);
+        for (std::size_t k = 0; k < velocity.size(); ++k) motion.velocity[k].push_back(value[velocity[k]]);
+    }
+}
+
+void pose(WatchedMotion& motion, const Drawing& drawing, const State<double>& start) {
+    const std::size_t rows = motion.run.rows.rows();
+    const std::size_t most =
+        std::clamp(numbers_shown / std::max<std::size_t>(drawing.spots.size(), 1), std::size_t{60}, poses_shown);
+    const std::size_t step = std::max<std::size_t>(1, (rows + most - 1) / most);
+    for (std::size_t row = 0; row < rows; ++row) {
+        const bool jumps = row + 1 < rows && motion.run.rows.at(row, 0) == motion.run.rows.at(row + 1, 0);
+        if (row % step != 0 && row + 1 != rows && !jumps) continue;
+        const State<double> state = state_of_row(motion.run.rows, row, start);
+        Pose pose = pose_at(drawing, state);
+        if (!std::all_of(pose.begin(), pose.end(), [](const Eigen::Vector3d& p) { return p.allFinite(); }))
+            continue;
+        motion.frames.push_back(row);
+        motion.poses.push_back(std::move(pose));
+    }
+}
+
+WatchedMotion watched(const Overview& all, const OverviewOptions& options) {
+    RunOptions wishes = options.wishes;
+    wishes.by = options.by;
+    if (wishes.sample <= 0) {
+        const double duration = wishes.duration >= 0 ? wishes.duration : start_of(all.mechanism).duration;
+        if (duration > 0) wishes.sample = duration / rows_shown;
+    }
+    WatchedMotion motion{.run = simulate(all.scene, wishes)};
+    watch_energies(motion, all.mechanism, all.start);
+    watch_constraints(motion, all.mechanism, all.start);
+    if (all.drawing.value && all.drawing.value->obstacle.empty()) pose(motion, *all.drawing.value, all.start);
+    return motion;
+}
+
+}  // namespace
+
+Overview overview(Scene scene, const OverviewOptions& options) {
+    Prepared begun = prepared(std::move(scene));
+    Overview all{.scene = std::move(begun.scene), .mechanism = std::move(begun.mechanism)};
+    all.warnings = std::move(begun.warnings);
+    all.start = start_state(all.mechanism);
+    const auto tell = [&](const char* what) {
+        if (options.wishes.progress) options.wishes.progress(what, 0);
+    };
+    const Scene& s = all.scene;
+    const bool is_readable = all.mechanism.size() <= readable_size;
+    tell("deriving");
+    all.derived = attempted([&] { return derive(s, {.by = options.by}); });
+    tell("checking claims");
+    all.checked = s.claims.empty() ? left_out<CheckedScene>("The scene makes no claims.")
+                                   : attempted([&] { return check(s, options.by); });
+    tell("comparing formalisms");
+    const std::string too_large =
+        "Left out here, as the scene is large; the program does it when asked: alembert ";
+    all.agreed = is_readable ? attempted([&] { return agree(s, seconds_for_agreement); })
+                             : left_out<Agreed>(too_large + "agree");
+    tell("auditing constraints");
+    all.audited = is_readable ? attempted([&] { return audit(s); }) : left_out<Audited>(too_large + "audit");
+    tell("drawing");
+    all.drawing = attempted([&] { return draw(s, all.mechanism); });
+    all.struck = s.impulses.empty() && s.generalized_impulses.empty()
+                     ? left_out<Struck>("The scene has no impulses.")
+                     : attempted([&] { return impact(s); });
+    all.emitted = attempted([&] { return emission(s, {.by = options.by}); });
+    all.motion = options.moves ? attempted([&] { return watched(all, options); })
+                               : left_out<WatchedMotion>("The scene was not run.");
+    return all;
+}
+
+}  // namespace alembert

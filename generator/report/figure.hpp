@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The figure of a scene at its initial state.
+
+#include <string>
+
+#include "figure/drawing.hpp"
+
+namespace alembert {
+
+/// An SVG file in the style of a textbook. Throws ModelError for a scene that has no geometry.
+std::string figure_of(const Scene& scene);
+
+/// What a drawing shows, in a sentence or two for somebody who does not see it.
+std::string description_of(const Drawing& drawing);
+
+}  // namespace alembert

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/html.hpp"
+
+#include "notation/lettering.hpp"
+#include "report/formula_page.hpp"
+#include "report/letters.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// The children of a row of MathML, an <mrow> around all of them left out.
+std::vector<std::string> children(const std::string& mathml) {
+    std::vector<std::string> parts;
+    int depth = 0;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < mathml.size(); ++i) {
+        if (mathml[i] != '<') continue;
+        const std::size_t end = mathml.find('>', i);
+        if (mathml[i + 1] == '/')
+            --depth;
+        else if (mathml[end - 1] != '/')
+            ++depth;
+        i = end;
+        if (depth != 0) continue;
+        parts.push_back(mathml.substr(begin, end + 1 - begin));
+        begin = end + 1;
+    }
+    constexpr std::string_view open = "<mrow>", close = "</mrow>";
+    if (parts.size() == 1 && parts[0].starts_with(open) && parts[0].ends_with(close))
+        return children(parts[0].substr(open.size(), parts[0].size() - open.size() - close.size()));
+    return parts;
+}
+
+bool is_sign(const std::string& element) {
+    return element == "<mo>+</mo>" || element == "<mo>&#x2212;</mo>" || element == "<mo>=</mo>";
+}
+
+}  // namespace
+
+std::string html(const std::string& text) {
+    std::string result;
+    for (const char c : xml_escaped(text))
+        if (c == '\'')
+            result += "&#39;";
+        else
+            result += c;
+    return result;
+}
+
+std::string html_letters(const std::string& expression) {
+    return letters_of(expression, [](const std::string& index, bool) { return "<sub>" + index + "</sub>"; });
+}
+
+std::string script_json(const Json& json) {
+    std::string result;
+    for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace))
+        if (c == '<')
+            result += "\\u003c";
+        else if (c == '>')
+            result += "\\u003e";
+        else if (c == '&')
+            result += "\\u0026";
+        else
+            result += c;
+    return result;
+}
+
+std::string inline_math(const Phrase& phrase) {
+    return "<math>" + notation_of("mathml").phrase(phrase) + "</math>";
+}
+
+std::string equation(const std::string& left, const std::string& right) {
+    std::string result = "<div class=\"equation\"><math displaystyle=\"true\"><mrow>";
+    std::vector<std::string> all = children(left);
+    all.push_back("<mo>=</mo>");
+    for (std::string& part : children(right)) all.push_back(std::move(part));
+    bool after_sign = true;
+    for (const std::string& part : all) {
+        const bool sign = is_sign(part);
+        if (sign && !after_sign)
+            result += "</mrow></math> <math displaystyle=\"true\"><mrow>" + part.substr(0, 3) + " form=\"infix\"" +
+                      part.substr(3);
+        else
+            result += part;
+        after_sign = part == "<mo>=</mo>";
+    }
+    return result + "</mrow></math></div>\n";
+}
+
+}  // namespace alembert

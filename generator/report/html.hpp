@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// Text of a scene on its way into a page: nothing in it may become markup or script.
+///
+///     put(page, "<h1>{}</h1>", html(scene.title));
+///     put(page, "<script type=\"application/json\">{}</script>", script_json(data));
+
+#include <string>
+#include <vector>
+
+#include "notation/phrase.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+/// & < > " ' escaped; for text and for values of attributes in quotes.
+std::string html(const std::string& text);
+
+/// JSON in ASCII alone, without < > and &: it cannot end the script element that holds it.
+std::string script_json(const Json& json);
+
+/// A formula in a line of text.
+std::string inline_math(const Phrase& phrase);
+
+/// A name or a short expression with Greek letters and indices.
+std::string html_letters(const std::string& expression);
+
+/// left = right as a block that may be broken before the plus and minus signs of its outermost sums.
+std::string equation(const std::string& left_mathml, const std::string& right_mathml);
+
+}  // namespace alembert

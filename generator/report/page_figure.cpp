@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The figure and its animation; coordinates and parameters.
+#include <algorithm>
+#include <cmath>
+
+#include "report/figure.hpp"
+#include "report/figure_shapes.hpp"
+#include "report/page_parts.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Poses as whole numbers on a grid of 1/16 of a pixel: for a plane figure to the right and up, in space along N.
+Json frames_of(const FigureShapes& shapes, const std::vector<Pose>& poses) {
+    const double grid = 16 * shapes.scale;
+    Json frames = Json::array();
+    for (const Pose& pose : poses) {
+        Json one = Json::array();
+        for (const Vector3d& p : pose) {
+            const auto add = [&](double x) { one.push_back(static_cast<long>(std::llround(x * grid))); };
+            if (shapes.is_plane) {
+                add(p.dot(shapes.right));
+                add(p.dot(shapes.up));
+            } else {
+                for (int k = 0; k < 3; ++k) add(p[k]);
+            }
+        }
+        frames.push_back(std::move(one));
+    }
+    return frames;
+}
+
+void add_controls(PageParts& page, const FigureShapes& shapes, double duration) {
+    static constexpr std::array speeds{0.001, 0.01, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 100.0};
+    const auto* const best = std::min_element(speeds.begin(), speeds.end(), [&](double a, double b) {
+        const auto badness = [&](double s) { return std::abs(std::log(duration / s / 8)) - (s == 1 ? 1.2 : 0); };
+        return badness(a) < badness(b);
+    });
+    put(page.body,
+        "<div class=\"controls\" role=\"group\" aria-label=\"Animation\">\n"
+        "<button type=\"button\" id=\"play\" aria-pressed=\"false\">Play</button>\n"
+        "<label class=\"scrub\"><span>Time</span> <input type=\"range\" id=\"time\" min=\"0\" max=\"1000\" "
+        "value=\"0\"></label>\n<output id=\"clock\">t = 0 s</output>\n<label>Speed <select id=\"speed\">");
+    for (const double s : speeds)
+        put(page.body, "<option value=\"{0}\"{1}>{0}×</option>", s, s == *best ? " selected" : "");
+    put(page.body, "</select></label>\n<label><input type=\"checkbox\" id=\"trace\"> Trace</label>\n");
+    if (!shapes.is_plane) put(page.body, "<button type=\"button\" id=\"view\">Turn back</button>\n");
+    put(page.body, "</div>\n");
+    if (!shapes.is_plane)
+        put(page.body, "<p class=\"hint\">Turn the view with the mouse, a finger, or the arrow keys.</p>\n");
+}
+
+}  // namespace
+
+void add_figure(PageParts& page, const Overview& all) {
+    page.section("figure", "Figure and motion");
+    const Drawing* const drawing = all.drawing.value ? &*all.drawing.value : nullptr;
+    if (drawing == nullptr || !drawing->obstacle.empty()) {
+        page.problem(drawing == nullptr ? all.drawing.problem : drawing->obstacle);
+        page.end();
+        return;
+    }
+    const WatchedMotion* const motion = all.motion.value ? &*all.motion.value : nullptr;
+    std::vector<Pose> poses;
+    std::vector<std::vector<double>> q;
+    const bool moves = motion != nullptr && motion->poses.size() > 1;
+    if (moves) {
+        poses = motion->poses;
+        const std::size_t n = all.start.q.size();
+        for (const std::size_t row : motion->frames) {
+            q.emplace_back();
+            for (std::size_t k = 0; k < n; ++k) q.back().push_back(motion->run.rows.at(row, 1 + k));
+        }
+    } else {
+        poses.push_back(pose_at(*drawing, all.start));
+        q.push_back(all.start.q);
+    }
+    const FigureShapes shapes = shapes_of(*drawing, poses, q);
+    put(page.body, "<div class=\"stage{}\"{}>\n", shapes.is_plane ? "" : " space",
+        shapes.is_plane ? ""
+                        : " tabindex=\"0\" role=\"group\" aria-label=\"Figure in space, turned by arrow keys\"");
+    page.body += as_svg(shapes, poses[0], q[0], "Figure: " + all.mechanism.name, description_of(*drawing), true);
+    put(page.body, "</div>\n");
+    if (moves) {
+        add_controls(page, shapes,
+                     motion->run.rows.at(motion->run.rows.rows() - 1, 0) - motion->run.rows.at(0, 0));
+        put(page.body, "<p id=\"happening\" role=\"status\" class=\"happening\"></p>\n");
+    } else if (!all.motion.problem.empty()) {
+        page.problem(all.motion.problem);
+    }
+    for (const std::string& note : drawing->notes) put(page.body, "<p class=\"hint\">{}</p>\n", html(note));
+    page.end();
+
+    Json& data = page.data["figure"] = as_json(shapes);
+    data["frames"] = frames_of(shapes, poses);
+    data["traced"] = drawing->traced;
+    Json& angles = data["angles"] = Json::object();
+    for (const FigureShape& shape : shapes.shapes) {
+        const std::string key = std::to_string(shape.coordinate);
+        if (shape.coordinate < 0 || angles.contains(key)) continue;
+        Json values = Json::array();
+        for (const std::vector<double>& state : q)
+            values.push_back(std::round(1e4 * state[shape.coordinate]) / 1e4);
+        angles[key] = values;
+    }
+    Json& times = data["times"] = Json::array();
+    if (moves)
+        for (const std::size_t row : motion->frames) times.push_back(motion->run.rows.at(row, 0));
+    else
+        times.push_back(all.start.t);
+}
+
+namespace {
+
+std::string symbol(const Mechanism& m, const GiNaC::symbol& s) {
+    return inline_math(phrases::symbol(s, m.symbols->info(s)));
+}
+
+std::string number(double x) {
+    return std::abs(x) < 1e-14 ? "0" : fmt::format("{:.6g}", x);
+}
+
+void table(std::string& page, const std::string& caption, const std::vector<std::string>& columns) {
+    put(page, "<div class=\"scroll\"><table>\n<caption>{}</caption>\n<thead><tr>", html(caption));
+    for (const std::string& column : columns) put(page, "<th scope=\"col\">{}</th>", html(column));
+    put(page, "</tr></thead>\n<tbody>\n");
+}
+
+}  // namespace
+
+void add_mechanism(PageParts& page, const Overview& all) {
+    const Mechanism& m = all.mechanism;
+    page.section("mechanism", "Coordinates and parameters");
+    if (all.derived.value) {
+        const int freedom = all.derived.value->shown.degrees_of_freedom;
+        put(page.body, "<p>The system has <strong>{} degree{} of freedom</strong>.</p>\n", freedom,
+            freedom == 1 ? "" : "s");
+    }
+    std::string& body = page.body;
+    table(body, "Coordinates", {"symbol", "at the start", "rate at the start", "unit", "meaning"});
+    for (std::size_t k = 0; k < m.q.size(); ++k)
+        put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+            symbol(m, m.q[k]), number(all.start.q[k]), number(all.start.qdot[k]), html(unit_text(m.units[k])),
+            html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
+    put(body, "</tbody></table></div>\n");
+    if (!m.speeds.empty()) {
+        table(body, "Generalized speeds", {"symbol", "form", "unit", "meaning"});
+        for (std::size_t k = 0; k < m.speeds.size(); ++k)
+            put(body, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
+                symbol(m, m.speeds[k].u), html(all.scene.speeds[k].form.text), html(unit_text(m.speeds[k].unit)),
+                html(all.scene.speeds[k].about));
+        put(body, "</tbody></table></div>\n");
+    }
+    if (!m.parameters.empty()) {
+        table(body, "Parameters", {"symbol", "value", "unit", "meaning"});
+        for (std::size_t k = 0; k < m.parameters.size(); ++k) {
+            const Parameter& given = all.scene.parameters[k];
+            put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                symbol(m, m.parameters[k].symbol), html(given.value.text), html(unit_text(given.unit)),
+                html(given.about));
+        }
+        put(body, "</tbody></table></div>\n");
+    }
+    if (!m.inputs.empty()) {
+        table(body, "Given functions of time", {"symbol", "value", "unit", "meaning"});
+        for (const Input& input : all.scene.inputs)
+            put(body,
+                "<tr><th scope=\"row\"><span class=\"letters\">{}</span></th><td><code>{}</code></td><td>{}</td>"
+                "<td>{}</td></tr>\n",
+                html_letters(input.name.text), html(input.value.text), html(unit_text(input.unit)),
+                html(input.about));
+        put(body, "</tbody></table></div>\n");
+    }
+    page.end();
+}
+
+}  // namespace alembert

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The sections of a scene's page. Each adds its markup to the page and what the script needs to the data.
+
+#include "overview/overview.hpp"
+#include "report/html.hpp"
+#include "report/page.hpp"
+
+namespace alembert {
+
+struct PageParts {
+    std::string body = {};
+    Json data = Json::object();
+    std::vector<std::pair<std::string, std::string>> contents = {};  ///< of sections: id, heading
+
+    /// Begins a section with its heading.
+    void section(const std::string& id, const std::string& heading);
+    void end() { body += "</section>\n"; }
+    /// A button that copies the text.
+    void copy(const std::string& what, const std::string& text);
+    /// Why a part is missing.
+    void problem(const std::string& message);
+};
+
+/// "m^2" as m².
+std::string unit_text(std::string unit);
+
+void add_figure(PageParts& page, const Overview& all);
+void add_mechanism(PageParts& page, const Overview& all);
+void add_derivation(PageParts& page, const Overview& all);
+void add_claims(PageParts& page, const Overview& all);
+void add_agreement(PageParts& page, const Overview& all);
+void add_constraints(PageParts& page, const Overview& all);
+void add_plots(PageParts& page, const Overview& all);
+void add_motion(PageParts& page, const Overview& all);
+void add_code(PageParts& page, const Overview& all);
+void add_commands(PageParts& page, const Overview& all, const std::string& by);
+
+}  // namespace alembert

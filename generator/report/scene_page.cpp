@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/scene_page.hpp"
+
+#include "report/page_files.hpp"
+#include "report/page_parts.hpp"
+#include "report/sha256.hpp"
+
+namespace alembert {
+
+namespace {
+
+std::string head(const std::string& title, bool has_script) {
+    std::string page;
+    put(page,
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; base-uri 'none'; form-action "
+        "'none'; style-src 'sha256-{}'{}\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" "
+        "content=\"light dark\">\n<meta name=\"generator\" content=\"alembert\">\n<title>{}</title>\n"
+        "<style>{}</style>\n</head>\n<body>\n",
+        sha256_base64(page_style), has_script ? "; script-src 'sha256-" + sha256_base64(page_script) + "'" : "",
+        html(title), page_style);
+    return page;
+}
+
+}  // namespace
+
+std::string unit_text(std::string unit) {
+    for (const auto& [typed, print] : {std::pair("^2", "²"), std::pair("^3", "³"), std::pair("*", "·")})
+        for (std::size_t at = unit.find(typed); at != std::string::npos; at = unit.find(typed))
+            unit.replace(at, std::string(typed).size(), print);
+    return unit;
+}
+
+void PageParts::section(const std::string& id, const std::string& heading) {
+    contents.emplace_back(id, heading);
+    put(body, "<section id=\"{0}\" aria-labelledby=\"{0}-heading\">\n<h2 id=\"{0}-heading\">{1}</h2>\n", id,
+        html(heading));
+}
+
+void PageParts::copy(const std::string& what, const std::string& text) {
+    Json& copies = data["copies"];
+    put(body, "<button type=\"button\" class=\"copy\" data-copy=\"{}\">Copy {}</button>\n", copies.size(),
+        html(what));
+    copies.push_back(text);
+}
+
+void PageParts::problem(const std::string& message) {
+    put(body, "<pre class=\"problem\" role=\"note\">{}</pre>\n", html(message));
+}
+
+std::string as_html(const Overview& all, const ScenePageOptions& options) {
+    PageParts parts;
+    parts.data["copies"] = Json::array();
+    add_figure(parts, all);
+    add_mechanism(parts, all);
+    add_derivation(parts, all);
+    add_claims(parts, all);
+    add_agreement(parts, all);
+    add_constraints(parts, all);
+    add_plots(parts, all);
+    add_motion(parts, all);
+    add_code(parts, all);
+    add_commands(parts, all, options.by);
+
+    const std::string title = all.scene.title.empty() ? all.mechanism.name : all.scene.title;
+    std::string page = head(title, true);
+    put(page, "<a class=\"skip\" href=\"#main\">To the content</a>\n<header>\n<h1>{}</h1>\n", html(title));
+    if (!all.scene.source.empty()) put(page, "<p class=\"source\">{}</p>\n", html(all.scene.source));
+    if (!all.scene.notes.empty()) put(page, "<p class=\"notes\">{}</p>\n", html(all.scene.notes));
+    put(page, "<nav aria-label=\"Contents\"><ul>\n");
+    for (const auto& [id, heading] : parts.contents)
+        put(page, "<li><a href=\"#{}\">{}</a></li>\n", id, html(heading));
+    put(page, "</ul></nav>\n</header>\n<main id=\"main\">\n");
+    for (const std::string& warning : all.warnings)
+        put(page, "<pre class=\"warning\" role=\"note\">{}</pre>\n", html(warning));
+    put(page, "{}</main>\n<footer>Made by alembert {} from {}.</footer>\n", parts.body, html(options.version),
+        html(all.mechanism.name + ".toml"));
+    put(page, "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n</body>\n</html>\n",
+        script_json(parts.data), page_script);
+    return page;
+}
+
+std::string error_page(const std::string& file, const std::string& message) {
+    std::string page = head("There is a mistake in " + file, false);
+    put(page,
+        "<header><h1>The scene has a mistake</h1></header>\n<main id=\"main\"><section>\n<p>alembert cannot read "
+        "<code>{}</code>. It says:</p>\n<pre class=\"problem\" role=\"alert\">{}</pre>\n<p>Repair this and make "
+        "the "
+        "page again.</p>\n</section></main>\n</body>\n</html>\n",
+        html(file), html(message));
+    return page;
+}
+
+}  // namespace alembert

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// The page of a scene: one HTML file that needs no network, no script from elsewhere and no font.
+///
+///     write_file("page.html", as_html(overview(scene), {.commands = {"alembert derive pendulum.toml"}}));
+///
+/// Nothing in the scene can become markup or script there: all its text is escaped (html.hpp), and the page's
+/// Content-Security-Policy names its own script and style by their hashes and allows nothing else.
+
+#include "overview/overview.hpp"
+
+namespace alembert {
+
+struct ScenePageOptions {
+    std::string version = {};
+    std::string by = {};  ///< the formalism that was asked for
+};
+
+std::string as_html(const Overview& overview, const ScenePageOptions& options = {});
+
+/// The page of a scene that cannot be read.
+std::string error_page(const std::string& file, const std::string& message);
+
+}  // namespace alembert

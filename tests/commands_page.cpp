@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// The page of a scene: what it holds, that it is well formed, and that nothing of a scene becomes markup or
+// script.
+#include <doctest/doctest.h>
+
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "program.hpp"
+#include "report/html.hpp"
+#include "report/sha256.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+std::string contents(const std::string& file) {
+    std::ifstream in(file);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+std::string page_of(const std::string& scene, int code = 0, const std::vector<std::string>& more = {}) {
+    const std::string file = temporary("page.html", "");
+    std::vector<std::string> args{"report", scene, "-o", file};
+    args.insert(args.end(), more.begin(), more.end());
+    const auto result = run(args);
+    CAPTURE(result.err);
+    CHECK(result.exit == code);
+    return contents(file);
+}
+
+/// What is wrong with the nesting of the elements of a page or a picture; empty if nothing is.
+std::string nesting(const std::string& page, const std::set<std::string>& empty_elements) {
+    std::vector<std::string> open;
+    for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
+        if (page[at + 1] == '!' || page[at + 1] == '?') {
+            at = page.find('>', at);
+            continue;
+        }
+        const bool closes = page[at + 1] == '/';
+        std::size_t end = at + (closes ? 2 : 1);
+        const std::size_t begin = end;
+        while (end < page.size() && (std::isalnum(static_cast<unsigned char>(page[end])) != 0)) ++end;
+        const std::string name = page.substr(begin, end - begin);
+        if (name.empty()) return "a bare '<' at " + page.substr(at, 40);
+        char quote = 0;
+        for (; end < page.size() && (quote != 0 || page[end] != '>'); ++end) {
+            if (quote != 0 && page[end] == quote)
+                quote = 0;
+            else if (quote == 0 && (page[end] == '"' || page[end] == '\''))
+                quote = page[end];
+            else if (quote == 0 && page[end] == '<')
+                return "a '<' in the element " + name;
+        }
+        if (closes) {
+            if (open.empty() || open.back() != name)
+                return "</" + name + "> closes " + (open.empty() ? "nothing" : "<" + open.back() + ">");
+            open.pop_back();
+        } else if (page[end - 1] != '/' && !empty_elements.contains(name)) {
+            open.push_back(name);
+        }
+        at = end;
+        if (!closes && (name == "script" || name == "style")) at = page.find("</" + name, at);
+    }
+    return open.empty() ? "" : "<" + open.back() + "> is left open";
+}
+
+const std::set<std::string> html_empty{"meta", "input", "br", "link"};
+
+Json data_of(const std::string& page) {
+    const std::string begin = "<script type=\"application/json\" id=\"data\">";
+    const std::size_t at = page.find(begin) + begin.size();
+    return Json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+    return n;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "page: a double pendulum's has its figure, equations, parameters, claims, plots, code, and no more than 2 "
+    "MB") {
+    const std::string page = page_of(source_path("scenes/textbook/double_pendulum.toml"), 0, {"--duration", "2"});
+    CHECK(page.size() < 2'000'000);
+    CHECK(nesting(page, html_empty) == "");
+    for (const char* id :
+         {"figure", "mechanism", "derivation", "claims", "agreement", "plots", "run", "code", "commands"})
+        CHECK(count(page, "<section id=\"" + std::string(id) + "\"") == 1);
+    CHECK(count(page, "<math") > 20);
+    CHECK(page.find("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"figure\"") != std::string::npos);
+    CHECK(page.find("default-src 'none'") != std::string::npos);
+    CHECK(page.find("http://") == page.find("http://www.w3.org/2000/svg"));  // nothing is fetched
+    CHECK(page.find("https://") == std::string::npos);
+    CHECK(count(page, "<strong class=\"verdict\">proved</strong>") == 2);
+    CHECK(count(page, "<figure class=\"plot\">") >= 5);
+    const Json data = data_of(page);
+    CHECK(data["copies"].size() >= 4);
+    // The last frame of the second mass, on its grid of 1/16 of a pixel, is where the simulation ends.
+    const Json& figure = data["figure"];
+    const auto last =
+        run({"simulate", source_path("scenes/textbook/double_pendulum.toml"), "--duration", "2", "--json"});
+    const Json final = Json::parse(last.out)["final"]["coordinates"];
+    const double theta1 = final["theta1"], theta2 = final["theta2"], scale = figure["scale"];
+    const int mass = figure["traced"][1];
+    const double x = figure["frames"].back()[2 * mass].get<double>() / (16 * scale),
+                 y = figure["frames"].back()[2 * mass + 1].get<double>() / (16 * scale);
+    CHECK(std::abs(x - std::sin(theta1) - 0.8 * std::sin(theta2)) < 1 / (16 * scale));
+    CHECK(std::abs(y + std::cos(theta1) + 0.8 * std::cos(theta2)) < 1 / (16 * scale));  // up, where y is down
+}
+
+TEST_CASE("page: nothing of a hostile scene becomes markup or script") {
+    const std::string hostile = source_path("tests/browser/hostile.toml");
+    const std::string page = page_of(hostile);
+    CHECK(nesting(page, html_empty) == "");
+    CHECK(count(page, "<script") == 2);
+    CHECK(count(page, "</script") == 2);
+    CHECK(count(page, "<style") == 1);
+    CHECK(count(page, "<img") == 0);
+    CHECK(count(page, "<b ") == 0);
+    CHECK(count(page, "\xE2\x80\xA8") == count(page.substr(0, page.find("id=\"data\"")), "\xE2\x80\xA8"));
+    CHECK(data_of(page)["copies"].back().get<std::string>() == contents(hostile));
+    CHECK(page.find("<mark>") != std::string::npos);  // the wrong sign of its first claim
+    const std::string picture = temporary("figure.svg", "");
+    REQUIRE(run({"derive", hostile, "--draw", picture}).exit == 0);
+    const std::string svg = contents(picture);
+    CHECK(nesting(svg, {}) == "");
+    CHECK(count(svg, "<script") == 0);
+    CHECK(count(svg, "<title ") == 1);
+}
+
+TEST_CASE("page: a scene that cannot be read has a page with the mistake, and the exit code 3") {
+    const std::string scene =
+        temporary("wrong.toml", "title = \"<script>alert(1)</script>\"\n[coordinates]\nq = \"z<b>\"\n");
+    const std::string page = page_of(scene, 3);
+    CHECK(nesting(page, html_empty) == "");
+    CHECK(count(page, "<script") == 0);
+    CHECK(page.find("wrong.toml:3") != std::string::npos);
+    CHECK(page.find("role=\"alert\"") != std::string::npos);
+}
+
+TEST_CASE("page: where a step fails its message stands there, and the rest is there") {
+    // Half of the scene has no inertia: it derives, and cannot be run.
+    const std::string scene =
+        temporary("singular.toml",
+                  "[coordinates]\nx = 1\ny = 1\n[parameters]\nm = 1\n[[particle]]\nname = \"P\"\n"
+                  "mass = \"m\"\nposition = [\"x + y\", 0]\n");
+    const std::string page = page_of(scene);
+    CHECK(nesting(page, html_empty) == "");
+    CHECK(page.find("class=\"problem\"") != std::string::npos);
+    CHECK(count(page, "<section id=\"derivation\"") == 1);
+    CHECK(count(page, "<math") > 2);
+}
+
+TEST_CASE(
+    "page: scenes of energies alone say that they have no figure; contacts are told with their time and place") {
+    const std::string plain = page_of(source_path("scenes/textbook/rolling_disc.toml"), 0, {"--duration", "0.5"});
+    CHECK(plain.find("The scene gives energies and no geometry") != std::string::npos);
+    CHECK(plain.find("<figure class=\"plot\">") != std::string::npos);
+    const std::string ball = page_of(source_path("scenes/textbook/bouncing_ball.toml"), 0, {"--duration", "1"});
+    const Json happenings = data_of(ball)["happenings"];
+    REQUIRE(happenings.size() >= 1);
+    CHECK(happenings[0]["text"] == "impact floor");
+    CHECK(happenings[0]["t"].get<double>() == doctest::Approx(std::sqrt(2 / 9.81)));
+    CHECK(happenings[0]["point"].get<int>() >= 0);
+}
+
+TEST_CASE("page: a script's hash is SHA-256 in base 64, and JSON in a script cannot end it") {
+    // FIPS 180-4's examples, encoded by RFC 4648.
+    CHECK(alembert::sha256_base64("") == "47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+    CHECK(alembert::sha256_base64("abc") == "ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+    CHECK(alembert::sha256_base64("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq") ==
+          "JI1qYdIGOLjlwCaTDD5gOaM85Flk/yFn9uzt1BnbBsE=");
+    CHECK(alembert::script_json("</script>\xE2\x80\xA8&") == "\"\\u003c/script\\u003e\\u2028\\u0026\"");
+    CHECK(alembert::html("<a href='x'>&\"") == "&lt;a href=&#39;x&#39;&gt;&amp;&quot;");
+}
