@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "alembert/error.hpp"
 #include "commands/help.hpp"
 #include "commands/streams.hpp"
+#include "commands/terminal.hpp"
 #include "commands/verb.hpp"
 
 namespace {
@@ -18,7 +21,8 @@ int guarded(const alembert::Chosen& chosen) {
     const auto complain = [](const std::string& text, int code) {
         std::cout.flush();
         std::fflush(stdout);
-        std::cerr << text << (text.ends_with('\n') ? "" : "\n");
+        const alembert::Ink ink = alembert::ink_for(STDERR_FILENO);
+        std::cerr << alembert::marked_message(text, ink, ink.bad) << (text.ends_with('\n') ? "" : "\n");
         return code;
     };
     const std::string& subject = chosen.subject;
@@ -46,10 +50,10 @@ int guarded(const alembert::Chosen& chosen) {
 
 int main(int argc, char** argv) {
     alembert::guard_streams();
-    CLI::App app{"alembert derives the equations of motion of a mechanical system, proves them, and runs them.",
-                 "alembert"};
+    CLI::App app{"alembert derives, proves and runs the equations of motion of mechanical systems.", "alembert"};
     app.footer("alembert derive scenes/textbook/double_pendulum.toml");
     alembert::set_help(app);
+    app.failure_message(alembert::failure_message);
     app.set_version_flag("--version", std::string("alembert ") + ALEMBERT_VERSION);
     app.require_subcommand(1);
     alembert::Chosen chosen;

@@ -46,6 +46,8 @@ forbid 'toml++ outside the reader' '#include.*toml\+\+' "${not_reader[@]}"
 forbid 'CLI11 outside main' '#include.*CLI' "${runtime[@]}" "${generator[@]}"
 mapfile -t not_urdf < <(files lib generator | grep -v '^generator/urdf/')
 forbid 'urdfdom outside its reader' '#include.*(urdf_|tinyxml|console_bridge)' "${not_urdf[@]}"
+mapfile -t not_server < <(files lib generator | grep -v '^generator/commands/page_server.cpp')
+forbid 'cpp-httplib outside the server of pages' '#include.*httplib' "${not_server[@]}"
 forbid 'dlfcn outside the module' '#include <dlfcn' "${not_module[@]}"
 forbid 'the emitted code includes something' '#include' templates/solver.cpp.mustache generated/*.cpp
 forbid 'a shell' '\b(system|popen)\(' "${runtime[@]}" "${generator[@]}"

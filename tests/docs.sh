@@ -112,14 +112,36 @@ agree() { # WHAT DOCUMENTED ACTUAL
 }
 # shellcheck disable=SC2016 # backticks of Markdown
 options_in() { grep -oE '^\| `(-[a-z]`, `)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u; }
-verbs=$(alembert --help | awk '/^Subcommands:/ { on = 1; next } on && NF { print $1 }')
+verbs=$(alembert --help | awk '/^Verbs:/ { on = 1; next } on && !/^ / { exit } on && /^  [a-z]/ { print $1 }')
 # shellcheck disable=SC2016
 documented=$(grep -oE '^## `[a-z]+`' "$root/docs/commands.md" | tr -d '#` ')
 agree 'docs/commands.md has other verbs' "$(sort <<<"$documented")" "$(sort <<<"$verbs")"
 for verb in $verbs; do
-    has=$(alembert "$verb" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -e '--[a-z-]+' | sort -u)
+    help=$(alembert "$verb" --help)
+    has=$(grep -oE '^  (-[a-z], )?--[a-z-]+' <<<"$help" | grep -oE -e '--[a-z-]+' | sort -u)
     says=$( (section 'Options of all verbs'; section "\`$verb\`") | options_in)
+    case $verb in completion | man | watch) says=$(grep -vx -e --json <<<"$says") ;; esac
     agree "docs/commands.md has other options of $verb" "$says" "$has"
+done
+
+# The help of each verb begins with an example, which works; it fits a screen.
+for verb in '' $verbs; do
+    # shellcheck disable=SC2086 # no verb is no word
+    alembert $verb --help >"$work/help"
+    example=$(sed -n '1s/^Example: //p' "$work/help")
+    lines=$(wc -l <"$work/help")
+    wide=$(wc -L <"$work/help")
+    if [ "$lines" -gt 24 ] || [ "$wide" -gt 80 ]; then
+        echo "alembert $verb --help has $lines lines of up to $wide columns; expected 24 of 80"
+        failed=1
+    fi
+    timeout 60 bash -c "$([[ $verb != watch ]] || echo timeout 3) $example" >"$work/printed" 2>&1 </dev/null
+    code=$?
+    [ "$verb,$code" = watch,124 ] || [ "$code" = 0 ] || {
+        printf 'the example of alembert %s --help fails:\n$ %s\n' "$verb" "$example"
+        tail -n 5 "$work/printed"
+        failed=1
+    }
 done
 
 rooms=$(sed -e '/^#/d' -e 's/ .*//' "$root/generator/rooms.txt")
@@ -134,14 +156,12 @@ need() {
     failed=1
 }
 
-# named SECTION OPTION: the names that the help of simulate lists for the option are in the section.
+# named SECTION: the names that the manual lists under this title are in the section.
 named() {
-    for name in $(alembert simulate --help | grep -E "^  --$2 " | grep -oE '[a-z][a-z0-9-]+'); do
-        [[ $name =~ ^($2|formalism|or|with)$ ]] || need "$1" "$name"
-    done
+    for name in $(alembert man simulate | sed -n "/^\.SH ${1^^}/{n;p}" | tr -d '\\,' | tr -d .); do need "$1" "$name"; done
 }
-named Formalisms by
-named Methods method
+named Formalisms
+named Methods
 
 # fields VERB ARGUMENTS...: the fields that it prints now are in the section of the verb.
 fields() {

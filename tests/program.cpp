@@ -2,6 +2,7 @@
 #include "shell.hpp"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,6 +48,25 @@ double seconds_of(const rusage& usage) {
            1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
+void set_environment() {
+    setenv("XDG_CACHE_HOME", (folder() / "cache").c_str(), 1);
+    setenv("ALEMBERT", ALEMBERT_PROGRAM, 1);
+}
+
+[[noreturn]] void become(const char* program, const std::vector<std::string>& args) {
+    std::vector<char*> argv{const_cast<char*>(program)};
+    for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
+    argv.push_back(nullptr);
+    execv(program, argv.data());
+    _exit(127);
+}
+
+std::vector<std::string> shell_words(const std::string& script, const std::vector<std::string>& args) {
+    std::vector<std::string> words{"-c", script, "sh"};
+    words.insert(words.end(), args.begin(), args.end());
+    return words;
+}
+
 Run execute(const char* program, const std::vector<std::string>& args) {
     const std::filesystem::path out = folder() / "out", err = folder() / "err";
     const pid_t child = fork();
@@ -58,13 +78,8 @@ Run execute(const char* program, const std::vector<std::string>& args) {
         };
         redirect(out, STDOUT_FILENO);
         redirect(err, STDERR_FILENO);
-        setenv("XDG_CACHE_HOME", (folder() / "cache").c_str(), 1);
-        setenv("ALEMBERT", ALEMBERT_PROGRAM, 1);
-        std::vector<char*> argv{const_cast<char*>(program)};
-        for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
-        argv.push_back(nullptr);
-        execv(program, argv.data());
-        _exit(127);
+        set_environment();
+        become(program, args);
     }
     int status = 0;
     rusage usage{};
@@ -83,9 +98,28 @@ Run run(const std::vector<std::string>& args) {
 }
 
 Run run_shell(const std::string& script, const std::vector<std::string>& args) {
-    std::vector<std::string> words{"-c", script, "sh"};
-    words.insert(words.end(), args.begin(), args.end());
-    return execute("/bin/sh", words);
+    return execute("/bin/sh", shell_words(script, args));
+}
+
+std::string on_terminal(const std::string& script, const std::vector<std::string>& args, int columns) {
+    winsize size{};
+    size.ws_row = 24;
+    size.ws_col = static_cast<unsigned short>(columns);
+    int master = -1;
+    const pid_t child = forkpty(&master, nullptr, nullptr, &size);
+    if (child < 0) throw std::runtime_error("forkpty failed");
+    if (child == 0) {
+        set_environment();
+        become("/bin/sh", shell_words(script, args));
+    }
+    std::string shown;
+    char bytes[4096];
+    for (ssize_t count = 0; (count = read(master, bytes, sizeof bytes)) > 0;)
+        shown.append(bytes, static_cast<std::size_t>(count));
+    close(master);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return shown;
 }
 
 std::string temporary(const std::string& name, const std::string& text) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <unistd.h>
+
 #include "report/agree.hpp"
 
 #include "commands/show.hpp"
+#include "commands/terminal.hpp"
 #include "commands/verb.hpp"
 
 namespace alembert {
@@ -14,7 +17,7 @@ int run(const SceneOptions& options) {
     if (options.json)
         show(as_json(agreed));
     else
-        show(as_text(agreed));
+        show_formulas(as_text(agreed, ink_for(STDOUT_FILENO)));
     return static_cast<int>(agreed.agreement.verdict);
 }
 

@@ -15,7 +15,7 @@ int run(const SceneOptions& options) {
     if (options.json)
         show(as_json(audited));
     else
-        show(as_text(audited));
+        show_formulas(as_text(audited));
     const Audit& result = audited.audit;
     if (result.problem.empty()) return 0;
     if (result.wrong) throw ModelError(result.problem);
@@ -25,12 +25,11 @@ int run(const SceneOptions& options) {
 }  // namespace
 
 void add_audit(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SceneOptions>(
-        app, chosen,
-        {.name = "audit",
-         .about = "examines the constraints: kinds, rank, what is redundant or integrable",
-         .example = "alembert audit scenes/textbook/sled.toml"},
-        run);
+    add_scene_verb<SceneOptions>(app, chosen,
+                                 {.name = "audit",
+                                  .about = "examines the constraints: kinds, rank, redundancy",
+                                  .example = "alembert audit scenes/textbook/sled.toml"},
+                                 run);
 }
 
 }  // namespace alembert

@@ -40,8 +40,8 @@ void add_bench(CLI::App& app, Chosen& chosen) {
     add_scene_verb<BenchVerb>(
         app, chosen,
         {.name = "bench",
-         .about = "measures speed against error: every method over a range of tolerances",
-         .example = "alembert bench scenes/textbook/double_pendulum.toml --duration 1 --svg bench.svg"},
+         .about = "measures speed against error, of every method",
+         .example = "alembert bench scenes/textbook/crane.toml --duration 1 --method dop853"},
         run, [](CLI::App& verb, BenchVerb& bench) {
             RunOptions& wishes = bench.options.wishes;
             verb.add_flag("--peers", bench.options.peers,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <unistd.h>
+
 #include "report/check.hpp"
 
 #include "commands/show.hpp"
+#include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
 #include "scene/claims_file.hpp"
@@ -31,7 +34,7 @@ int run(const CheckOptions& options) {
     if (options.json)
         show(as_json(checked));
     else
-        show(as_text(checked));
+        show_formulas(as_text(checked, ink_for(STDOUT_FILENO)));
     return exit_code(checked.checked);
 }
 

@@ -219,10 +219,9 @@ std::string fish(const CLI::App& app) {
 
 void add_completion(CLI::App& app, Chosen& chosen) {
     const auto shell = std::make_shared<std::string>();
-    CLI::App* const verb =
-        add_verb(app, {.name = "completion",
-                       .about = "prints a script with which a shell completes alembert's commands",
-                       .example = "alembert completion bash > alembert.bash"});
+    CLI::App* const verb = add_verb(app, {.name = "completion",
+                                          .about = "prints a script with which a shell completes commands",
+                                          .example = "alembert completion bash > alembert.bash"});
     verb->add_option("shell", *shell, "bash, zsh or fish")->type_name(values::shell)->required();
     verb->callback([shell, &app, &chosen] {
         chosen = {"completion", [shell, &app] {

@@ -24,7 +24,7 @@ int run(const DeriveVerb& options) {
     if (options.json)
         show(as_json(d));
     else
-        show(as_page(d, options.page));
+        options.page.format == "text" ? show_formulas(as_page(d, options.page)) : show(as_page(d, options.page));
     return 0;
 }
 
@@ -42,8 +42,7 @@ void add_derive(CLI::App& app, Chosen& chosen) {
                 ->type_name(values::format)
                 ->check(CLI::IsMember({"text", "latex", "mathml"}).description(""));
             verb.add_flag("--steps", options.page.steps, "also coordinates, T, V, generalized forces, own steps");
-            verb.add_option("--draw", options.draw, "SVG file for a figure of the system")
-                ->type_name(values::file);
+            verb.add_option("--draw", options.draw, "SVG figure of the system")->type_name(values::file);
             add_reactions_option(verb, options.reactions);
         });
 }

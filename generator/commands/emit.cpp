@@ -43,7 +43,7 @@ void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
         app, chosen,
         {.name = "emit",
-         .about = "writes the C++ of the system: right-hand side, energies, projection",
+         .about = "writes the C++ of the system",
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
         run, [](CLI::App& verb, EmitVerb& options) {
             verb.add_option("-o,--output", options.folder, "the folder; the file is named after the scene")

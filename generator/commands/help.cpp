@@ -107,7 +107,6 @@ std::string help_of_program(const CLI::App& app) {
     lines.emplace_back("Verbs:");
     for (const CLI::App* verb : app.get_subcommands({}))
         append(lines, entry(verb->get_name(), verb->get_description(), 14));
-    lines.emplace_back("");
     lines.emplace_back("'alembert VERB --help' has the options of a verb, --version prints the version.");
     append(lines, about_exit_codes());
     return joined(lines);
@@ -150,7 +149,7 @@ std::string usage_of(const CLI::App& app) {
     std::string text = "alembert " + app.get_name();
     for (const OptionText& option : options_of(app)) {
         const std::string word = option.positional ? option.names[0]
-                                 : option.required ? name_of(option)
+                                 : option.required ? option.names.back() + " " + option.value
                                                    : std::string();
         if (!word.empty()) text += option.required ? " " + word : " [" + word + "]";
     }
@@ -171,6 +170,12 @@ std::string help_of(const CLI::App& app) {
 
 void set_help(CLI::App& app) {
     app.formatter_fn([](const CLI::App* asked, std::string, CLI::AppFormatMode) { return help_of(*asked); });
+}
+
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+    const std::vector<CLI::App*> chosen = app->get_subcommands();
+    return fmt::format("{}\n'alembert {}--help' says more\n", error.what(),
+                       chosen.empty() ? "" : chosen[0]->get_name() + " ");
 }
 
 std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words) {

@@ -33,6 +33,9 @@ std::string help_of(const CLI::App& app);
 /// `--help` of an application and of all verbs that are added afterwards is help_of.
 void set_help(CLI::App& app);
 
+/// What CLI11 found wrong, and where there is help.
+std::string failure_message(const CLI::App* app, const CLI::Error& error);
+
 /// What is wrong with the words of a command line, as far as verbs and names of options are concerned; empty where
 /// nothing is.
 std::string mistake_in(const CLI::App& app, const std::vector<std::string>& words);

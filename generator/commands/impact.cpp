@@ -14,7 +14,7 @@ int run(const SceneOptions& options) {
     if (options.json)
         show(as_json(struck));
     else
-        show(as_text(struck));
+        show_formulas(as_text(struck));
     return 0;
 }
 

@@ -68,8 +68,7 @@ void add_import(CLI::App& app, Chosen& chosen) {
         ->type_name(values::file)
         ->required();
     verb->add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
-    verb->add_flag("--quaternion", options->quaternion,
-                   "what floats turns by a quaternion; default: yaw, pitch, roll");
+    verb->add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion");
     verb->add_flag("--json", options->json, "print one JSON object");
     verb->callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }

@@ -28,7 +28,7 @@ void add_inverse(CLI::App& app, Chosen& chosen) {
     add_scene_verb<InverseVerb>(
         app, chosen,
         {.name = "inverse",
-         .about = "calculates the loads along the coordinates that accelerations need",
+         .about = "calculates the loads that accelerations need",
          .example = "alembert inverse scenes/textbook/double_pendulum.toml --at \"theta1''=2\""},
         run, [](CLI::App& verb, InverseVerb& options) {
             add_at_option(verb, options.at);

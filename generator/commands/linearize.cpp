@@ -30,7 +30,7 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
     add_scene_verb<LinearizeVerb>(
         app, chosen,
         {.name = "linearize",
-         .about = "gives matrices and eigenvalues near an equilibrium or a steady motion",
+         .about = "gives matrices and eigenvalues near an equilibrium",
          .example = "alembert linearize scenes/textbook/coupled_oscillators.toml --at x1=0 x2=0"},
         run, [](CLI::App& verb, LinearizeVerb& options) {
             add_at_option(verb, options.at);

@@ -110,7 +110,7 @@ void add_manual(CLI::App& app, Chosen& chosen) {
     const auto name = std::make_shared<std::string>();
     CLI::App* const verb = add_verb(app, {.name = "man",
                                           .about = "prints a page of the manual, of the program or of a verb",
-                                          .example = "alembert man simulate | man -l -"});
+                                          .example = "alembert man simulate > alembert-simulate.1"});
     verb->add_option("verb", *name, "whose page; without it that of the program")->type_name(values::verb);
     verb->callback([name, &app, &chosen] {
         chosen = {"man", [name, &app] {

@@ -52,18 +52,16 @@ void add_report(CLI::App& app, Chosen& chosen) {
     add_scene_verb<ReportVerb>(
         app, chosen,
         {.name = "report",
-         .about = "writes one self-contained page with all that is known about the scene",
+         .about = "writes one page with all about the scene, with a figure that moves",
          .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
         run, [](CLI::App& verb, ReportVerb& options) {
+            verb.add_option("-o,--output", options.output, "the page, HTML")->type_name(values::file)->required();
             add_by_option(verb, options.by);
-            verb.add_option("-o,--output", options.output, "the page, HTML")->required()->type_name(values::file);
-            verb.add_option("--duration", options.wishes.duration, "seconds from the start")
-                ->type_name(values::seconds)
-                ->check(nonnegative_number());
-            verb.add_option("--budget", options.wishes.budget, "right-hand sides at the most")
+            add_duration_option(verb, options.wishes);
+            verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
                 ->type_name(values::count)
                 ->check(positive_number());
-            verb.add_flag("!--no-motion", options.moves, "leave the motion out");
+            verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
         });
 }
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/show.hpp"
 
+#include <unistd.h>
+
 #include <iostream>
+
+#include "commands/terminal.hpp"
+#include "report/wrap.hpp"
 
 namespace alembert {
 
@@ -19,8 +24,14 @@ Scene scene_of(const std::string& file) {
     return scene;
 }
 
+void show_formulas(const std::string& text) {
+    const std::optional<int> columns = columns_of(STDOUT_FILENO);
+    show(columns ? wrapped(text, *columns) : text);
+}
+
 void warn(const std::vector<std::string>& warnings) {
-    for (const std::string& warning : warnings) std::cerr << warning;
+    const Ink ink = ink_for(STDERR_FILENO);
+    for (const std::string& warning : warnings) std::cerr << marked_message(warning, ink, ink.unsure);
 }
 
 }  // namespace alembert

@@ -15,6 +15,9 @@ namespace alembert {
 void show(const Json& result);
 void show(const std::string& text);
 
+/// Text with formulas: on a terminal its lines are wrapped to the width (wrap.hpp).
+void show_formulas(const std::string& text);
+
 /// Reads a scene. Its warnings, and those of all that is made from it, go to standard error as soon as they are
 /// found. Throws as read_scene.
 Scene scene_of(const std::string& file);

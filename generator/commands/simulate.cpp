@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <unistd.h>
+
 #include "alembert/error.hpp"
 #include "commands/output.hpp"
 #include "commands/progress.hpp"
 #include "commands/run_verb.hpp"
 #include "commands/show.hpp"
+#include "commands/terminal.hpp"
 #include "commands/values.hpp"
 #include "report/motion_plot.hpp"
 #include "report/run.hpp"
@@ -32,7 +35,7 @@ int run(const SimulateVerb& verb) {
     if (verb.json) {
         show(as_json(run));
     } else {
-        show(as_text(run));
+        show_formulas(as_text(run, ink_for(STDOUT_FILENO)));
         for (const std::string& file : {verb.output, verb.plot})
             if (!file.empty()) show("wrote " + file + "\n");
     }

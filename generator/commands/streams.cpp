@@ -13,6 +13,7 @@
 #include <iostream>
 
 #include "alembert/leftover.hpp"
+#include "commands/terminal.hpp"
 #include "scene/text.hpp"
 
 namespace alembert {
@@ -40,6 +41,7 @@ struct Way {
     int descriptor;
     int error = 0;          ///< errno of the first write that failed
     std::string held = {};  ///< the beginning of a character
+    bool colours = false;   ///< marks (ink.hpp) become colours
 
     bool put(std::string_view text) {
         while (!text.empty() && error == 0) {
@@ -56,6 +58,20 @@ struct Way {
 // Never destroyed: the C library flushes its streams after everything else.
 Way &out = *new Way{STDOUT_FILENO}, &err = *new Way{STDERR_FILENO};
 
+/// Harmless, with escape sequences of our own in the place of marks.
+std::string coloured(std::string_view text) {
+    std::string result;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        const std::string_view colour = text[i] == ink_mark ? colour_of(text[i + 1]) : std::string_view();
+        if (colour.empty()) continue;
+        result += harmless(text.substr(begin, i - begin));
+        result += colour;
+        begin = i + 2;
+    }
+    return result + harmless(text.substr(begin));
+}
+
 /// As fopencookie wants it: the number of bytes taken, 0 for an error.
 ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
     Way& way = *static_cast<Way*>(cookie);
@@ -63,7 +79,7 @@ ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
     const std::size_t keep = unfinished(text);
     way.held = text.substr(text.size() - keep);
     text.resize(text.size() - keep);
-    if (way.put(harmless(text))) return static_cast<ssize_t>(size);
+    if (way.put(way.colours ? coloured(text) : harmless(text))) return static_cast<ssize_t>(size);
     errno = way.error;
     return 0;
 }
@@ -141,6 +157,7 @@ std::string harmless(std::string_view text) {
 void guard_streams() {
     keep_descriptors();
     clean_up_after_signals();
+    for (Way* const way : {&out, &err}) way->colours = !ink_for(way->descriptor).end.empty();
     std::FILE *const output = guarded(out, isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF), *const errors =
                                                                                               guarded(err, _IONBF);
     if (output == nullptr || errors == nullptr) return;

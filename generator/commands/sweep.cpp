@@ -64,10 +64,9 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "sweep",
          .about = "integrates from many initial states or with many parameters",
-         .example = "alembert sweep scenes/textbook/double_pendulum.toml --vary theta1=0:3:100"},
+         .example = "alembert sweep scenes/textbook/crane.toml --vary l=1:9:100"},
         run, [](CLI::App& verb, SweepVerb& options) {
-            verb.add_option("--vary", options.vary,
-                            "COUNT values of a coordinate, a rate, a parameter or t; several make a grid")
+            verb.add_option("--vary", options.vary, "NAME=FROM:TO:COUNT; several make a grid")
                 ->type_name(values::range)
                 ->required();
             add_run_options(verb, options);

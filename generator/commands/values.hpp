@@ -16,8 +16,8 @@ namespace values {
 inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBOT", *file = "FILE",
                             *folder = "DIR", *formalism = "FORMALISM", *method = "METHOD", *format = "FORMAT",
                             *seconds = "S", *number = "X", *count = "N", *assignment = "NAME=VALUE",
-                            *names = "NAMES", *range = "NAME=FROM:TO:COUNT", *interval = "NAME=FROM:TO",
-                            *shell = "SHELL", *verb = "VERB";
+                            *names = "NAMES", *range = "RANGE", *interval = "NAME=FROM:TO", *shell = "SHELL",
+                            *verb = "VERB";
 }
 
 struct ValueKind {

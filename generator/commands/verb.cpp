@@ -54,16 +54,14 @@ void add_reactions_option(CLI::App& verb, bool& reactions) {
 }
 
 void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
-    verb.add_option(
-            "--at", at,
-            "sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; the value may be an expression (pi/2)")
+    verb.add_option("--at", at, "sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read")
         ->type_name(values::assignment);
 }
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
     for (const auto add : {add_derive, add_agree, add_audit, add_check, add_eval, add_equilibrium, add_linearize,
                            add_stability, add_inverse, add_impact, add_emit, add_import, add_simulate, add_sweep,
-                           add_bench, add_report, add_completion, add_manual})
+                           add_bench, add_report, add_watch, add_completion, add_manual})
         add(app, chosen);
 }
 

@@ -39,11 +39,14 @@ Json as_json(const Agreed& agreed) {
     return json;
 }
 
-std::string as_text(const Agreed& agreed) {
+std::string as_text(const Agreed& agreed, const Ink& ink) {
     const Agreement& a = agreed.agreement;
+    const std::string& tone = a.verdict == Agreement::Verdict::proved    ? ink.good
+                              : a.verdict == Agreement::Verdict::refuted ? ink.bad
+                                                                         : ink.unsure;
     std::string names;
     for (const Equations& e : agreed.derivations.equations) names += (names.empty() ? "" : ", ") + e.formalism;
-    std::string text = fmt::format("{}: {}\n", names, name_of(a.verdict));
+    std::string text = fmt::format("{}: {}{}{}\n", names, tone, name_of(a.verdict), ink.end);
     text += a.verdict == Agreement::Verdict::proved ? how_it_was_proved(a) : a.reason + "\n";
     for (const auto& [name, reason] : agreed.derivations.refused)
         text += fmt::format("{} does not apply: {}\n", name, reason);

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "agree/agree.hpp"
+#include "report/ink.hpp"
 #include "report/json.hpp"
 
 namespace alembert {
 
 Json as_json(const Agreed& agreed);
-std::string as_text(const Agreed& agreed);
+std::string as_text(const Agreed& agreed, const Ink& ink = {});
 
 /// In a sentence.
 std::string how_it_was_proved(const Agreement& agreement);

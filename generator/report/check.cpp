@@ -51,8 +51,11 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
     return json;
 }
 
-std::string text_of(const Claim& claim, const CheckedClaim& c) {
-    std::string page = fmt::format("{:<9}  {}\n", name_of(c.verdict), text_of(claim.equation));
+std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
+    const std::string& tone = c.verdict == Verdict::proved    ? ink.good
+                              : c.verdict == Verdict::refuted ? ink.bad
+                                                              : ink.unsure;
+    std::string page = fmt::format("{}{:<9}{}  {}\n", tone, name_of(c.verdict), ink.end, text_of(claim.equation));
     const auto line = [&page](const std::string& label, const std::string& text) {
         page += fmt::format("{:<9}  {}{}\n", "", label, text);
     };
@@ -86,10 +89,10 @@ Json as_json(const CheckedScene& checked) {
     return json;
 }
 
-std::string as_text(const CheckedScene& checked) {
+std::string as_text(const CheckedScene& checked, const Ink& ink) {
     std::string page;
     for (std::size_t k = 0; k < checked.checked.claims.size(); ++k)
-        page += text_of(checked.scene.claims[k], checked.checked.claims[k]);
+        page += text_of(checked.scene.claims[k], checked.checked.claims[k], ink);
     return page + (checked.checked.complete ? "With the constraints, the claims that hold determine the motion.\n"
                                             : "The claims that hold do not determine the motion.\n");
 }

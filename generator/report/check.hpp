@@ -2,12 +2,13 @@
 #pragma once
 
 #include "check/check.hpp"
+#include "report/ink.hpp"
 #include "report/json.hpp"
 
 namespace alembert {
 
 Json as_json(const CheckedScene& checked);
-std::string as_text(const CheckedScene& checked);
+std::string as_text(const CheckedScene& checked, const Ink& ink = {});
 
 /// "a sign: of the term -m*g".
 std::string words_of(const Slip& slip);

@@ -158,11 +158,12 @@ void add_motion(std::string& page, const Run& run) {
     page += text_of(run.motion.contacts, run.contacts);
     page += text_of(run.side_changes);
     put(page, "\nat t = {:.15g}\n", run.motion.final_time());
+    const std::size_t width = column_for(run.speeds, column_for(run.coordinates, 16));
     for (std::size_t i = 0; i < run.coordinates.size(); ++i)
-        put(page, "{:<16}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], run.final_coordinates[i],
+        put(page, "{:<{}}{:>24.16g}   rate {:>24.16g}\n", run.coordinates[i], width, run.final_coordinates[i],
             run.final_rates[i]);
     for (std::size_t k = 0; k < run.speeds.size(); ++k)
-        put(page, "{:<16}{:>24.16g}\n", run.speeds[k], run.final_speeds[k]);
+        put(page, "{:<{}}{:>24.16g}\n", run.speeds[k], width, run.final_speeds[k]);
     if (run.contacts.empty()) return;
     std::string closed;
     for (const int k : run.motion.phases.back().closed)
@@ -241,9 +242,10 @@ Json as_json(const Run& run) {
     return result;
 }
 
-std::string as_text(const Run& run) {
+std::string as_text(const Run& run, const Ink& ink) {
     std::string page;
-    if (const std::string warning = warning_of(run); !warning.empty()) put(page, "{}\n", warning);
+    if (const std::string warning = warning_of(run); !warning.empty())
+        put(page, "{}{}{}\n", ink.bad, warning, ink.end);
     add_motion(page, run);
     add_account(page, run);
     return page;

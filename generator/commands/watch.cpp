@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <thread>
+#include <tuple>
+
+#include "alembert/error.hpp"
+#include "commands/output.hpp"
+#include "commands/page_server.hpp"
+#include "commands/run_verb.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "report/scene_page.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr auto look_again_after = std::chrono::milliseconds(150);
+
+struct WatchVerb {
+    std::string scene, output;
+    int port = 0;
+    OverviewOptions options = {};
+};
+
+/// What changes when a file is saved, whether it is written in place or replaced; nothing where there is no file
+/// now.
+using Stamp = std::optional<std::tuple<dev_t, ino_t, off_t, time_t, long>>;
+
+Stamp stamp_of(const std::string& file) {
+    struct stat info {};
+    if (stat(file.c_str(), &info) != 0) return {};
+    return std::tuple(info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+}
+
+/// Waits until the file is another one than `seen` and has stayed so for a moment: editors write in several steps.
+Stamp changed_from(const Stamp& seen, const std::string& file) {
+    for (Stamp before = seen;;) {
+        std::this_thread::sleep_for(look_again_after);
+        const Stamp now = stamp_of(file);
+        if (now && now != seen && now == before) return now;
+        before = now;
+    }
+}
+
+/// The page of the scene as it is now; of a scene with mistakes, the page that shows them.
+std::string page_of(const WatchVerb& verb) {
+    try {
+        return as_html(overview(read_scene(verb.scene), verb.options),
+                       {.version = ALEMBERT_VERSION, .by = verb.options.by});
+    } catch (const std::exception& mistake) {
+        return error_page(verb.scene, mistake.what());
+    }
+}
+
+int run(const WatchVerb& verb) {
+    check_output(verb.output, {verb.scene});
+    Stamp seen = stamp_of(verb.scene);
+    if (!seen) read_scene(verb.scene);  // says why it cannot be read
+    PageServer server(verb.port);
+    show(fmt::format("{}  shows {}; Ctrl-C ends\n", server.address(), verb.scene));
+    std::cout.flush();
+    for (;;) {
+        server.announce();
+        const auto begin = std::chrono::steady_clock::now();
+        const std::string page = page_of(verb);
+        if (!verb.output.empty()) write_file(verb.output, page, {verb.scene});
+        server.publish(page);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        show(fmt::format("made in {:.2f} s\n", seconds.count()));
+        std::cout.flush();
+        seen = changed_from(seen, verb.scene);
+    }
+}
+
+}  // namespace
+
+void add_watch(CLI::App& app, Chosen& chosen) {
+    const auto options = std::make_shared<WatchVerb>();
+    CLI::App* const verb =
+        add_verb(app, {.name = "watch",
+                       .about = "shows the scene's page in the browser, anew whenever it is saved",
+                       .example = "alembert watch scenes/textbook/sled.toml"});
+    verb->add_option("scene", options->scene, "the scene, a TOML file")->type_name(values::scene)->required();
+    verb->add_option("--port", options->port, "of this machine's address 127.0.0.1; default: any free port")
+        ->type_name(values::count)
+        ->check(CLI::Range(1, 65535).description(""));
+    verb->add_option("-o,--output", options->output, "writes the page to this file too")->type_name(values::file);
+    add_duration_option(*verb, options->options.wishes);
+    add_by_option(*verb, options->options.by);
+    verb->add_flag("!--no-motion", options->options.moves, "leaves the motion out");
+    verb->callback([options, &chosen] { chosen = {options->scene, [options] { return run(*options); }}; });
+}
+
+}  // namespace alembert
