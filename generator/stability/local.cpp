@@ -295,7 +295,7 @@ void Local::settle() {
             tangent = tangent_at(point);
             return;
         }
-        if (longest > 1e-3 || nr < 0) break;
+        if (longest > 1e-3) break;
         point = middle;
     }
     throw NotAnalytic("the equilibrium is not found to the last digits");
