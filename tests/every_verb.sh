@@ -37,7 +37,7 @@ export WORK
 trap 'rm -rf "$WORK"' EXIT
 export XDG_CACHE_HOME=$WORK/cache
 formalisms="lagrange lagrange1 routh kane dalembert nielsen schiehlen roberson-wittenburg recursive hamilton"
-export formalisms="$formalisms routhian"
+export formalisms="$formalisms routhian appell maggi"
 export accident='internal error|runtime error:|Sanitizer'
 # A sanitizer's own exit code is 1, which here means "refuted".
 export ASAN_OPTIONS=exitcode=199:detect_leaks=0 UBSAN_OPTIONS=exitcode=199:print_stacktrace=1

@@ -16,8 +16,9 @@
 /// derived flag I ⊃ I′ ⊃ I″ … is the largest integrable subsystem, and it annihilates the fields together with all
 /// their brackets (Bryant et al., Exterior Differential Systems (1991), II.4). `integrable[k]` says whether w_k
 /// lies in it. So in
-///     z' − y·x' = 0,   y' = 0        the first is not integrable alone, and is so beside the second: z − y·x is
-///     constant; two forms in three variables   always are, each of them.
+///     z' − y·x' = 0,   y' = 0
+///         the first is not integrable alone, and is so beside the second: z − y·x is constant;
+///     two forms in three variables   always are, each of them.
 /// `integrals` is the number of independent functions of q and t that all motions keep.
 ///
 /// Decided modulo 2⁶¹ − 1 at random points of the constraint variety (variety.hpp), for all parameters but special

@@ -4,9 +4,10 @@
 /// Which term does a claim lack? For claims that are no multiple of an equation of motion: integrals, eliminated
 /// equations.
 ///
-///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);   //
-///     "m*l^2*theta'^2/2", "r'*phi'" … absent_term(program, residual, nodes_of_terms, steady, states)     //
-///     residual + (3/2)·m·terms[7] = 0 on every motion
+///     // "m*l^2*theta'^2/2", "r'*phi'" …
+///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);
+///     // residual + (3/2)·m·terms[7] = 0 on every motion
+///     absent_term(program, residual, nodes_of_terms, steady, states)
 ///
 /// A term t is lacking from r if −r/t is the same number times powers of parameters at all states. The powers are
 /// found from two states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, looked up in a

@@ -13,11 +13,10 @@
 /// below 2⁻⁶⁰; where the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
 ///
 ///  - unknowns are functions of the state that the author leaves open. Claims are linear in them: B(state) μ =
-///  d(state) must be
-///    solvable at every state. A claim whose row the others' rows do not imply is vacuous: some unknown takes up
-///    whatever it says.
+///    d(state) must be solvable at every state. A claim whose row the others' rows do not imply is vacuous: some
+///    unknown takes up whatever it says.
 ///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for
-///  c.
+///    c.
 ///  - at rest: at states with q' = q'' = 0 that the equations allow.
 ///
 /// A false claim gets a state at which it fails, in exact numbers (exact/real_state.hpp).

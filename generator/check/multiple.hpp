@@ -3,8 +3,8 @@
 
 /// Is an equation a combination of the equations of motion? By normal form, so that it is a proof.
 ///
-///     is_multiple(residual, mechanism, equations)     // r = Σ c_i (M u' − f − Aᵀλ)_i + Σ d_k (A u' − γ)_k,
-///     identically
+///     // r = Σ c_i (M u' − f − Aᵀλ)_i + Σ d_k (A u' − γ)_k, identically
+///     is_multiple(residual, mechanism, equations)
 ///
 /// Tried: multiples of one equation by any function, and, with up to three coordinates and no constraints, every
 /// combination (Cramer's rule). False means not seen.

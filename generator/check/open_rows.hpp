@@ -4,8 +4,8 @@
 /// Claims that leave names open, as linear systems for these names: B(state) μ = d(state) at an exact state.
 ///
 ///     const OpenRows rows = open_rows(claims, forms, {0, 2, 3});      // claims 0, 2 and 3 share names
-///     if (const auto at = open_matrix(rows, state); at && !consistent(at->rows)) …    // no choice satisfies them
-///     together
+///     // no choice satisfies them together
+///     if (const auto at = open_matrix(rows, state); at && !consistent(at->rows)) …
 ///
 /// An integral with constants contributes a row for itself and one for each time derivative that mechanics gives.
 

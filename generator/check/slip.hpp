@@ -3,8 +3,10 @@
 
 /// What a student probably did wrong: the one small change that sets a claim right.
 ///
-///     const auto slip = likely_slip(claim, residual, mechanism, equations, {.is_right = …, .vanishes = …, .absent
-///     = …}); slip->kind      // "sign" slip->term      // "-m*g*sin(theta)", as the claim has it
+///     const Judge judge{.is_right = …, .vanishes = …, .absent = …};
+///     const auto slip = likely_slip(claim, residual, mechanism, equations, judge);
+///     slip->kind      // "sign"
+///     slip->term      // "-m*g*sin(theta)", as the claim has it
 ///
 /// Tried, in this order: a sign; sine for cosine; another argument; a dot (or a square) more; another length, or
 /// one more or less; a number, another parameter or a power; a term of the nearest equation that is missing; a

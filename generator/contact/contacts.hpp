@@ -3,9 +3,11 @@
 
 /// A mechanism with some of its unilateral contacts closed, and what contacts need to know at one state.
 ///
-///     const Mechanism lying = with_closed(mechanism, {0});      // the gap of contact 0 is a holonomic constraint
-///     now const ContactView view(mechanism); const Situation here = view.at(state);                    //
-///     alembert/contact.hpp const Lasting mode = contacts_at_rest(view, state, 1e-9); // what eval shows
+///     // the gap of contact 0 is a holonomic constraint now
+///     const Mechanism lying = with_closed(mechanism, {0});
+///     const ContactView view(mechanism);
+///     const Situation here = view.at(state);                    // alembert/contact.hpp
+///     const Lasting mode = contacts_at_rest(view, state, 1e-9); // what eval shows
 ///
 /// `with_closed` is what makes each mode a mechanism like any other: derived, lowered and emitted the same way.
 

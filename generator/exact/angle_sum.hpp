@@ -5,10 +5,10 @@
 /// The circle's group has every odd part of a turn: of the variables of a condition there is always one that can
 /// be had from the others.
 ///
-///     if (const auto sum = angle_sum(program, condition, {Variable::Kind::coordinate, 2}))    // c − 2a + 3b − 1
-///     = 0
-///         set_angle(point, *sum, value_of_c);                                               // turn(c) =
-///         turn(a)²·turn(b)⁻³·turn(1)
+///     // c − 2a + 3b − 1 = 0
+///     if (const auto sum = angle_sum(program, condition, {Variable::Kind::coordinate, 2}))
+///         // turn(c) = turn(a)²·turn(b)⁻³·turn(1)
+///         set_angle(point, *sum, value_of_c);
 ///
 /// Without this a point knows the angle's value and not that its sine has to do with those of the others.
 

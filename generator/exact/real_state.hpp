@@ -6,8 +6,8 @@
 ///
 ///     for (unsigned seed = 0; seed < 100; ++seed)
 ///         if (const auto state = real_state(motions, claims, roots, seed))
-///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …     // a
-///             counterexample
+///             // a counterexample
+///             if (const auto r = evaluate(claims, *state, roots); r && !r->front().is_zero()) …
 
 #include "exact/motions.hpp"
 #include "exact/real_values.hpp"

@@ -3,8 +3,8 @@
 
 /// M w' = f of a chain of links in a plane, from both of its ends at once.
 ///
-///     const std::vector<double> wdot = from_both_ends(tree, f);      // f = Q − n; for trees that are one:
-///     is_planar_chain
+///     // f = Q − n; for trees that are one: is_planar_chain
+///     const std::vector<double> wdot = from_both_ends(tree, f);
 ///
 /// With rates from the ground and regrouped bodies (recursion.hpp), M_ij = r_i · h_j for i < j and M_jj = J_j: r_i
 /// leads from link i's origin to the next one's, h_j is link j's first moment, J_j its polar second moment.

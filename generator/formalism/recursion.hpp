@@ -7,8 +7,8 @@
 ///     const Bias<double> bias(tree);                                    // Newton-Euler, outwards, at w' = 0
 ///     const auto n = joint_loads(tree, bias.wrenches);                  // … and inwards: M w' + n = Q
 ///     const auto M = composite_bodies(tree);                            // rows by joint, lower triangle
-///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);     // M w' = Q − n in a number of operations
-///     linear in bodies
+///     // M w' = Q − n in a number of operations linear in bodies
+///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);
 ///
 /// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 to 7; Walker & Orin 1982; Luh, Walker & Paul
 /// 1980.) A joint has one rate w: turns about the z axis of its link, or shifts along `slide`. Joints with more

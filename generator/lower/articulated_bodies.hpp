@@ -3,8 +3,8 @@
 
 /// The recursions of formalism/recursion.hpp, instantiated with nodes of a program.
 ///
-///     const RecursionNodes nodes = recursion(program, tree, z, {LinkAxes::still,
-///     RecursionForm::Solve::articulated}, lowering);
+///     const RecursionForm form{LinkAxes::still, RecursionForm::Solve::articulated};
+///     const RecursionNodes nodes = recursion(program, tree, z, form, lowering);
 
 #include <functional>
 #include <optional>

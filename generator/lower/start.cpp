@@ -9,8 +9,7 @@
 
 namespace alembert {
 
-Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names, std::string option)
-    : m_(mechanism), option_(std::move(option)) {
+Starts::Starts(const Mechanism& mechanism, const std::vector<std::string>& names) : m_(mechanism) {
     plain_.q.resize(m_.q.size());
     plain_.qdot.resize(m_.q.size());
     if (!m_.speeds.empty() && m_.speeds[0].start) plain_.speeds.resize(m_.speeds.size());
@@ -34,8 +33,7 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
     for (const Mechanism::Parameter& p : m_.parameters) {
         if (p.symbol.get_name() == name) {
             if (p.independent) return {name, Part::parameter, position};
-            throw ModelError(
-                fmt::format("{} {}=…: '{}' is defined by other parameters; set those", option_, name, name));
+            throw ModelError(fmt::format("{}=…: '{}' is defined by other parameters; set those", name, name));
         }
         position += p.independent ? 1 : 0;
         known.push_back(p.symbol.get_name());
@@ -44,7 +42,7 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         if (m_.q[i].get_name() == name) return {name, Part::q, i};
         if (m_.q[i].get_name() + "'" == name) {
             if (plain_.speeds.empty()) return {name, Part::qdot, i};
-            throw ModelError(fmt::format("{} {}=…: the rates follow from the speeds here; set '{}'", option_, name,
+            throw ModelError(fmt::format("{}=…: the rates follow from the speeds here; set '{}'", name,
                                          m_.speeds[0].u.get_name()));
         }
         known.push_back(m_.q[i].get_name());
@@ -54,12 +52,12 @@ Starts::Spot Starts::spot_of(const std::string& name) const {
         known.push_back(m_.speeds[k].u.get_name());
         if (known.back() != name) continue;
         if (!plain_.speeds.empty()) return {name, Part::speed, k};
-        throw ModelError(fmt::format("{} {}=…: the scene gives rates, and '{}' follows from them; set those",
-                                     option_, name, name));
+        throw ModelError(
+            fmt::format("{}=…: the scene gives rates, and '{}' follows from them; set those", name, name));
     }
     const std::string meant = nearest(name, known);
-    throw ModelError(fmt::format("{} {}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", option_,
-                                 name, name, meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+    throw ModelError(fmt::format("{}=…: '{}' is no coordinate, rate, parameter or t of the scene{}", name, name,
+                                 meant.empty() ? "" : "; did you mean '" + meant + "'?"));
 }
 
 double& Starts::place(const Spot& spot, Start& start) {
@@ -82,8 +80,7 @@ Start Starts::at(const std::vector<double>& values) const {
     const auto replace = [&](bool parameters) {
         for (std::size_t k = 0; k < spots_.size(); ++k) {
             if (!std::isfinite(values[k]))
-                throw ModelError(
-                    fmt::format("{} {}={}: expected a finite number", option_, spots_[k].name, values[k]));
+                throw ModelError(fmt::format("{}={}: expected a finite number", spots_[k].name, values[k]));
             if ((spots_[k].part == Part::parameter) == parameters) place(spots_[k], start) = values[k];
         }
     };

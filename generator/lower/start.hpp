@@ -5,7 +5,7 @@
 ///
 ///     const Start start = start_of(mechanism, {{"theta1", 0.3}, {"theta1'", 1.0}, {"l1", 2.0}});
 ///
-///     const Starts starts(mechanism, {"theta1", "l1"}, "--vary");      // the same names again and again
+///     const Starts starts(mechanism, {"theta1", "l1"});      // the same names again and again
 ///     for (double angle : angles) starts.at({angle, 2.0});
 
 #include <string>
@@ -37,8 +37,8 @@ State<double> state_of(const Start& start, const Mechanism& mechanism, const Equ
 /// The names are found and the initial values lowered once, for many numbers. What it is given must outlive it.
 class Starts {
 public:
-    /// `option` stands in messages. Throws as start_of, for names.
-    Starts(const Mechanism& mechanism, const std::vector<std::string>& names, std::string option = "--at");
+    /// Throws as start_of, for names.
+    Starts(const Mechanism& mechanism, const std::vector<std::string>& names);
 
     /// A value for each name. Throws as start_of, for values.
     Start at(const std::vector<double>& values) const;
@@ -54,7 +54,6 @@ private:
     static double& place(const Spot& spot, Start& start);
 
     const Mechanism& m_;
-    std::string option_;
     Start plain_;  ///< the scene's own parameters, and room for the rest
     std::vector<Spot> spots_;
     Program program_;

@@ -3,8 +3,9 @@
 
 /// Evaluates a Program node by node: the oracle of the tests, and `eval` without a compiler.
 ///
-///     const std::vector<double> values = interpret<double>(program, {.parameters = par, .t = 0, .q = q, .qdot =
-///     u}); values[program.nodes_of(Group::energy)[0]];
+///     const State<double> state{.parameters = par, .t = 0, .q = q, .qdot = u};
+///     const std::vector<double> values = interpret<double>(program, state);
+///     values[program.nodes_of(Group::energy)[0]];
 ///
 /// Works for every Real with the usual functions found by argument-dependent look-up (double, long double).
 

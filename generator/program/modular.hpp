@@ -4,8 +4,8 @@
 /// Evaluates a Program exactly, modulo the prime 2⁶¹ − 1, at a random point.
 ///
 ///     const ModularPoint point{.seed = 7};
-///     if (const auto at = evaluate_mod(program, point, roots))    // nothing at an unusable point: try another
-///     seed
+///     // nothing at an unusable point: try another seed
+///     if (const auto at = evaluate_mod(program, point, roots))
 ///         at->value[roots[0]] == other->value[other_root];
 ///
 /// Two programs at the same point see the same values, whatever their nodes are numbered: every random value is a
@@ -18,13 +18,11 @@
 ///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of
 ///    π/2ᵏ have their values. `given_angles` sets the point of an x by its value.
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol:
-///  this
-///    keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unusable.
+///    this keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unusable.
 ///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one
-///  and
-///    the other of the pair. All other functions are random functions of their arguments' values.
-/// What the last line and √3, √5 … (no squares modulo this prime) leave out are identities such as
-/// cos(asin x)² = 1 − x²: a difference found here is certain only where `exact` is set.
+///    and the other of the pair. All other functions are random functions of their arguments' values. What the
+///    last line and √3, √5 … (no squares modulo this prime) leave out are identities such as cos(asin x)² = 1 −
+///    x²: a difference found here is certain only where `exact` is set.
 
 #include <cln/integer.h>
 

@@ -12,11 +12,13 @@
 /// (2005), §2; Moore, Interval Analysis (1966), §11):
 ///
 ///     sum         z = Σ w x + Σ w a⊗b                               one accumulator for all its products
-///     quotient    d⊗z = (numerator)                                 no reciprocal is made where something is
-///     divided root        z⊗z = a power       k a_0 z_k = Σ_{j<k} (α(k−j) − j) a_{k−j} z_j exponential k z_k =
-///     (a'⊗z)_k;  sine, cosine and the hyperbolic ones: k s_k = (a'⊗c)_k, k c_k = ∓(a'⊗s)_k area        z' = a'·w:
-///     tan with w = 1 + z², tanh ratio       z' = a'/w: log with w = a, atan with 1 + a², asin turn        z' = (x
-///     y' − y x')/w: atan2
+///     quotient    d⊗z = (numerator)                          no reciprocal is made where something is divided
+///     root        z⊗z = a
+///     power       k a_0 z_k = Σ_{j<k} (α(k−j) − j) a_{k−j} z_j
+///     exponential k z_k = (a'⊗z)_k;  sine, cosine and the hyperbolic ones: k s_k = (a'⊗c)_k, k c_k = ∓(a'⊗s)_k
+///     area        z' = a'·w: tan with w = 1 + z², tanh
+///     ratio       z' = a'/w: log with w = a, atan with 1 + a², asin
+///     turn        z' = (x y' − y x')/w: atan2
 ///
 /// Accelerations come by one of two ways, whichever takes fewer Cauchy products: as the nodes that the Program has
 /// for them, or coefficient by coefficient from M u' = f (and A u' = γ where there are multipliers), with one

@@ -6,8 +6,8 @@
 /// every π/2ᵏ; π/3 is beside it.
 ///
 ///     const PrimeTurn third = turn.power(*PrimeTurn::exponent(Rational(1) / 3));    // third.power(3) is turn
-///     PrimeTurn::by_pi(Rational(1) / 8)->cos;                                // cos(π/8), the same in every
-///     program
+///     // cos(π/8), the same in every program
+///     PrimeTurn::by_pi(Rational(1) / 8)->cos;
 
 #include <cln/integer.h>
 

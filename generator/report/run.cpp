@@ -90,8 +90,8 @@ Json json_of(const ErrorEstimate& e, const std::vector<std::string>& reasons) {
                 {"by", e.by},
                 {"trustworthy", reasons.empty()},
                 {"norm",
-                 "value: max |y - y2| / max(1, |y2|) of coordinates and speeds at the end; scaled: max |y - y2| / "
-                 "how far components of "
+                 "value: at most max |error| / max(1, |y|) of coordinates, rates and speeds at the end; scaled: "
+                 "max |error| / how far components of "
                  "that unit move in the run"},
                 {"scaled", number(e.scaled)},
                 {"reasons", reasons}};

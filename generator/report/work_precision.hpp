@@ -3,8 +3,8 @@
 
 /// Time against error as an SVG picture, both logarithmic: to the right more digits, further down less time.
 ///
-///     const std::string svg = work_precision({{.name = "dop853", .points = {{1e-6, 2e-4}, {1e-9, 4e-4}}}},
-///     "Pleiades");
+///     const Curve curve{.name = "dop853", .points = {{1e-6, 2e-4}, {1e-9, 4e-4}}};
+///     const std::string svg = work_precision({curve}, "Pleiades");
 ///
 /// Curves are told apart by colour and mark, and named in a legend that is sorted by the time at the median error;
 /// peers are dashed. Points without finite positive error and time are left out.

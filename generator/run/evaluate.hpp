@@ -3,8 +3,9 @@
 
 /// The verb `eval`: one evaluation of a scene, at its initial state or another. No compiler is needed.
 ///
-///     const Evaluation at = evaluate(read_scene("scenes/textbook/double_pendulum.toml"), {.at = {{"theta1",
-///     0.3}}}); at.accelerations[0];     // rad/s², of at.coordinates[0]
+///     const Scene scene = read_scene("scenes/textbook/double_pendulum.toml");
+///     const Evaluation at = evaluate(scene, {.at = {{"theta1", 0.3}}});
+///     at.accelerations[0];     // rad/s², of at.coordinates[0]
 
 #include <array>
 #include <optional>

@@ -3,8 +3,9 @@
 
 /// The verb `inverse`: the loads along the coordinates that given accelerations need.
 ///
-///     const InverseLoads needed = inverse(read_scene("scenes/gallery/six_joint_arm.toml"), {.at = {{"q1''", 2},
-///     {"q1", 0.3}}}); needed.loads[0];      // N m, along needed.coordinates[0]
+///     const Scene scene = read_scene("scenes/gallery/six_joint_arm.toml");
+///     const InverseLoads needed = inverse(scene, {.at = {{"q1''", 2}, {"q1", 0.3}}});
+///     needed.loads[0];      // N m, along needed.coordinates[0]
 
 #include "derive/derived.hpp"
 

@@ -86,7 +86,8 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     if (const auto given = given_method(request, d)) {
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))
             throw ModelError(
-                fmt::format("--step {:g}: {} chooses its own steps; give --tolerance, or a method with fixed "
+                fmt::format("a step of {:g} s was asked for, but {} chooses its own steps; give a tolerance, or a "
+                            "method with fixed "
                             "steps (rk4, gauss, kahanli8 …)",
                             request.step, name));
         return {.method = *given};

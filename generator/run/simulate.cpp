@@ -152,12 +152,19 @@ private:
     void estimate(Modes& modes, const LoadedMode& free, const Watch& watch) {
         const double begin = process_seconds();
         const std::size_t coordinates = start_.q.size(), speeds = first_.qdot.size();
+        Components components = components_of(free.program, coordinates, speeds);
+        if (!run_.mechanism.speeds.empty())
+            components.rates = [&, all = std::vector<double>(initial_.size())](
+                                   double t, std::span<const double> state, std::span<double> rates) mutable {
+                free.contact.rhs(t, state.data(), all.data());
+                std::copy_n(all.begin(), rates.size(), rates.begin());
+            };
         run_.estimate = error_estimate(
             run_.motion,
             [&](const Options& options, const std::vector<double>& from) {
                 return followed(modes, options, from);
             },
-            options_, initial_, components_of(free.program, coordinates, speeds));
+            options_, initial_, components);
         const bool fixed = has_fixed_step(options_.method) && choice_.foreign.empty();
         const bool conserved = run_.energy.conserved;
         run_.doubts = doubts(

@@ -3,8 +3,9 @@
 
 /// The verb `simulate`: a scene's motion, with what the run measured of itself.
 ///
-///     const Run run = simulate(read_scene("scenes/textbook/double_pendulum.toml"), {.duration = 10, .tolerance =
-///     1e-12}); run.final_coordinates[0];          // in the scene's unit, at run.motion.final_time()
+///     const Scene scene = read_scene("scenes/textbook/double_pendulum.toml");
+///     const Run run = simulate(scene, {.duration = 10, .tolerance = 1e-12});
+///     run.final_coordinates[0];          // in the scene's unit, at run.motion.final_time()
 ///     *run.estimate->value;              // the estimated error
 ///     run.doubts.empty();                // nothing speaks against trusting it
 ///

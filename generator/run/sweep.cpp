@@ -31,7 +31,7 @@ struct Beginnings {
 };
 
 Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& grid, Module module) {
-    const Starts starts(d.mechanism, grid.names(), "--vary");
+    const Starts starts(d.mechanism, grid.names());
     const Program constraints = lower_constraints(d.mechanism);
     const bool assembled = !d.mechanism.constraints.empty() || !d.mechanism.speeds.empty();
     Beginnings result{.ensemble = {.module = std::move(module)},
@@ -73,7 +73,7 @@ void check_bodies_along(Sweep& s) {
     };
     if (m.masses.empty() || std::none_of(m.parameters.begin(), m.parameters.end(), is_varied)) return;
     const InertiaCheck check(s.scene, m);
-    const Starts starts(m, names, "--vary");
+    const Starts starts(m, names);
     std::set<Place> told;
     for (std::size_t k = 0; k < s.grid.size(); ++k) {
         const std::vector<double> values = s.grid.point(k);

@@ -44,12 +44,9 @@ std::vector<std::string> doubts(const Evidence& e) {
     std::vector<std::string> reasons;
     if (!e.error.value) reasons.push_back(fmt::format("{}, so the error is unknown", e.error.by));
     const double value = e.error.value.value_or(0), scaled = e.error.scaled.value_or(0);
-    const double enough =
-        e.fixed_step > 0 ? two_digits / 2
-                         : two_digits;  // half a step of Euler's halves the error: the difference is half of it
-    if (!(value <= enough))
+    if (!(value <= two_digits))
         reasons.push_back(fmt::format("the estimated error is {:.1e}", value));
-    else if (!(scaled <= enough))
+    else if (!(scaled <= two_digits))
         reasons.push_back(fmt::format("the estimated error is {:.1e} of the motion's size", scaled));
     if (e.fixed_step == 0 && e.error.moved > 0 && e.error.moved < e.precision)
         reasons.push_back(fmt::format(

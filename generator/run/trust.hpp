@@ -3,20 +3,20 @@
 
 /// Whether a run is to be trusted with two digits, from all that it measured of itself.
 ///
-///     const std::vector<std::string> reasons = doubts({.error = estimate, .energy = drift.energy_of_motion(),
-///     …}); reasons.empty();         // trusted
+///     const Evidence evidence{.error = estimate, .energy = drift.energy_of_motion(), …};
+///     const std::vector<std::string> reasons = doubts(evidence);
+///     reasons.empty();         // trusted
 ///
-/// | what | doubted above | because |
+/// A run is doubted where one of these is above its limit:
+///
+/// | what | limit | because |
 /// | --- | --- | --- |
-/// | estimated error, relative to max(1, \|y\|) and to the motion's size | 0.01 (fixed steps: 0.005) | two digits
-/// | | the tolerance, against how far any coordinate moves | 1 | nothing was resolved that is all below it | |
-/// energy, work balance, Jacobi's integral, in units of the largest kinetic energy | 0.02 | energies are
-/// quadratic: 1 % of the rates | | constraints, against the largest coordinate or rate | 0.01 | the state itself
-/// is off by that much | | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below | | a fixed
-/// step, against the time in which an input changes | 2 pieces (quick_times.hpp) | no stage need have met it |
-///
-/// A fixed step is held against its half, which has half the error with a method of order one: the difference is
-/// half of the error.
+/// | estimated error, relative to max(1, \|y\|), and to the motion's size | 0.01 | two digits |
+/// | the tolerance, relative to how far any coordinate moves | 1 | below that nothing was resolved |
+/// | energy, work balance, Jacobi's integral, in units of the largest kinetic energy | 0.02 | 1 % of the rates |
+/// | constraints, relative to the largest coordinate or rate | 0.01 | the state itself is off by that much |
+/// | what a singular pose nearer than 0.1 makes of an error | 0.01 | see below |
+/// | a fixed step, relative to the time in which an input changes | 2 pieces | no stage need have met it |
 ///
 /// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones
 /// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value on the

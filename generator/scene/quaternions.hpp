@@ -8,8 +8,7 @@
 ///     [[joint]] type = "spherical", child = "top", coordinates = {…}    // of top: its four coordinates
 ///
 /// Each has e·e = 1 as a constraint, its multiplier being lambda_<frame>; a joint's whose four values are all
-/// prescribed
-/// ([[joint]] motion) has none, since nothing is left to be constrained: it turns by e/|e|.
+/// prescribed ([[joint]] motion) has none, since nothing is left to be constrained: it turns by e/|e|.
 
 #include "scene/scene.hpp"
 

@@ -4,8 +4,8 @@
 /// States that obey the constraints, and constraints that no state obeys.
 ///
 ///     if (states_that_obey(mechanism, start, 1).empty())
-///         for (const int k : contradictory_constraints(mechanism, start)) …    // positions in
-///         Mechanism::constraints
+///         // positions in Mechanism::constraints
+///         for (const int k : contradictory_constraints(mechanism, start)) …
 ///
 /// Found in numbers, from a fixed number of places around `start` with a fixed seed: that no state was found is no
 /// proof that there is none.

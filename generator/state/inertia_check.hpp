@@ -4,8 +4,8 @@
 /// Do the masses and moments of inertia of a scene belong to bodies that can be? At the numbers that a run has,
 /// replaced parameters among them.
 ///
-///     scene.toml:12:1: warning: the principal moments of inertia of body 'B', 1, 1 and 3, break the triangle
-///     inequality 1 + 1 >= 3 …
+///     scene.toml:12:1: warning: the principal moments of inertia of body 'B', 1, 1 and 3, break the
+///     triangle inequality 1 + 1 >= 3 …
 ///
 /// Moments are looked at about the mass centre, whatever point the scene gives them about.
 

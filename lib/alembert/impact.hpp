@@ -14,19 +14,14 @@
 ///
 /// (Zhang & Qin, Advanced Dynamics, the impulse equations of ch. 1; Newton's law of restitution with
 /// complementarity: Moreau 1988; Glocker, Set-Valued Force Laws (2001), on impacts.) In the same instant, one
-/// after the other:
-/// 1. A constraint that q'⁻ breaks is imposed, plastically: the nearest rates in the metric of M that obey it.
-/// What is
-///    lost is the kinetic energy of the lost velocities (Carnot).
-/// 2. The impulses act, and every contact that approaches or rests resists them by the law above. Of all rates
-/// that the
-///    law allows they are the nearest to those that the impulses alone would give, so they are the only ones.
-///    e belongs to the approach before: an impulse that presses a resting contact finds it hard, not elastic.
-/// 3. A contact that was opening takes no part in 2. If it is thrown back, it has a collision of its own by the
-/// same law;
-///    and so on. `collisions` counts 2 and these. Approaches below 1e-9 of what the rates allow end without a
-///    rebound, and so does whatever still rebounds after 1000 rounds: an elastic ball between two walls that both
-///    touch it.
+/// after the other: 1. A constraint that q'⁻ breaks is imposed, plastically: the nearest rates in the metric of M
+/// that obey it. What is lost is the kinetic energy of the lost velocities (Carnot). 2. The impulses act, and
+/// every contact that approaches or rests resists them by the law above. Of all rates that the law allows they are
+/// the nearest to those that the impulses alone would give, so they are the only ones. e belongs to the approach
+/// before: an impulse that presses a resting contact finds it hard, not elastic. 3. A contact that was opening
+/// takes no part in 2. If it is thrown back, it has a collision of its own by the same law; and so on.
+/// `collisions` counts 2 and these. Approaches below 1e-9 of what the rates allow end without a rebound, and so
+/// does whatever still rebounds after 1000 rounds: an elastic ball between two walls that both touch it.
 ///
 /// Impulses do the work ½ Q̂·(rates before 2 + rates after 2), moving constraints and floors −b·Λ − c·Π. Then
 /// loss = T⁻ − T⁺ + these works = Σ ½ (1 − e) Π |gap'⁻| + Carnot's part ≥ 0, whatever the e.

@@ -113,7 +113,7 @@ void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Even
     first.failure = std::move(second.failure);
     if (first.failure && first.failure->kind == FailureKind::budget_used_up)
         first.failure->message = fmt::format(
-            "{} right-hand sides were not enough to come further than t = {}; raise the budget (--budget), loosen "
+            "{} right-hand sides were not enough to come further than t = {}; raise the budget, loosen "
             "the "
             "tolerance or shorten the duration",
             options.budget, first.failure->time);

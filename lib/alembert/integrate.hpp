@@ -16,17 +16,20 @@
 /// | dop853 | 8, estimates of orders 5 and 3 | adaptive | order 7 | -6.1 < hλ < 0 |
 /// | verner76 | 7, estimate of order 6 | adaptive | order 6 | -4.64 < hλ < 0 |
 /// | verner98 | 9, estimate of order 8 | adaptive | order 8 | -4.48 < hλ < 0 |
-/// | taylor | by tolerance: ⌈1 − ½ ln tolerance⌉ or, where that is faster, more; at most 32 | adaptive, or fixed
-/// with `step` | its order | to about hλ = -1.3 - 0.37 order | | verlet | 2 | fixed; q' = v, v' = a(q, t) only |
-/// cubic Hermite | oscillators with hω < 2 | | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 |
-/// oscillators, a bounded hω | | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing
-/// | | rattle | 2 | fixed; holonomic constraints, M(q) (rattle.hpp) | a shorter step, order 2 | oscillators with
-/// hω < 2 | | rattle8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω | | abm | 4 |
-/// adaptive | order 4 | -1.28 < hλ < 0 | | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of
-/// 90°, 90°, 86°, 73°, 51° to either side | | radau5 | 5, estimate of order 3 | adaptive, stiff | order 3 |
-/// everywhere left of 0; damps stiff parts | | radau9 | 9, estimate of order 5 | adaptive, stiff | order 5 |
-/// likewise | | radau13 | 13, estimate of order 7 | adaptive, stiff | order 7 | likewise | | radau | 5, 9 or 13,
-/// as the steps suggest | adaptive, stiff | 3, 5 or 7 | likewise |
+/// | taylor | by tolerance, at most 32 | adaptive, or fixed | its order | to about hλ = -1.3 - 0.37 order |
+/// | verlet | 2 | fixed; q' = v, v' = a(q, t) only | cubic Hermite | oscillators with hω < 2 |
+/// | kahanli8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
+/// | gauss | 6 | fixed | a shorter step, order 6 | everywhere left of 0; damps nothing |
+/// | rattle | 2 | fixed; holonomic constraints (rattle.hpp) | a shorter step, order 2 | oscillators with hω < 2 |
+/// | rattle8 | 8 | fixed; likewise | a shorter step, order 8 | oscillators, a bounded hω |
+/// | abm | 4 | adaptive | order 4 | -1.28 < hλ < 0 |
+/// | bdf | 1 to 5 | adaptive, stiff | its order | sectors about hλ < 0 of 90°, 90°, 86°, 73°, 51° to either side |
+/// | radau5 | 5, estimate of order 3 | adaptive, stiff | order 3 | everywhere left of 0; damps stiff parts |
+/// | radau9 | 9, estimate of order 5 | adaptive, stiff | order 5 | likewise |
+/// | radau13 | 13, estimate of order 7 | adaptive, stiff | order 7 | likewise |
+/// | radau | 5, 9 or 13, as the steps suggest | adaptive, stiff | 3, 5 or 7 | likewise |
+///
+/// The order of taylor is ⌈1 − ½ ln tolerance⌉ or, where that is faster, more.
 ///
 /// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
 /// as given; below 4.4e-16, where an estimate is rounding alone and a shorter step no better, as 4.4e-16 (taylor:

@@ -9,8 +9,9 @@
 ///     step.end = ...;                          // a time in each lane; where it is the lane's own t nothing moves
 ///     step.attempt();
 ///     step.misfit[lane];                       // the largest error; infinite if something is not finite
-///     step.finish();                           // rates at the ends; step.misfit becomes infinite where they are
-///     not finite step.advance(accepted);                  // bit i: the end of lane i becomes its start
+///     // rates at the ends; step.misfit becomes infinite where they are not finite
+///     step.finish();
+///     step.advance(accepted);                  // bit i: the end of lane i becomes its start
 ///
 /// The arithmetic and its order are those of step.hpp, sums of two doubles included. It is compiled for AVX-512,
 /// for AVX2 and for any x86-64, and what the processor can do is chosen when a PackStep is made.

@@ -206,7 +206,7 @@ private:
         if (in_phases_ && motion.failure && motion.failure->kind == FailureKind::budget_used_up)
             result_.failure->message = fmt::format(
                 "{} right-hand sides were not enough to come further than t = {}, with {} "
-                "impacts and changes of contact{}; raise the budget (--budget), loosen the "
+                "impacts and changes of contact{}; raise the budget, loosen the "
                 "tolerance or shorten the duration",
                 options_.budget, motion.failure->time, result_.contacts.size(),
                 kicks_ == 0 ? "" : fmt::format(" and {} kicks of events", kicks_));

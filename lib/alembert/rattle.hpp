@@ -5,9 +5,8 @@
 /// each step.
 ///
 ///     P  = p + h/2 (F(q, v) + A(q)ᵀλ),      M(q) v + p₀(q) = P           v: the rates that belong to (q, P)
-///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: those of (q₁, P);   f(q₁) = 0
-///     determines λ p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0
-///     determines μ
+///     q₁ = q + h/2 (v + w),                 M(q₁) w + p₀(q₁) = P         w: of (q₁, P); f(q₁) = 0 determines λ
+///     p₁ = P + h/2 (F(q₁, w) + A(q₁)ᵀμ),    M(q₁) u₁ + p₀(q₁) = p₁       A(q₁) u₁ + ∂f/∂t = 0 determines μ
 ///
 /// with p, F and A of canonical.hpp at t (first line) and t + h. That is the two-stage Lobatto IIIA-IIIB pair for
 /// q' = H_p(p, q), p' = −H_q(p, q) − Aᵀλ, of order 2 (Jay); for constant M and forces without rates it is

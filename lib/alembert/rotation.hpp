@@ -4,11 +4,14 @@
 /// Kinematics of rotation and of relative motion, as values (Zhang & Qin, chapter 2; Goldstein, Classical
 /// Mechanics (1980), chapter 4).
 ///
-///     const Matrix3<> R_NB = rotation_by_angles("zxz", {phi, theta, psi});       // Euler's angles, about the
-///     body's axes const Vector3r<> w = angular_velocity("zxz", {phi, theta, psi}, {phi_dot, theta_dot, psi_dot});
-///     // along B const Turn<> turn = turn_of(R_NB);                                          // Euler's theorem:
-///     axis and angle const Quaternion<> e = quaternion_of(R_NB);                                 // (e0, e1, e2,
-///     e3), scalar first
+///     // Euler's angles, about the body's axes
+///     const Matrix3<> R_NB = rotation_by_angles("zxz", {phi, theta, psi});
+///     // along B
+///     const Vector3r<> w = angular_velocity("zxz", {phi, theta, psi}, {phi_dot, theta_dot, psi_dot});
+///     // Euler's theorem: axis and angle
+///     const Turn<> turn = turn_of(R_NB);
+///     // (e0, e1, e2, e3), scalar first
+///     const Quaternion<> e = quaternion_of(R_NB);
 ///
 /// R_AB takes components along B to components along A; its columns are B's unit axes in A, its elements the
 /// direction cosines. w_AB_B is the angular velocity of B in A along B. Angles in radians, lengths and times in

@@ -274,8 +274,8 @@ private:
         const int watched = options_.when_stiff ? 1 : 0;
         if (evaluations() + step_.most_evaluations() + watched <= options_.budget) return false;
         fail(FailureKind::budget_used_up, -1,
-             fmt::format("{} right-hand sides were not enough to come further than t = {}; raise the budget "
-                         "(--budget), loosen the tolerance or shorten the duration",
+             fmt::format("{} right-hand sides were not enough to come further than t = {}; raise the budget, "
+                         "loosen the tolerance or shorten the duration",
                          options_.budget, step_.time()));
         return true;
     }

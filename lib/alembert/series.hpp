@@ -5,8 +5,8 @@
 ///
 ///     const Series series = make_series(load_series(object));     // the scene's own parameters
 ///     std::vector<double> out((order + 1) * series.width), work(series.workspace);
-///     series(t, state, order, out.data(), work.data());           // out[k·width + i]: of (time − t)^k in
-///     component i
+///     // out[k·width + i]: of (time − t)^k in component i
+///     series(t, state, order, out.data(), work.data());
 ///
 /// Throws CompileError as `load` does (module.hpp), std::invalid_argument if the number of parameters is wrong.
 

@@ -10,7 +10,7 @@
 /// In this order:
 ///  - positions move to where the gaps of contacts that touch are zero (the least change in the metric of M);
 ///  - impulses act, and what closes with a speed is struck (impact.hpp: Newton's law; all closed contacts take
-///  part);
+///    part);
 ///  - what bounces too low is laid down: where the bounces still to come displace no coordinate by more than
 ///    tolerance · max(1, |q|). With speed v after the impact and gap'' = −a they take (2v/a)/(1 − e) in all, a
 ///    geometric sum: this is the time told for `rest`. The speed is taken away along M⁻¹Gᵀ at once, which leaves

@@ -4,8 +4,8 @@
 /// Angles on which sines.cpp tries the sines and cosines of emitted code.
 ///
 ///     const std::vector<double> first = hard_angles();         // each once
-///     fill_angles(chunk, angles);                              // and as many as wanted; the same chunk has the
-///     same angles always
+///     // and as many as wanted; the same chunk has the same angles always
+///     fill_angles(chunk, angles);
 ///
 /// Of a chunk, a fifth each: log-uniform from 1e-310 to 1e8; uniform to 1e8; within two turns; next to multiples
 /// of π/2, where one of the two values is small and the reduction must keep its digits; and what is rare: next to
