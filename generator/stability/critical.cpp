@@ -205,7 +205,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
     const double largest = svd.singularValues()[0];
     if (zeros < n && svd.singularValues()[n - zeros - 1] < 1e-8 * largest) return {};
     if (svd.singularValues()[n - zeros] > 1e-12 * std::max(1.0, largest)) return {};
-    const int nr = static_cast<int>(local.split.q.size()), p = static_cast<int>(local.split.u.size());
+    const int p = static_cast<int>(local.split.u.size());
     if (!local.cyclic_momenta.empty()) return {};
     const Eigen::MatrixXd V = svd.matrixV();
     const std::size_t ne = local.essential.size();
