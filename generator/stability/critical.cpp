@@ -205,7 +205,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
     const double largest = svd.singularValues()[0];
     if (zeros < n && svd.singularValues()[n - zeros - 1] < 1e-8 * largest) return {};
     if (svd.singularValues()[n - zeros] > 1e-12 * std::max(1.0, largest)) return {};
-    const int nr = static_cast<int>(local.split.q.size()), p = static_cast<int>(local.split.u.size());
+    const int p = static_cast<int>(local.split.u.size());
     if (!local.cyclic_momenta.empty()) return {};
     const Eigen::MatrixXd V = svd.matrixV();
     const std::size_t ne = local.essential.size();
@@ -214,7 +214,7 @@ Decision family_of_motions(const Local& local, const std::vector<RootOf>& roots)
         for (std::size_t k = 0; k < ne; ++k)
             shift(at.q[local.split.q[local.essential[k]]], by[static_cast<Eigen::Index>(k)]);
         for (int j = 0; j < p; ++j) shift(at.u[local.split.u[j]], by[static_cast<Eigen::Index>(ne) + j]);
-        for (int round = 0; round < 30 && nr >= 0; ++round) {
+        for (int round = 0; round < 30; ++round) {
             const CertainTangent t = local.tangent_at(at);
             double largest_step = 0;
             const auto follow = [&](Certain& x, const Certain& d) {

@@ -243,7 +243,6 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
 
 /// Newton's method on constraints and on w' = 0, for what is not exact.
 void Local::settle() {
-    const int nr = static_cast<int>(split.q.size());
     for (int step = 0; step < 12; ++step) {
         tangent = tangent_at(point);
         double largest = 0;
@@ -295,7 +294,7 @@ void Local::settle() {
             tangent = tangent_at(point);
             return;
         }
-        if (longest > 1e-3 || nr < 0) break;
+        if (longest > 1e-3) break;
         point = middle;
     }
     throw NotAnalytic("the equilibrium is not found to the last digits");

@@ -211,12 +211,17 @@ Decision undecided(const std::vector<RootOf>& roots) {
 }
 
 /// What `linearize` takes as it is at the state, and stability may not.
-void check_steady(const LinearizedScene& near, std::size_t contacts) {
-    if (near.mechanism.unilateral.size() != contacts)
-        throw ModelError(
-            "a contact is closed at this state: a disturbance may open it, and what the motion does then no first "
-            "approximation tells. Give a state in which all contacts are open, or a constraint in place of the "
-            "contact");
+void check_steady(const LinearizedScene& near) {
+    for (const Mechanism::Unilateral& contact : near.mechanism.unilateral)
+        for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes those that press
+            if (c.multiplier.is_equal(contact.gap.multiplier))
+                throw ModelError(
+                    fmt::format("contact {} is closed at this state: a disturbance may open it, and what the "
+                                "motion does then no "
+                                "first approximation tells. Give a state in which all contacts are open, or a "
+                                "constraint in place "
+                                "of the contact",
+                                c.name));
     for (const Mechanism::Input& input : near.mechanism.inputs)
         for (const std::string& name : near.matrices.inputs)
             if (name.substr(0, name.find('\'')) == input.derivative[0].get_name() &&
@@ -250,11 +255,10 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
 Stability stability(Scene scene, const StabilityOptions& options) {
     if (scene.polynomial) return stability_of_polynomial(scene, options);
     if (options.period > 0 || scene.simulation.period) return stability_of_periodic(std::move(scene), options);
-    const std::size_t contacts = scene.unilateral.size();
     Stability result{.title = scene.title};
     LinearizeOptions linearize_options{.by = options.by, .at = options.at, .exact_at = options.exact_at};
     result.near = linearize(std::move(scene), linearize_options);
-    check_steady(*result.near, contacts);
+    check_steady(*result.near);
     result.near->mechanism = with_potential_of_loads(result.near->mechanism);
     const LinearizedScene& near = *result.near;
     result.warnings = near.warnings;
