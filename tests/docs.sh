@@ -131,13 +131,16 @@ for verb in '' $verbs; do
     example=$(sed -n '1s/^Example: //p' "$work/help")
     lines=$(wc -l <"$work/help")
     wide=$(wc -L <"$work/help")
-    if [ "$lines" -gt 24 ] || [ "$wide" -gt 80 ]; then
-        echo "alembert $verb --help has $lines lines of up to $wide columns; expected 24 of 80"
+    most_lines=24
+    [ -n "$verb" ] || most_lines=30 # the list of verbs
+    if [ "$lines" -gt "$most_lines" ] || [ "$wide" -gt 80 ]; then
+        echo "alembert $verb --help has $lines lines of up to $wide columns; expected $most_lines of 80"
         failed=1
     fi
     timeout 60 bash -c "$([[ $verb != watch ]] || echo timeout 3) $example" >"$work/printed" 2>&1 </dev/null
     code=$?
-    [ "$verb,$code" = watch,124 ] || [ "$code" = 0 ] || {
+    # 1 is an answer too: unstable, refuted.
+    [ "$verb,$code" = watch,124 ] || [ "$code" -le 1 ] || {
         printf 'the example of alembert %s --help fails:\n$ %s\n' "$verb" "$example"
         tail -n 5 "$work/printed"
         failed=1

@@ -92,7 +92,7 @@ void add_equilibrium(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "equilibrium",
          .about = "finds where the system can stay at rest, or move steadily",
-         .example = "alembert equilibrium scenes/textbook/double_pendulum.toml"},
+         .example = "alembert equilibrium scenes/textbook/watt_governor.toml"},
         run, [](CLI::App& verb, EquilibriumVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);

@@ -31,7 +31,7 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "linearize",
          .about = "gives matrices and eigenvalues near an equilibrium",
-         .example = "alembert linearize scenes/textbook/coupled_oscillators.toml --at x1=0 x2=0"},
+         .example = "alembert linearize scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](CLI::App& verb, LinearizeVerb& options) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);

@@ -43,7 +43,7 @@ void add_stability(CLI::App& app, Chosen& chosen) {
         app, chosen,
         {.name = "stability",
          .about = "says whether an equilibrium, a steady motion or a polynomial is stable, and why",
-         .example = "alembert stability scenes/textbook/double_pendulum.toml --at theta1=0 theta2=0"},
+         .example = "alembert stability scenes/textbook/watt_governor.toml --at alpha=0"},
         run, [](CLI::App& verb, StabilityVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);

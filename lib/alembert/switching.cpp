@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "alembert/run.hpp"
 
@@ -104,7 +105,7 @@ public:
           end_(options.start + options.duration),
           t_(options.start),
           state_(initial),
-          sizes_(static_cast<std::size_t>(system.count())) {}
+          sizes_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))) {}
 
     Trajectory go() {
         if (begin())
@@ -124,7 +125,7 @@ private:
         for (int k = 0; k < system_.count(); ++k) {  // a function may contain the signs of those before it
             const double g = value_of(k);
             is_defined = is_defined && std::isfinite(g);
-            sizes_[k] = std::abs(g);
+            (*sizes_)[k] = std::abs(g);
             if (g == 0)
                 open.push_back(k);
             else
@@ -145,11 +146,11 @@ private:
     }
 
     /// After some signs have changed: the signs of functions that contain them.
-    void follow_others() {
+    void follow_others(const std::vector<int>& decided) {
         for (int k = 0; k < system_.count(); ++k) {
-            if (sides_[k] == 0) continue;
+            if (sides_[k] == 0 || std::find(decided.begin(), decided.end(), k) != decided.end()) continue;
             const double g = value_of(k);
-            if (std::abs(g) > 1e-9 * sizes_[k] && sides_[k] * g < 0) sides_[k] = -sides_[k];
+            if (std::abs(g) > 1e-9 * (*sizes_)[k] && sides_[k] * g < 0) sides_[k] = -sides_[k];
         }
     }
 
@@ -225,15 +226,15 @@ private:
                 list.push_back({.index = k, .sign = 1, .offset = 1 + 1e-12});
                 continue;
             }
-            sizes_[k] = std::max(sizes_[k], std::abs(now.value(k)));
+            (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
             Watched one{.index = k, .sign = static_cast<double>(sides_[k])};
             const double off = std::abs(now.value(k)), speed = one.sign * now.slope(k);
-            const double rounding = 2 * off + 64 * epsilon * sizes_[k];
-            if (one.sign * now.value(k) <= 64 * epsilon * sizes_[k]) {
+            const double rounding = 2 * off + 64 * epsilon * (*sizes_)[k];
+            if (one.sign * now.value(k) <= 64 * epsilon * (*sizes_)[k]) {
                 if (speed * (end_ - t_) > 1e6 * rounding)
                     one.open_until = t_ + rounding / speed;
                 else
-                    one.offset = rounding + 1e-13 * sizes_[k] + std::numeric_limits<double>::min();
+                    one.offset = rounding + 1e-13 * (*sizes_)[k] + std::numeric_limits<double>::min();
             }
             list.push_back(one);
         }
@@ -245,10 +246,12 @@ private:
         for (const Watched& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<Sides>(system_, sides_, dimension());
-        const auto values = [this, watched, sides, undefined = undefined_](double t, const double* y,
-                                                                           const double* rate, double* out) {
+        const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_](
+                                double t, const double* y, const double* rate, double* out) {
             if (!events_.list.empty()) events_(t, y, rate, out);
             sides->evaluate(t, y);
+            for (std::size_t k = 0; k < sizes->size(); ++k)
+                (*sizes)[k] = std::max((*sizes)[k], std::abs(sides->value(static_cast<int>(k))));
             for (std::size_t i = 0; i < watched.size(); ++i) {
                 const Watched& w = watched[i];
                 double& value = out[events_.list.size() + i];
@@ -287,7 +290,9 @@ private:
                 if (sides_[k] == 0) open.push_back(k);
             if (!choose(open)) return false;
         }
-        follow_others();
+        std::vector<int> decided = open;
+        for (const int i : hit) decided.push_back(watched[i].index);
+        follow_others(decided);
         return true;
     }
 
@@ -397,7 +402,7 @@ private:
     double end_, t_;
     std::vector<double> state_;
     std::vector<int> sides_;
-    std::vector<double> sizes_;                                        ///< the largest |g_k| so far
+    std::shared_ptr<std::vector<double>> sizes_;                       ///< the largest |g_k| so far
     std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< some g_k has been NaN
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL;
