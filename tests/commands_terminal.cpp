@@ -172,9 +172,8 @@ TEST_CASE("warnings: those found before an error are told too") {
     // The inertia breaks the triangle inequality (a warning), and the formalism does not exist (an error).
     const std::string scene = temporary(
         "warned.toml",
-        "[parameters]\nJ = 1\n[coordinates]\na = 0\n[[frame]]\nname = \"B\"\nparent = \"N\"\nrotate = [\"z\", "
-        "\"a\"]\n[[body]]\n"
-        "name = \"b\"\nframe = \"B\"\nmass = 1\ninertia = { xx = 1, yy = 1, zz = 5 }\nposition = [0, 0, 0]\n");
+        "[coordinates]\nphi = 0\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", \"phi\"]]\n[[body]]\nname = \"B\"\n"
+        "mass = 1\nframe = \"F\"\nposition = [0, 0]\ninertia = [1, 1, 3]\n");
     const auto fine = run({"eval", scene});
     INFO(fine.err);
     REQUIRE(fine.err.find("warning") != std::string::npos);

@@ -94,9 +94,14 @@ int status(const std::string& answer) {
     return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
 }
 
+/// Was the program built with a server? With one it serves until it is ended; port 1 is nobody's.
 bool is_built() {
-    const auto result = run({"watch", temporary("watched.toml", scene_text), "--port", "1"});
-    return result.err.find("without cpp-httplib") == std::string::npos;
+    static const bool built = [] {
+        const auto result =
+            run_shell("timeout 2 \"$ALEMBERT\" watch " + temporary("watched.toml", scene_text) + " --port 1");
+        return result.err.find("without cpp-httplib") == std::string::npos;
+    }();
+    return built;
 }
 
 }  // namespace
