@@ -83,7 +83,7 @@ _alembert() {{
     for ((i = 1; i < COMP_CWORD; ++i)); do
         case ${{COMP_WORDS[i]}} in
             -*) ;;
-            *) [ -n "$verb" ] && ((++position)) || verb=${{COMP_WORDS[i]}} ;;
+            *) if [ -n "$verb" ]; then position=$((position + 1)); else verb=${{COMP_WORDS[i]}}; fi ;;
         esac
     done
     if [ -z "$verb" ]; then
