@@ -6,6 +6,7 @@ import hashlib
 import os
 import re
 import subprocess
+import sys
 import sysconfig
 import zipfile
 
@@ -28,7 +29,7 @@ def _build():
     """The folder of the built package."""
     build = os.path.join(ROOT, "build", "python-wheel")
     subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                    "-DALEMBERT_TESTS=OFF"], check=True)
+                    "-DALEMBERT_TESTS=OFF", f"-DPYTHON_EXECUTABLE={sys.executable}"], check=True)
     subprocess.run(["cmake", "--build", build, "--target", "alembert_python"], check=True)
     return os.path.join(build, "python", "alembert")
 
