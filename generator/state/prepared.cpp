@@ -2,6 +2,7 @@
 #include "state/prepared.hpp"
 
 #include "state/inertia_check.hpp"
+#include "state/redundancy.hpp"
 
 namespace alembert {
 
@@ -15,10 +16,12 @@ std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mecha
     return {describe(scene, warnings)};
 }
 
-Prepared prepared(Scene scene, const Overrides& at) {
+Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     if (!result.scene.warnings.empty()) result.warnings.push_back(describe(result.scene, result.scene.warnings));
-    result.mechanism = build(result.scene);
+    OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
+    result.mechanism = with_regular_rows(std::move(built.mechanism));
+    result.sheets = std::move(built.sheets);
     for (std::string& warning : check_bodies(result.scene, result.mechanism, at))
         result.warnings.push_back(std::move(warning));
     return result;
