@@ -238,7 +238,7 @@ Agreed agree(Scene scene, double seconds) {
     const auto start = std::chrono::steady_clock::now();
     Agreed result{prepared(std::move(scene))};
     Mechanism& m = result.mechanism;
-    if (!m.speeds.empty()) m = without_constraints(std::move(m), redundant_constraints(m));
+    m = without_constraints(std::move(m), redundant_constraints(m));  // as `derive` has it
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
     result.derivations = derive_all(m);
     result.agreement = agree(result.derivations.equations, m, seconds);

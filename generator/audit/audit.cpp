@@ -377,6 +377,12 @@ Audit audit_of(const Mechanism& mechanism) {
 Audited audit(Scene scene) {
     Audited result{prepared(std::move(scene))};
     result.audit = audit_of(result.mechanism);
+    for (const Mechanism::Rolling& rolling : result.mechanism.rollings)
+        if (rolling.is_along)
+            result.audit.notes.push_back(fmt::format(
+                "{0}: its rows and multipliers are along the axes of {1}, where none is lost at a regular "
+                "pose; along N they depend on each other with factors that change with the pose",
+                rolling.name, rolling.axes));
     return result;
 }
 

@@ -17,12 +17,16 @@
 #include "check/multiple.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
+#include "check/root_form.hpp"
 #include "check/slip.hpp"
 #include "exact/exact_states.hpp"
 #include "formalism/rest.hpp"
 #include "formalism/routh.hpp"
 #include "model/energy.hpp"
 #include "model/translate.hpp"
+#include "notation/readable.hpp"
+#include "notation/text.hpp"
+#include "symbolic/fourier.hpp"
 
 namespace alembert {
 
@@ -37,8 +41,8 @@ constexpr std::size_t most_states = 1200;
 
 class Checker {
 public:
-    Checker(const Scene& scene, const Mechanism& m, const Equations& e)
-        : scene_(scene), m_(m), e_(e), claims_(scene, m, e) {}
+    Checker(const Scene& scene, const Mechanism& m, const Equations& e, const std::shared_ptr<RootSheets>& sheets)
+        : scene_(scene), m_(m), e_(e), claims_(scene, m, e, sheets), sheets_(sheets) {}
 
     Checked run() {
         read();
@@ -62,6 +66,8 @@ public:
                     settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
                 }
         }
+        for (CheckedClaim& c : result_.claims)
+            for (const ex& positive : positive_) c.where.insert(c.where.begin(), inequality(positive));
         result_.complete = complete();
         return std::move(result_);
     }
@@ -75,16 +81,18 @@ private:
                 mistakes.push_back(mistake.diagnostic);
             }
         if (!mistakes.empty()) fail(scene_, mistakes);
+        if (sheets_) positive_ = sheets_->positive();
     }
 
-    /// Which of m_.undetermined() the claim names. With a contact's multiplier it holds whatever that is, without
-    /// it speaks of the motion while the gap is open; the same for a constraint that follows from others, without
-    /// whose row the equations stand.
+    /// Which of m_.undetermined() the claim speaks of. With a contact's multiplier it holds whatever that is,
+    /// without it speaks of the motion while the gap is open. Constraints that follow from others bear their least
+    /// share.
     std::vector<std::size_t> undetermined_in(std::size_t claim) const {
         std::vector<std::size_t> result;
         const auto all = m_.undetermined();
         for (std::size_t k = 0; k < all.size(); ++k)
-            if (m_.z->depends(forms_[claim].residual, {all[k]->multiplier})) result.push_back(k);
+            if (k >= m_.unilateral.size() || m_.z->depends(forms_[claim].residual, {all[k]->multiplier}))
+                result.push_back(k);
         return result;
     }
 
@@ -203,8 +211,15 @@ private:
                 return;
             }
             c.verdict = Verdict::proved;
+            c.reason = told_of_shares(p, root, states);
             c.normal_form = (when_ == "motion" && is_multiple(forms_[k].residual, m_, law_)) ||
                             (when_ == "impact" && is_identically_zero(forms_[k].residual, m_));
+            return;
+        }
+        if (const auto branch = branch_of(k, states)) {
+            c.verdict = Verdict::proved;
+            c.where = *branch;
+            c.reason = "on the branch of the initial state";
             return;
         }
         const auto shown = counterexample(told(), states.motions, p, root);
@@ -217,11 +232,47 @@ private:
         refine(k, states);
     }
 
+    /// A claim on constraints that depend on each other may hold for their least reactions alone.
+    std::string told_of_shares(const Program& p, int root, ExactStates& states) const {
+        for (std::size_t s = 0; s < 24 && states.get(s) != nullptr; ++s) {
+            const std::optional<ModularPoint>& other = states.get(s)->other_shares;
+            if (!other) return "";
+            const auto at = evaluate_mod(p, *other, std::array<int, 1>{root});
+            if (!at || at->value[root].is_zero()) continue;
+            return "it holds for the least reactions of constraints that depend on each other; other reactions "
+                   "with "
+                   "the same effect would not obey it";
+        }
+        return "";
+    }
+
+    std::string inequality(const ex& positive) const {
+        const auto f = fourier(positive, *m_.symbols);
+        return (f ? text(readable(*f)) : "a root of the claim") + " > 0";
+    }
+
+    /// A claim with a root that holds for one of the root's signs at every state: that of the initial state's
+    /// branch.
+    std::optional<std::vector<std::string>> branch_of(std::size_t k, ExactStates& states) const {
+        if (when_ != "motion") return std::nullopt;
+        const std::optional<RootForm> form = root_form(forms_[k].residual, m_);
+        if (!form) return std::nullopt;
+        Program p;
+        const int norm = claims_.lower(p, {form->norm})[0];
+        double failure = 0;
+        bool exact = true;
+        if (!p.is_zero(norm) && vanishes_at(states, p, norm, failure, exact) != std::optional(true))
+            return std::nullopt;
+        if (!is_positive_at_start(form->root, claims_, e_)) return std::nullopt;
+        return std::vector<std::string>{inequality(form->root)};
+    }
+
     Told told() {
         return {.mechanism = m_,
                 .equations = e_,
                 .claims = claims_,
                 .spoken = spoken_,
+                .positive = positive_,
                 .is_impact = when_ == "impact"};
     }
 
@@ -510,6 +561,7 @@ private:
     bool complete() {
         std::vector<GiNaC::symbol> unknowns = m_.qddot;
         unknowns.insert(unknowns.end(), e_.lambda.begin(), e_.lambda.end());
+        for (const Mechanism::Constraint& c : m_.redundant) unknowns.push_back(c.multiplier);
         for (const Open& o : claims_.open()) unknowns.push_back(o.symbol);
         std::vector<ex> list;
         std::size_t count = 0;
@@ -553,6 +605,8 @@ private:
     Equations law_;                    // of the claims in hand
     std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in it
     Claims claims_;
+    std::shared_ptr<RootSheets> sheets_;
+    std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of what is tried in their place
     std::vector<ClaimForm> forms_;
     std::string when_;
     std::set<std::size_t> wrong_;  // of the group in hand
@@ -561,17 +615,17 @@ private:
 
 }  // namespace
 
-Checked check(const Scene& scene, const Mechanism& mechanism) {
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets) {
     const Equations equations = routh(mechanism);
-    return Checker(scene, mechanism, equations).run();
+    return Checker(scene, mechanism, equations, sheets).run();
 }
 
 CheckedScene check(Scene scene, const std::string& by) {
-    CheckedScene result{derived(std::move(scene), {.by = by})};
+    CheckedScene result{derived(std::move(scene), {.by = by, .on_sheets = true})};
     if (result.scene.claims.empty())
         throw ModelError(
             "there are no claims: write [[claim]] in the scene, or give a file of claims, one equation a line");
-    result.checked = check(result.scene, result.mechanism);
+    result.checked = check(result.scene, result.mechanism, result.sheets);
     return result;
 }
 

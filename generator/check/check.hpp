@@ -42,6 +42,7 @@ struct CheckedClaim {
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation
     std::optional<Slip> likely;
+    std::vector<std::string> where;  ///< the sheet or branch of roots on which the verdict holds: "r > 0"
 };
 
 struct Checked {
@@ -50,7 +51,8 @@ struct Checked {
 };
 
 /// Throws SceneError for a claim that the mechanism cannot read.
-Checked check(const Scene& scene, const Mechanism& mechanism);
+/// `sheets`: those on which the mechanism was built, if it was.
+Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {});
 
 /// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the
 /// teacher's choice. Throws ModelError where there are no claims.

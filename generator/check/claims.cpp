@@ -24,8 +24,9 @@ int order_of(const ex& e, const Mechanism& m) {
     return m.z->depends(e, highest) ? 1 : 0;
 }
 
-Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations)
-    : m_(mechanism), e_(equations), formulas_(scene, mechanism) {
+Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations,
+               std::shared_ptr<RootSheets> sheets)
+    : m_(mechanism), e_(equations), formulas_(scene, mechanism, std::move(sheets)) {
     for (const Claim& claim : scene.claims) {
         for (const Name& name : claim.unknowns) open_name(name.text, false);
         for (const Name& name : claim.constants) open_name(name.text, true);

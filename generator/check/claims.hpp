@@ -33,7 +33,8 @@ struct Open {
 
 class Claims {
 public:
-    Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations);
+    Claims(const Scene& scene, const Mechanism& mechanism, const Equations& equations,
+           std::shared_ptr<RootSheets> sheets = {});
 
     /// Reads a claim of the scene. Throws SceneMistake.
     ClaimForm read(const Claim& claim);

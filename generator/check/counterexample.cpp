@@ -61,16 +61,33 @@ Counterexample described(const Told& told, const RealState& state, const numeric
     return result;
 }
 
+/// Is the state on the sheet of roots on which claims are held?
+class OnSheet {
+public:
+    explicit OnSheet(const Told& told) : nodes_(told.claims.lower(program_, told.positive)) {}
+    bool operator()(const RealState& state) const {
+        if (nodes_.empty()) return true;
+        const auto value = evaluate(program_, state, nodes_);
+        return value &&
+               std::all_of(value->begin(), value->end(), [](const numeric& x) { return x.is_positive(); });
+    }
+
+private:
+    Program program_;
+    std::vector<int> nodes_;
+};
+
 }  // namespace
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const Program& p,
                                              int root) {
+    const OnSheet is_on_sheet(told);
     const auto start = std::chrono::steady_clock::now();
     for (unsigned seed = 0; seed < 1200; ++seed) {
         if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4) && seed > 40)
             break;  // far beyond what a right answer takes
         const auto state = real_state(motions, p, {root}, seed);
-        if (!state) continue;
+        if (!state || !is_on_sheet(*state)) continue;
         const auto value = evaluate(p, *state, {root});
         if (value && !is_small((*value)[0])) return described(told, *state, (*value)[0]);
     }

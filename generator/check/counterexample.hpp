@@ -31,6 +31,7 @@ struct Told {
     Claims& claims;
     const std::vector<std::size_t>&
         spoken;  ///< positions in Mechanism::undetermined(): multipliers that the claims name
+    const std::vector<GiNaC::ex>& positive;  ///< on the sheet of roots on which they are held
     bool is_impact = false;
 };
 

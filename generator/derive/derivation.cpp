@@ -5,6 +5,7 @@
 
 #include "derive/euler_form.hpp"
 #include "derive/intermediate_form.hpp"
+#include "derive/shares.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
 
@@ -39,6 +40,7 @@ public:
         forces();
         derivatives();
         constraints();
+        shares();
         return std::move(result_);
     }
 
@@ -64,6 +66,8 @@ private:
             for (int j = 0; j < e_.size(); ++j) terms.push_back(e_.M(i, j) * e_.udot[j]);
             GiNaC::exvector forces{e_.applied[i]};
             for (std::size_t k = 0; k < e_.A.size(); ++k) forces.push_back(e_.A[k][i] * e_.lambda[k]);
+            if (has_shares())
+                for (const Mechanism::Constraint& c : m_.redundant) forces.push_back(c.row[i] * c.multiplier);
             const auto left = normal(GiNaC::add(std::move(terms))), right = normal(GiNaC::add(std::move(forces)));
             if (!left || !right) return false;
             result_.equations.push_back(readable_equation(*left, *right));
@@ -76,6 +80,17 @@ private:
             result_.kinematics.emplace_back(symbol_of(m_.qdot[i]), readable(*rate));
         }
         return true;
+    }
+
+    /// Do multipliers of constraints that follow from others stand beside those of the others?
+    bool has_shares() const { return e_.speeds_are_rates() && !e_.A.empty() && !m_.redundant.empty(); }
+
+    void shares() {
+        if (!has_shares()) return;
+        for (const LeastShare& share : least_shares_of(m_)) {
+            const auto left = normal(share.left - share.right), none = normal(ex(0));
+            if (left && none) result_.shares.push_back(readable_equation(*left, *none));
+        }
     }
 
     /// Speeds that the program chose.
@@ -192,8 +207,7 @@ private:
     }
 
     Derivation with_definitions() {
-        const Program program = lower(m_, e_, energy_of(m_));
-        IntermediateForm form = intermediate_form(program, m_, e_);
+        IntermediateForm form = intermediate_form(lower(m_, e_, energy_of(m_)), m_, e_);
         result_.definitions = std::move(form.definitions);
         result_.equations = std::move(form.equations);
         result_.kinematics = std::move(form.kinematics);
@@ -211,7 +225,9 @@ private:
 }  // namespace
 
 void show_reactions(Derivation& shown, const Mechanism& m) {
-    for (const Mechanism::Constraint& c : m.constraints)
+    std::vector<Mechanism::Constraint> all = m.constraints;
+    all.insert(all.end(), m.redundant.begin(), m.redundant.end());
+    for (const Mechanism::Constraint& c : all)
         for (int i = 0; i < m.size(); ++i) {
             const ex force = c.row[i] * c.multiplier;
             if (force.is_zero() || m.z->tree_size(force) > largest_tree) continue;
@@ -235,12 +251,16 @@ Derivation derivation_of(const Mechanism& m, const Equations& equations, const F
     shown.formalism = by.name;
     shown.title = by.title;
     if (by.outline != nullptr) shown.sections = by.outline(m);
+    if (by.in_momenta && !shown.definitions.empty())
+        shown.title = "Lagrange's equations, to which those in momenta are equal; these are too long to be shown";
     if (by.steps == nullptr || !shown.definitions.empty()) return shown;
     OwnSteps own = by.steps(m, equations);
     for (Section& section : own.sections) shown.sections.push_back(std::move(section));
     if (!own.equations.empty()) {
         shown.title = std::move(own.title);
         shown.equations = std::move(own.equations);
+    } else if (by.in_momenta) {
+        shown.title = "Lagrange's equations, to which those in momenta are equal; these are too long to be shown";
     }
     return shown;
 }

@@ -40,7 +40,9 @@ struct Derivation {
     std::string choice;                             ///< in words, where the speeds were chosen by the program
     std::vector<Statement> reactions;  ///< of each constraint along each coordinate, where they are asked for
     std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
-    std::vector<std::pair<std::string, Phrase>> gaps;         ///< by name: what is not negative
+    std::vector<Phrase> positive;                             ///< on the sheet of roots on which all this holds
+    std::vector<ReadableEquation> shares;              ///< of multipliers whose constraints depend on each other
+    std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: what is not negative
 };
 
 /// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.

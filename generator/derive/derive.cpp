@@ -46,12 +46,15 @@ std::vector<Statement> borne(const Derived& d) {
 }  // namespace
 
 DerivedScene derive(Scene scene, const ShowOptions& options) {
-    DerivedScene d{derived(std::move(scene), {.by = options.by})};
+    DerivedScene d{derived(std::move(scene), {.by = options.by, .on_sheets = true})};
     const bool independent = !options.by.empty() && formalism(options.by).independent;
     d.has_unilateral_reactions = !d.mechanism.unilateral.empty() && !independent;
     if (d.has_unilateral_reactions)
         static_cast<Derived&>(d) = derived_again(d, with_all_closed(d.mechanism), options.by);
     d.shown = derivation_of(d.mechanism, d.equations, formalism(d.equations.formalism));
+    if (d.sheets)
+        for (const GiNaC::ex& positive : d.sheets->positive())
+            if (const auto f = fourier(positive, *d.mechanism.symbols)) d.shown.positive.push_back(readable(*f));
     if (!options.reactions) return d;
     show_reactions(d.shown, d.mechanism);
     d.joint_loads = borne(d);

@@ -68,13 +68,15 @@ void refuse_contradiction(const Mechanism& m) {
 /// The share of each constraint along each coordinate, λ ∂f/∂q, as outputs R_<constraint>_<coordinate>.
 std::vector<ReactionOutput> add_reactions(Mechanism& m) {
     std::vector<ReactionOutput> result;
-    for (const Mechanism::Constraint& c : m.constraints)
-        for (int i = 0; i < m.size(); ++i) {
-            if (c.row[i].is_zero()) continue;
-            const std::string coordinate = m.q[i].get_name();
-            result.push_back({m.outputs.size(), c.name, coordinate});
-            m.outputs.push_back({fmt::format("R_{}_{}", c.name, coordinate), m.z->name(c.row[i] * c.multiplier)});
-        }
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list)
+            for (int i = 0; i < m.size(); ++i) {
+                if (c.row[i].is_zero()) continue;
+                const std::string coordinate = m.q[i].get_name();
+                result.push_back({m.outputs.size(), c.name, coordinate});
+                m.outputs.push_back(
+                    {fmt::format("R_{}_{}", c.name, coordinate), m.z->name(c.row[i] * c.multiplier)});
+            }
     return result;
 }
 
@@ -96,7 +98,7 @@ std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechan
 
 Derived derived(Scene scene, const DeriveOptions& options) {
     const double start = process_seconds();
-    Derived d{prepared(std::move(scene), options.at)};
+    Derived d{prepared(std::move(scene), options.at, options.on_sheets)};
     d.by = options.by;
     const std::vector<int> redundant = redundant_constraints(d.mechanism);
     check_implied(d.mechanism, redundant);
@@ -124,6 +126,7 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
     Derived again{{.scene = d.scene, .mechanism = std::move(mechanism), .warnings = d.warnings}};
     again.equations = equations_by(by, again.mechanism);
     again.by = d.by;
+    again.sheets = d.sheets;
     again.reaction_outputs = d.reaction_outputs;
     again.seconds = process_seconds() - start;
     return again;

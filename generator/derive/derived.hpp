@@ -23,6 +23,7 @@ struct DeriveOptions {
     Use use = Use::shown;
     bool reactions = false;  ///< the share of each constraint along each coordinate becomes an output
     Overrides at = {};       ///< values at which the bodies are checked
+    bool on_sheets = false;  ///< roots of squares on the sheet of the initial state
 };
 
 /// Which output of the mechanism is the share of a constraint along a coordinate.

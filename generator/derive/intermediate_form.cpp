@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "lower/lower.hpp"
+
 namespace alembert {
 
 namespace {
@@ -132,7 +134,15 @@ private:
 
 }  // namespace
 
-IntermediateForm intermediate_form(const Program& program, const Mechanism& m, const Equations& e) {
+IntermediateForm intermediate_form(Program program, const Mechanism& m, const Equations& e) {
+    std::vector<Mechanism::Constraint> held = m.constraints;
+    if (e.speeds_are_rates() && !e.A.empty()) {  // constraints that follow from others bear their share
+        const auto lowering = lowering_into(program, m, {});
+        for (const Mechanism::Constraint& c : m.redundant)
+            for (const GiNaC::ex& entry : c.row)
+                program.roots.push_back({.group = Group::row, .name = c.name, .node = lowering(entry)});
+        held.insert(held.end(), m.redundant.begin(), m.redundant.end());
+    }
     const std::vector<int> mass = program.nodes_of(Group::mass), forcing = program.nodes_of(Group::forcing);
     const int kinetic = program.nodes_of(Group::kinetic)[0], potential = program.nodes_of(Group::potential)[0];
     std::vector<int> roots = mass;
@@ -161,9 +171,9 @@ IntermediateForm intermediate_form(const Program& program, const Mechanism& m, c
             terms.push_back(is_one ? acceleration : phrases::product({unfolding.of(entry), acceleration}));
         }
         if (!program.is_zero(forcing[i])) terms.push_back(phrases::negative(unfolding.of(forcing[i])));
-        for (std::size_t k = 0; k < m.constraints.size(); ++k) {
+        for (std::size_t k = 0; k < held.size(); ++k) {
             const int entry = rows[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(i)];
-            const GiNaC::symbol& lambda = m.constraints[k].multiplier;
+            const GiNaC::symbol& lambda = held[k].multiplier;
             if (!program.is_zero(entry))
                 terms.push_back(phrases::negative(
                     phrases::product({unfolding.of(entry), phrases::symbol(lambda, m.symbols->info(lambda))})));

@@ -26,6 +26,6 @@ struct IntermediateForm {
 };
 
 /// From the groups "mass", "forcing", "kinetic" and "potential" of `program`.
-IntermediateForm intermediate_form(const Program& program, const Mechanism& mechanism, const Equations& equations);
+IntermediateForm intermediate_form(Program program, const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

@@ -8,6 +8,7 @@
 
 #include "exact/angle_sum.hpp"
 #include "exact/common_zeros.hpp"
+#include "exact/least_shares.hpp"
 #include "lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
@@ -94,6 +95,7 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     list.insert(list.end(), e.gamma.begin(), e.gamma.end());
     for (int k = 0; k < m_; ++k)
         if (m.constraints[k].position) list.push_back(*m.constraints[k].position);
+    for (const Mechanism::Constraint& c : m.redundant) list.insert(list.end(), c.row.begin(), c.row.end());
     const std::size_t own = list.size();
     for (const Mechanism::Constraint& c : m.redundant)
         if (c.position) list.push_back(*c.position);
@@ -114,7 +116,11 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     system_.A = take(m_ * n_);
     system_.drift = take(m_);
     system_.gamma = take(m_);
-    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own));
+    const auto redundant = static_cast<std::ptrdiff_t>(m.redundant.size() * m.q.size());
+    gaps_ = static_cast<int>(m.unilateral.size());
+    std::vector<int> conditions(next, nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant);
+    system_.redundant.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own) - redundant,
+                             nodes.begin() + static_cast<std::ptrdiff_t>(own));
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
     if (at == At::rest) {
@@ -339,7 +345,39 @@ std::optional<ExactState> Motions::at(std::uint64_t seed,
         if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
     }
     if (at_ == At::motion && !move(state)) return std::nullopt;
+    if (!system_.redundant.empty() && !share_out(state)) return std::nullopt;
     return state;
+}
+
+bool Motions::share_out(ExactState& state) const {
+    const auto n = static_cast<std::size_t>(n_), m = static_cast<std::size_t>(m_);
+    std::vector<int> wanted = system_.A;
+    wanted.insert(wanted.end(), system_.redundant.begin(), system_.redundant.end());
+    const auto at = evaluate_mod(program_, state.point, wanted);
+    if (!at) return false;
+    std::vector<std::vector<Prime>> rows(wanted.size() / n);
+    std::vector<Prime> lambda;
+    double entry = 0;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        for (std::size_t i = 0; i < n; ++i) {
+            rows[r].push_back(at->value[wanted[r * n + i]]);
+            entry = std::max(entry, at->degree[wanted[r * n + i]]);
+        }
+        lambda.push_back(state.point.variable({Variable::Kind::unknown, multiplier(static_cast<int>(r))}));
+    }
+    const auto least = least_shares(
+        rows, m, lambda, [m](std::vector<std::vector<Prime>> system) -> std::optional<std::vector<Prime>> {
+            if (reduce_rows(system, m) < static_cast<int>(m)) return std::nullopt;
+            std::vector<Prime> w;
+            for (const auto& row : system) w.push_back(row[m]);
+            return w;
+        });
+    if (!least) return false;
+    state.other_shares = state.point;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+        state.point.given[{Variable::Kind::unknown, multiplier(static_cast<int>(r))}] = (*least)[r];
+    state.degree = state.degree * 2 + (4 * static_cast<double>(m) + 4) * entry;
+    return true;
 }
 
 bool Motions::move(ExactState& state) const {

@@ -17,8 +17,9 @@
 /// 0. Equations of rest without such an order have no states, and `obstacle` says so. Rates obey A q' + b = 0,
 /// accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
-/// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(), random, in equations that hold
-/// it.
+/// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(): of a gap random, in equations
+/// that hold it; of a redundant constraint its least share of the forces (exact/least_shares.hpp), as of those
+/// that are kept.
 ///
 /// Constraints may have several branches (x² = l²: x = l and x = −l), and what holds on one need not hold on the
 /// others: of the roots of a polynomial of degree d one is drawn, so that a branch is met at 1/d of the seeds at
@@ -39,6 +40,8 @@ struct ExactState {
     double degree = 1;   ///< of the accelerations in the random values, at most: for Schwartz's bound
     double branches =
         1;  ///< roots that the conditions have, each perhaps on a branch of its own: this one was drawn from them
+    std::optional<ModularPoint> other_shares =
+        {};                 ///< with other multipliers of the same forces, where there are any
     double conditions = 0;  ///< doublings of the chance of a failure (ModularValues)
     bool exact = true;      ///< no function was met whose identities are unknown
 };
@@ -85,11 +88,14 @@ public:
         std::vector<int> f;             ///< n
         std::vector<int> A;             ///< m·n, by rows
         std::vector<int> drift, gamma;  ///< m
+        std::vector<int> redundant;     ///< rows of Mechanism::redundant, n each
     };
     const Program& program() const { return program_; }
     const System& entries() const { return system_; }
     int size() const { return n_; }
     int constraints() const { return m_; }
+    /// `unknown` of the multiplier of row k: those that are kept first, then the redundant ones.
+    int multiplier(int k) const { return k < m_ ? k : k + gaps_; }
 
 private:
     void order(std::vector<int> conditions);
@@ -101,6 +107,7 @@ private:
     Outcome solve_two(const Step& step, ExactState& state) const;
     void find_branches();
     bool move(ExactState& state) const;
+    bool share_out(ExactState& state) const;
 
     Program program_;
     System system_;
@@ -109,7 +116,7 @@ private:
     std::vector<bool> irreducible_;  ///< by step
     std::string obstacle_;
     At at_;
-    int n_ = 0, m_ = 0, halves_ = 0, finer_ = 0;
+    int n_ = 0, m_ = 0, gaps_ = 0, halves_ = 0, finer_ = 0;
     std::optional<SquarePoints> usable_;  ///< refers to program_
 };
 

@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "exact/least_shares.hpp"
+
 namespace alembert {
 
 using GiNaC::numeric;
@@ -258,6 +260,31 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     return true;
 }
 
+/// The least multipliers that give the same forces, where constraints depend on each other.
+bool share_out(const Motions& motions, RealState& state, Numbers& numbers) {
+    const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
+    std::vector<int> wanted = motions.entries().A;
+    wanted.insert(wanted.end(), motions.entries().redundant.begin(), motions.entries().redundant.end());
+    const auto value = evaluate(motions.program(), state, wanted);
+    if (!value) return false;
+    std::vector<std::vector<numeric>> rows(wanted.size() / n);
+    std::vector<numeric> lambda;
+    const auto key = [&](std::size_t r) {
+        return Key{Variable::Kind::unknown, motions.multiplier(static_cast<int>(r))};
+    };
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        rows[r].assign(value->begin() + static_cast<std::ptrdiff_t>(r * n),
+                       value->begin() + static_cast<std::ptrdiff_t>((r + 1) * n));
+        lambda.push_back(state.value.try_emplace(key(r), numbers.any()).first->second);
+    }
+    const auto least = least_shares(rows, m, lambda, [m](std::vector<std::vector<numeric>> system) {
+        return solve_rows(std::move(system), m);
+    });
+    if (!least) return false;
+    for (std::size_t r = 0; r < rows.size(); ++r) state.value[key(r)] = (*least)[r];
+    return true;
+}
+
 }  // namespace
 
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
@@ -269,7 +296,7 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     std::set<Key> angles, plain;
     const Motions::System& s = motions.entries();
     std::vector<int> entries = s.M;
-    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma})
+    for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant})
         entries.insert(entries.end(), part->begin(), part->end());
     for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
     entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
@@ -301,6 +328,7 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     }
     if (!solve_positions(motions, state, floats, seed)) return std::nullopt;
     if (motions.where() == Motions::At::motion && !solve_motion(motions, state, numbers)) return std::nullopt;
+    if (!s.redundant.empty() && !share_out(motions, state, numbers)) return std::nullopt;
     for (const auto& [key, value] : state.value)
         state.exact = state.exact && (value.is_rational() || state.angle.contains(key));
     return state;

@@ -4,6 +4,9 @@
 // Elimination of p: M q̈ = −∂H/∂q |_{p = ∂L/∂q̇} + Q − (∂p/∂q) q̇ − ∂p/∂t.
 #include "formalism/hamilton.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "formalism/elements.hpp"
 #include "model/energy.hpp"
 
@@ -11,11 +14,31 @@ namespace alembert {
 
 using GiNaC::ex;
 
-Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, std::vector<ex> x, const Mechanism& m) {
+namespace {
+
+/// The order in which rows are eliminated: first those whose diagonal is shortest, as C of a symmetric top, whose
+/// elimination leaves A sin² θ of A sin² θ + C cos² θ.
+std::vector<int> elimination_order(const GiNaC::matrix& M, const Mechanism& m) {
+    std::vector<int> order(M.rows());
+    std::iota(order.begin(), order.end(), 0);
+    std::vector<double> size;
+    for (const int k : order) size.push_back(m.z->tree_size(M(k, k)) + (m.z->depends(M(k, k), m.q) ? 1e6 : 0));
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
+    return order;
+}
+
+}  // namespace
+
+Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, const std::vector<ex>& right, const Mechanism& m) {
     Intermediates& z = *m.z;
-    const int n = static_cast<int>(x.size());
-    GiNaC::matrix L = M;
-    std::vector<ex> inverse(n);
+    const int n = static_cast<int>(right.size());
+    const std::vector<int> order = elimination_order(M, m);
+    GiNaC::matrix L(n, n);
+    std::vector<ex> inverse(n), x(n), result(n);
+    for (int i = 0; i < n; ++i) {
+        x[i] = right[order[i]];
+        for (int j = 0; j < n; ++j) L(i, j) = M(order[i], order[j]);
+    }
     for (int k = 0; k < n; ++k) {
         if (is_identically_zero(L(k, k), m))
             return Obstacle{
@@ -25,7 +48,7 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, std::vector<ex> x,
         for (int i = k + 1; i < n; ++i) {
             if (L(i, k).is_zero()) continue;
             const ex factor = z.name(L(i, k) * inverse[k]);
-            for (int j = k + 1; j <= i; ++j) L(i, j) = z.name(L(i, j) - factor * L(j, k));
+            for (int j = k + 1; j <= i; ++j) L(i, j) = short_form(z.name(L(i, j) - factor * L(j, k)), m);
             x[i] = z.name(x[i] - factor * x[k]);
         }
     }
@@ -34,7 +57,8 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, std::vector<ex> x,
         for (int i = k + 1; i < n; ++i) rest.push_back(-L(i, k) * x[i]);
         x[k] = z.name(GiNaC::add(std::move(rest)) * inverse[k]);
     }
-    return x;
+    for (int k = 0; k < n; ++k) result[order[k]] = x[k];
+    return result;
 }
 
 Possible<Canonical> canonical(const Mechanism& m) {

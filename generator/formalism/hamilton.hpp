@@ -32,7 +32,7 @@ Equations hamilton(const Mechanism& mechanism);
 OwnSteps steps_of_hamilton(const Mechanism& mechanism, const Equations& equations);
 
 /// X with M X = right, by symbolic elimination on a symmetric M; an obstacle is a pivot that is zero.
-Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, std::vector<GiNaC::ex> right,
+Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, const std::vector<GiNaC::ex>& right,
                                              const Mechanism& mechanism);
 
 }  // namespace alembert

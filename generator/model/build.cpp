@@ -89,12 +89,14 @@ double Building::number_at(const Expression& e) {
     }
 }
 
-Mechanism build(const Scene& scene) {
+namespace {
+
+Mechanism built(Building& here) {
+    const Scene& scene = here.scene;
     if (scene.polynomial)
         throw ModelError(
             "the scene has a [polynomial] and no mechanism, so it has no equations of motion; ask for its "
             "`stability`");
-    Building here(scene);
     Mechanism& m = here.m;
     m.name = std::filesystem::path(scene.file).stem().string();
     m.title = scene.title;
@@ -111,6 +113,20 @@ Mechanism build(const Scene& scene) {
     if (!here.mistakes.empty()) fail(scene, here.mistakes);
     m.skeleton = here.places.skeleton();
     return std::move(here.m);
+}
+
+}  // namespace
+
+Mechanism build(const Scene& scene) {
+    Building here(scene);
+    return built(here);
+}
+
+OnSheets build_on_sheets(const Scene& scene) {
+    Building here(scene);
+    here.on_sheets = true;
+    Mechanism mechanism = built(here);
+    return {std::move(mechanism), here.sheets};
 }
 
 PolynomialScene polynomial_of(const Scene& scene) {

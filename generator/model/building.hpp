@@ -37,6 +37,8 @@ struct Building {
     Places places;
     std::optional<ParameterValues> values;  ///< once the parameters are known
     std::vector<Diagnostic> mistakes;
+    bool on_sheets = false;              ///< roots of squares are taken on the sheet of the initial state
+    std::shared_ptr<RootSheets> sheets;  ///< then: once parameters and coordinates are known
 };
 
 /// Parameters, inputs, coordinates, speeds' names, definitions; their values are finite numbers. Throws InputError

@@ -49,6 +49,37 @@ void add_norm(Building& here, const FrameQuaternion& quaternion, int index) {
     here.translator.know(multiplier, here.m.constraints.back().multiplier);
 }
 
+/// The rows of a rolling along the axes of the frame that its contact is given in. None where that is N, or where
+/// a row would be needed that there is none of along N.
+std::vector<Mechanism::Constraint> rows_along_axes(Building& here, const RollingRule& rule, const Vector3& slip,
+                                                   bool drifts) {
+    std::vector<Mechanism::Constraint> result;
+    if (rule.axes.text == "N") return result;
+    for (int k = 0; k < 3; ++k) {
+        const std::string name = rule.name.text + "_" + "xyz"[k];
+        const ex value = dot(slip, here.places.orientation(rule.axes.text).axis(k), *here.m.z);
+        const auto [row, drift] = linear_form(value, "rolling '" + name + "'", rule.contact.place, here.m);
+        if (std::all_of(row.begin(), row.end(),
+                        [&](const ex& entry) { return is_identically_zero(entry, here.m); })) {
+            if (drifts && !drift.is_zero()) return {};
+            continue;
+        }
+        const auto along_N = std::find_if(here.m.constraints.begin(), here.m.constraints.end(),
+                                          [&](const Mechanism::Constraint& c) { return c.name == name; });
+        if (along_N == here.m.constraints.end()) return {};
+        result.push_back(constraint_of({.name = name,
+                                        .holonomic = false,
+                                        .value = value,
+                                        .multiplier = along_N->multiplier,
+                                        .place = rule.name.place,
+                                        .at = rule.contact.place,
+                                        .drifts = drifts},
+                                       here.m));
+        result.back().rolling = static_cast<int>(here.m.rollings.size());
+    }
+    return result;
+}
+
 // v_C + ω × c − v_on − ω_on × (r_C + c − r_on) = 0 along x, y, z
 void add_rolling(Building& here, const RollingRule& rule, int index) {
     SourceScope source(*here.m.z, "rolling " + rule.name.text);
@@ -104,8 +135,11 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
              .at = rule.contact.place,
              .drifts = drifts},
             here.m));
+        here.m.constraints.back().rolling = static_cast<int>(here.m.rollings.size());
         here.translator.know(multipliers[k].text, here.m.constraints.back().multiplier);
     }
+    here.m.rollings.push_back(
+        {.name = rule.name.text, .axes = rule.axes.text, .along = rows_along_axes(here, rule, slip, drifts)});
     if (!any)
         throw SceneMistake{
             {rule.name.place,

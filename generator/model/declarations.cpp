@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "alembert/inertia.hpp"
 #include "model/building.hpp"
 
 namespace alembert {
@@ -92,34 +95,41 @@ void define(Building& here) {
         });
 }
 
-void require(Building& here, const Expression& e, const std::string& what, bool not_negative) {
+/// `least`: nothing is less than this, where it is given.
+void require(Building& here, const Expression& e, const std::string& what, std::optional<double> least = {}) {
     here.attempt([&] {
         const double value = here.number_at(e);
         if (!std::isfinite(value))
             throw SceneMistake{{e.place(), what + " is not a finite real number at the scene's values"}};
-        if (not_negative && value < 0)
+        if (least && value < *least)
             throw SceneMistake{{e.place(), fmt::format("{} is {}; expected zero or more", what, value)}};
     });
 }
 
 void check_values(Building& here) {
-    for (const Parameter& p : here.scene.parameters)
-        require(here, p.value, "parameter '" + p.name.text + "'", false);
+    for (const Parameter& p : here.scene.parameters) require(here, p.value, "parameter '" + p.name.text + "'");
     for (const Coordinate& c : here.scene.coordinates) {
-        require(here, c.initial, "the initial value of '" + c.name.text + "'", false);
-        require(here, c.rate, "the initial rate of '" + c.name.text + "'", false);
+        require(here, c.initial, "the initial value of '" + c.name.text + "'");
+        require(here, c.rate, "the initial rate of '" + c.name.text + "'");
     }
     for (const Speed& s : here.scene.speeds)
-        if (s.initial) require(here, s.initial, "the initial value of '" + s.name.text + "'", false);
+        if (s.initial) require(here, s.initial, "the initial value of '" + s.name.text + "'");
     for (const Particle& p : here.scene.particles)
-        require(here, p.mass, "the mass of particle '" + p.name.text + "'", true);
+        require(here, p.mass, "the mass of particle '" + p.name.text + "'", 0);
     for (const Body& b : here.scene.bodies) {
-        require(here, b.mass, "the mass of body '" + b.name.text + "'", true);
+        require(here, b.mass, "the mass of body '" + b.name.text + "'", 0);
         if (!b.inertia) continue;
-        if (b.inertia->planar)
-            require(here, *b.inertia->planar, "the moment of inertia of body '" + b.name.text + "'", true);
-        for (std::size_t k = 0; !b.inertia->planar && k < 6; ++k)
-            require(here, b.inertia->tensor[k], "the moment of inertia of body '" + b.name.text + "'", k < 3);
+        const std::string what = "the moment of inertia of body '" + b.name.text + "'";
+        if (b.inertia->planar) {
+            require(here, *b.inertia->planar, what, 0);
+            continue;
+        }
+        double largest = 0;  // of which a negative moment may be what rounding left
+        for (std::size_t k = 0; k < 3; ++k)
+            here.attempt([&] { largest = std::max(largest, std::abs(here.number_at(b.inertia->tensor[k]))); });
+        for (std::size_t k = 0; k < 6; ++k)
+            require(here, b.inertia->tensor[k], what,
+                    k < 3 ? std::optional(-rounded_moment * largest) : std::nullopt);
     }
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
 }
@@ -130,6 +140,7 @@ void declare(Building& here) {
     declare_parameters(here);
     declare_inputs(here);
     declare_coordinates(here);
+    if (here.on_sheets) here.translator.go_on(here.sheets = std::make_shared<RootSheets>(here.m));
     define(here);
     if (!here.mistakes.empty()) fail(here.scene, here.mistakes);
     here.values.emplace(here.m);

@@ -3,13 +3,14 @@
 
 namespace alembert {
 
-Formulas::Formulas(const Scene& scene, const Mechanism& m)
+Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootSheets> sheets)
     : translator_(m, {.position = [this](const std::string& p) { return places_.position(p); },
                       .velocity = [this](const std::string& p) { return places_.velocity(p); },
                       .orientation = [this](const std::string& f) -> const Orientation& {
                           return places_.orientation(f);
                       }}),
       places_(scene, m, translator_) {
+    translator_.go_on(std::move(sheets));
     know("t", m.t);
     for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.symbol);
     for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.derivative[0]);

@@ -16,7 +16,8 @@ namespace alembert {
 
 class Formulas {
 public:
-    Formulas(const Scene& scene, const Mechanism& mechanism);
+    /// `sheets`: those on which the mechanism was built, if it was.
+    Formulas(const Scene& scene, const Mechanism& mechanism, std::shared_ptr<RootSheets> sheets = {});
     Formulas(const Formulas&) = delete;
     Formulas& operator=(const Formulas&) = delete;
 

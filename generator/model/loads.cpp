@@ -111,7 +111,8 @@ Vector3 across(Building& here, const Link& link) {
 
 /// Its length, or the expression along which it acts.
 ex length_of(Building& here, const Link& link) {
-    return link.between ? norm(across(here, link), *here.m.z) : here.m.z->name(here.translator.scalar(link.along));
+    return link.between ? here.translator.length(across(here, link))
+                        : here.m.z->name(here.translator.scalar(link.along));
 }
 
 // V = ½ k (d − d₀)²

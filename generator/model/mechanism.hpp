@@ -121,8 +121,9 @@ struct Mechanism {
         GiNaC::ex acceleration;             ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;           ///< λ: M q'' = F + Σ row λ
         Place place;
-        std::optional<int> joint = {};  ///< position in `joints` of the one whose loop the row closes
-        bool norm = false;              ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
+        std::optional<int> joint = {};    ///< position in `joints` of the one whose loop the row closes
+        std::optional<int> rolling = {};  ///< position in `rollings` of the one whose row this is
+        bool norm = false;  ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
     };
 
     /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
@@ -156,6 +157,13 @@ struct Mechanism {
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
     std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
+    /// What rolls, for the choice of axes of its rows (state/redundancy.hpp).
+    struct Rolling {
+        std::string name, axes;         ///< the frame along whose axes the contact is given
+        std::vector<Constraint> along;  ///< the same rows along these; those that hold identically are left out
+        bool is_along = false;          ///< these have taken the place of the rows along N
+    };
+    std::vector<Rolling> rollings;
     std::vector<Unilateral> unilateral;
     std::vector<Definition> outputs, events;
 

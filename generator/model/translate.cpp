@@ -103,6 +103,20 @@ std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
     return frame.angular_velocity()[axis - std::begin(axes)];
 }
 
+ex Translator::length(const Vector3& v) {
+    Intermediates& z = *mechanism_.z;
+    if (sheets_)
+        if (const auto e = sheets_->root(dot(v, v, z))) return *e;
+    return norm(v, z);
+}
+
+ex Translator::power(const ex& base, const ex& exponent) {
+    const ex twice = 2 * exponent;
+    if (sheets_ && twice.info(GiNaC::info_flags::odd))
+        if (const auto e = sheets_->root(base)) return pow(*e, twice);
+    return pow(base, exponent);
+}
+
 Value Translator::call(const Tree& tree) {
     Intermediates& z = *mechanism_.z;
     const auto name_of = [&](std::size_t k) -> const std::string& { return tree.args.at(k)->text; };
@@ -127,9 +141,11 @@ Value Translator::call(const Tree& tree) {
         if (const auto own = own_component(*tree.args[0], *tree.args[1])) return *own;
     if (tree.text == "dot") return dot(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
     if (tree.text == "cross") return cross(vector_of(*tree.args[0]), vector_of(*tree.args[1]), z);
-    if (tree.text == "norm") return norm(vector_of(*tree.args[0]), z);
+    if (tree.text == "norm") return length(vector_of(*tree.args[0]));
     std::vector<ex> args;
     for (const TreePtr& arg : tree.args) args.push_back(z.name(scalar_of(*arg)));
+    if (sheets_ && (tree.text == "sqrt" || tree.text == "abs"))
+        if (const auto e = tree.text == "sqrt" ? sheets_->root(args[0]) : sheets_->magnitude(args[0])) return *e;
     if (const auto value = apply_function(tree.text, args)) return *value;
     throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown function '{}'", tree.text)}};
 }
@@ -147,7 +163,7 @@ Value Translator::evaluate(const Tree& tree) {
             case Tree::Kind::derivative:
                 return differentiated(scalar_of(*tree.args[0]), tree.primes, tree);
             case Tree::Kind::power:
-                return ex(pow(scalar_of(*tree.args[0]), scalar_of(*tree.args[1])));
+                return power(scalar_of(*tree.args[0]), scalar_of(*tree.args[1]));
             case Tree::Kind::reciprocal:
                 return ex(1 / scalar_of(*tree.args[0]));
             case Tree::Kind::negate: {

@@ -6,9 +6,11 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <variant>
 
 #include "model/geometry.hpp"
+#include "model/root_sheets.hpp"
 
 namespace alembert {
 
@@ -35,6 +37,11 @@ public:
     /// mistake.
     void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
 
+    /// From now on √(e²) is e or −e (model/root_sheets.hpp).
+    void go_on(std::shared_ptr<RootSheets> sheets) { sheets_ = std::move(sheets); }
+    /// |v|, on the sheet.
+    GiNaC::ex length(const Vector3& v);
+
     /// Throws SceneMistake for what the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
 
@@ -44,6 +51,7 @@ private:
     Vector3 vector_of(const Tree& tree);
     GiNaC::ex named(const Tree& tree);
     Value call(const Tree& tree);
+    GiNaC::ex power(const GiNaC::ex& base, const GiNaC::ex& exponent);
     /// dot(omega(B), ex(B)), which is known without going by N.
     std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v);
     GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
@@ -53,6 +61,7 @@ private:
     std::map<std::string, GiNaC::ex> values_;
     std::map<std::string, std::function<GiNaC::ex()>> later_;
     std::vector<GiNaC::symbol> without_derivative_;
+    std::shared_ptr<RootSheets> sheets_;
     const Expression* current_ = nullptr;
 };
 

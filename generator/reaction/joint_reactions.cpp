@@ -12,6 +12,7 @@
 #include "lower/lower.hpp"
 #include "model/geometry.hpp"
 #include "program/without_rounding.hpp"
+#include "state/redundancy.hpp"
 
 namespace alembert {
 
@@ -106,7 +107,9 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     if (mechanism.given_lagrangian)
         throw ModelError(
             "reactions of joints need masses and loads; a given Lagrangian does not say which body bears what");
-    const Mechanism m = build(released(scene));
+    Mechanism m = build(released(scene));
+    for (std::size_t r = 0; r < mechanism.rollings.size(); ++r)
+        if (mechanism.rollings[r].is_along) m = along_axes(std::move(m), static_cast<int>(r));
     const int n = mechanism.size();
     JointReactions result;
     const auto add_multiplier = [&](const Mechanism::Constraint& c) {

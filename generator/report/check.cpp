@@ -48,6 +48,7 @@ Json json_of(const Claim& claim, const CheckedClaim& checked) {
         if (!slip.repair.empty()) json["likely"]["repair"] = slip.repair;
     }
     if (!checked.reason.empty()) json["reason"] = checked.reason;
+    if (!checked.where.empty()) json["where"] = checked.where;
     return json;
 }
 
@@ -60,6 +61,7 @@ std::string text_of(const Claim& claim, const CheckedClaim& c, const Ink& ink) {
         page += fmt::format("{:<9}  {}{}\n", "", label, text);
     };
     if (!claim.source.empty()) line("", claim.source);
+    if (!c.where.empty()) line("where ", fmt::format("{}", fmt::join(c.where, ", ")));
     if (!c.reason.empty()) line("", c.reason);
     if (c.verdict != Verdict::refuted) return page;
     if (!c.nearest.empty()) line("nearest right equation: ", c.nearest);

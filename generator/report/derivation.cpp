@@ -82,7 +82,8 @@ Json as_json(const DerivedScene& d) {
     }
     for (const Mechanism::Speed& speed : m.speeds) result["speeds"].push_back(speed.u.get_name());
     result["multipliers"] = Json::array();
-    for (const Mechanism::Constraint& c : m.constraints) result["multipliers"].push_back(c.multiplier.get_name());
+    for (const auto* list : {&m.constraints, &m.redundant})
+        for (const Mechanism::Constraint& c : *list) result["multipliers"].push_back(c.multiplier.get_name());
     if (!shown.gaps.empty()) {
         result["gaps"] = Json::object();
         for (const auto& [name, phrase] : shown.gaps) result["gaps"][name] = text(phrase);
@@ -100,6 +101,10 @@ Json as_json(const DerivedScene& d) {
         if (e.divided_by) one["divided_by"] = text(*e.divided_by);
         result["equations"].push_back(std::move(one));
     }
+    for (const Phrase& positive : shown.positive) result["where"].push_back(text(positive) + " > 0");
+    for (const ReadableEquation& e : shown.shares)
+        result["shares"].push_back(
+            {{"text", text(e.lhs) + " = " + text(e.rhs)}, {"latex", latex(e.lhs) + " = " + latex(e.rhs)}});
     if (!shown.kinematics.empty()) {
         result["kinematics"] = Json::array();
         for (const auto& [rate, value] : shown.kinematics)
@@ -144,6 +149,8 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
                       {}});
     for (const ReadableEquation& e : shown.equations)
         blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    for (const Phrase& positive : shown.positive)
+        blocks.push_back({fmt::format("on the sheet of roots where {} > 0", n.inline_phrase(positive)), {}});
     if (!shown.kinematics.empty()) {
         blocks.push_back({"with the rates of the coordinates:", {}});
         for (const auto& [rate, value] : shown.kinematics)
@@ -160,6 +167,11 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
              {}});
         for (const auto& [name, phrase] : shown.constraints)
             blocks.back().equalities.emplace_back(n.phrase(phrase), "0");
+    }
+    if (!shown.shares.empty()) {
+        blocks.push_back({"with the least reactions, since constraints depend on each other:", {}});
+        for (const ReadableEquation& e : shown.shares)
+            blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
     }
     if (!shown.reactions.empty()) {
         blocks.push_back({"Reactions as generalized forces, Q = A^T lambda:", {}});

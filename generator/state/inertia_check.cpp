@@ -27,6 +27,7 @@ InertiaCheck::InertiaCheck(const Scene& scene, const Mechanism& mechanism) : sce
         if (!element.rotation) continue;
         const std::array<GiNaC::ex, 6> I = central_inertia(element, *m_.z);
         wanted.insert(wanted.end(), I.begin(), I.end());
+        wanted.insert(wanted.end(), element.rotation->inertia.begin(), element.rotation->inertia.begin() + 3);
     }
     nodes_ = lower_expressions(program_, m_, wanted);
 }
@@ -52,21 +53,23 @@ std::vector<Diagnostic> InertiaCheck::findings(const State<double>& state) const
         if (!element.rotation) continue;
         std::array<double, 6> I;
         for (double& entry : I) entry = value[nodes_[next++]];
+        double given = 0;
+        for (int k = 0; k < 3; ++k) given = std::max(given, std::abs(value[nodes_[next++]]));
         const Body* const body = body_of(scene_, element.origin);
         if (body != nullptr && body->inertia &&
             std::all_of(I.begin(), I.end(), [](double x) { return std::isfinite(x); }))
-            add_moments(found, *body, I);
+            add_moments(found, *body, I, given);
     }
     return found;
 }
 
-void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body,
-                               const std::array<double, 6>& I) const {
+void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I,
+                               double given) const {
     const Place place = body.inertia->place;
     const std::string about =
         body.about ? fmt::format(" (about its mass centre; they are given about '{}')", body.about->text) : "";
     if (body.inertia->planar) {
-        if (I[2] < 0)
+        if (I[2] < -rounded_moment * given)
             found.push_back(
                 {place, fmt::format("the moment of inertia of body '{}' is {}{}; expected zero or more",
                                     body.name.text, I[2], about)});
@@ -77,9 +80,9 @@ void InertiaCheck::add_moments(std::vector<Diagnostic>& found, const Body& body,
     const std::string moments =
         fmt::format("the principal moments of inertia of body '{}'{}, {:.6g}, {:.6g} and {:.6g},", body.name.text,
                     about, own.moments[0], own.moments[1], own.moments[2]);
-    if (has_negative_moment(own))
+    if (has_negative_moment(own, given))
         found.push_back({place, moments + " are not all zero or more; no body has them"});
-    else if (breaks_triangle_inequality(own))
+    else if (breaks_triangle_inequality(own, given))
         found.push_back(
             {place,
              fmt::format(

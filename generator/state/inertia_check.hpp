@@ -27,12 +27,15 @@ public:
 private:
     /// Where the scene says it: the body's inertia, else the name of the body or the particle.
     Place place_of(const Origin& origin) const;
-    void add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I) const;
+    /// `given`: the largest moment as the scene gives it, about whatever point.
+    void add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I,
+                     double given) const;
 
     const Scene& scene_;
     const Mechanism& m_;
     Program program_;
-    std::vector<int> nodes_;  ///< of each element: its mass, and where it turns its six moments
+    std::vector<int>
+        nodes_;  ///< of each element: its mass, and where it turns its six moments, and three as given
 };
 
 }  // namespace alembert

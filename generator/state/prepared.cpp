@@ -2,6 +2,7 @@
 #include "state/prepared.hpp"
 
 #include "state/inertia_check.hpp"
+#include "state/redundancy.hpp"
 
 namespace alembert {
 
@@ -22,10 +23,12 @@ void Prepared::warn(std::string warning) {
         warnings.push_back(std::move(warning));
 }
 
-Prepared prepared(Scene scene, const Overrides& at) {
+Prepared prepared(Scene scene, const Overrides& at, bool on_sheets) {
     Prepared result{.scene = std::move(scene), .mechanism = {}, .warnings = {}};
     if (!result.scene.warnings.empty()) result.warn(describe(result.scene, result.scene.warnings));
-    result.mechanism = build(result.scene);
+    OnSheets built = on_sheets ? build_on_sheets(result.scene) : OnSheets{build(result.scene), nullptr};
+    result.mechanism = with_regular_rows(std::move(built.mechanism));
+    result.sheets = std::move(built.sheets);
     for (std::string& warning : check_bodies(result.scene, result.mechanism, at)) result.warn(std::move(warning));
     return result;
 }

@@ -15,6 +15,7 @@
 
 #include "lower/start.hpp"
 #include "model/mechanism.hpp"
+#include "model/root_sheets.hpp"
 #include "scene/scene.hpp"
 
 namespace alembert {
@@ -22,7 +23,8 @@ namespace alembert {
 struct Prepared {
     Scene scene;
     Mechanism mechanism;
-    std::vector<std::string> warnings;  ///< lines for a person, each ending with a line break
+    std::vector<std::string> warnings;        ///< lines for a person, each ending with a line break
+    std::shared_ptr<RootSheets> sheets = {};  ///< of a mechanism that was built on them
 
     /// Tells it at once, or keeps it in `warnings` (Scene::on_warning).
     void warn(std::string warning);
@@ -32,7 +34,8 @@ struct Prepared {
 /// inertia that breaks the triangle inequality is a warning. Throws SceneError for a mistake in the scene, and for
 /// a mass or a principal moment that is negative at these values; ModelError for a name in `at` that the scene
 /// does not have.
-Prepared prepared(Scene scene, const Overrides& at = {});
+/// `on_sheets`: with roots of squares on the sheet of the initial state (model/root_sheets.hpp).
+Prepared prepared(Scene scene, const Overrides& at = {}, bool on_sheets = false);
 
 /// The check of the bodies alone, at other values. Gives the warnings; throws as `prepared`.
 std::vector<std::string> check_bodies(const Scene& scene, const Mechanism& mechanism, const Overrides& at);

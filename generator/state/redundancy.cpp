@@ -6,17 +6,21 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "alembert/dense.hpp"
 #include "alembert/tolerances.hpp"
+#include "formalism/elements.hpp"
 #include "lower/lower.hpp"
 #include "state/assemble.hpp"
+#include "state/contradiction.hpp"
 
 namespace alembert {
 
 namespace {
 
 constexpr int states = 8;
+
 /// Which rows are combinations of those before them in `order` (Gram-Schmidt, twice).
 std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order) {
     std::vector<bool> result(order.size());
@@ -26,10 +30,24 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
         const double size = row.norm();
         for (int round = 0; round < 2; ++round)
             for (const Eigen::RowVectorXd& b : basis) row -= row.dot(b) * b;
-        result[k] = !(row.norm() > tolerance::dependent_row * size);
+        result[k] = !(row.norm() > tolerance::dependent_row * size && size > tolerance::vanished_row * A.norm());
         if (!result[k]) basis.push_back(row.normalized());
     }
     return result;
+}
+
+/// Which rows are kept rather than those that follow from them: holonomic ones, for they say where; and rows that
+/// are independent at the start.
+std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::MatrixXd* at_start) {
+    std::vector<int> order;
+    for (const bool holonomic : {true, false})
+        for (int k = 0; k < static_cast<int>(mechanism.constraints.size()); ++k)
+            if (mechanism.constraints[k].holonomic == holonomic) order.push_back(k);
+    if (at_start == nullptr) return order;
+    const std::vector<bool> dependent = dependent_rows(*at_start, order);
+    std::stable_partition(order.begin(), order.end(),
+                          [&](int k) { return mechanism.constraints[k].holonomic || !dependent[k]; });
+    return order;
 }
 
 }  // namespace
@@ -41,26 +59,13 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     const std::vector<int> rows = program.nodes_of(Group::row);
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()),
                n = static_cast<Eigen::Index>(mechanism.size());
-    // A velocity constraint that follows from a position is the one to drop: it does not say where.
-    std::vector<int> order;
-    for (const bool holonomic : {true, false})
-        for (std::size_t k = 0; k < mechanism.constraints.size(); ++k)
-            if (mechanism.constraints[k].holonomic == holonomic) order.push_back(static_cast<int>(k));
-    std::vector<bool> redundant(mechanism.constraints.size(), true);
-    const auto look = [&](const Start& start) {
-        const std::vector<double> value = interpret(program, start.state());
-        Eigen::MatrixXd A(m, n);
-        for (Eigen::Index k = 0; k < m; ++k)
-            for (Eigen::Index i = 0; i < n; ++i) A(k, i) = value[rows[k * n + i]];
-        if (!A.allFinite()) return;
-        const std::vector<bool> now = dependent_rows(A, order);
-        for (std::size_t k = 0; k < redundant.size(); ++k) redundant[k] = redundant[k] && now[k];
-    };
+    std::vector<Eigen::MatrixXd> at;  // rows at the start, then at states around it
     Mechanism loose = mechanism;
     loose.q_is_guess.assign(mechanism.q.size(), true);
     loose.qdot_is_guess.assign(mechanism.q.size(), true);
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> away(-0.3, 0.3);
+    bool has_start = false;
     for (int k = 0; k <= states; ++k) {
         Start start = start_of(mechanism);
         if (k > 0)
@@ -71,12 +76,104 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
             if (k == 0) return {};  // which the command tells, with the reason
             continue;
         }
-        look(start);
+        const std::vector<double> value = interpret(program, start.state());
+        Eigen::MatrixXd A(m, n);
+        for (Eigen::Index r = 0; r < m; ++r)
+            for (Eigen::Index i = 0; i < n; ++i) A(r, i) = value[rows[r * n + i]];
+        if (!A.allFinite()) continue;
+        has_start = has_start || k == 0;
+        at.push_back(std::move(A));
     }
+    const std::vector<int> order = order_of_keeping(mechanism, has_start ? &at.front() : nullptr);
+    std::vector<std::vector<bool>> dependent;
+    for (const Eigen::MatrixXd& A : at) dependent.push_back(dependent_rows(A, order));
+    // At the start rows may have vanished that do not vanish around it; then it does not tell which rows are
+    // needed.
+    const auto rank = [](const std::vector<bool>& of) { return std::count(of.begin(), of.end(), false); };
+    if (has_start && dependent.size() > 1 &&
+        std::all_of(dependent.begin() + 1, dependent.end(),
+                    [&](const auto& other) { return rank(dependent.front()) <= rank(other); }))
+        dependent.erase(dependent.begin());
     std::vector<int> result;
-    for (std::size_t k = 0; k < redundant.size(); ++k)
-        if (redundant[k]) result.push_back(static_cast<int>(k));
+    for (int k = 0; k < static_cast<int>(m); ++k)
+        if (std::all_of(dependent.begin(), dependent.end(), [&](const auto& of) { return of[k]; }))
+            result.push_back(k);
     return result;
+}
+
+namespace {
+
+/// Do the factors, with which the rows of this rolling depend on the rows before them, change with the pose?
+bool factors_change(const Mechanism& mechanism, int row, const std::vector<int>& redundant,
+                    const std::vector<State<double>>& places) {
+    const Program program = lower_constraints(mechanism);
+    const std::vector<int> rows = program.nodes_of(Group::row);
+    const Eigen::Index n = mechanism.size();
+    std::optional<Eigen::VectorXd> first;
+    for (const State<double>& state : places) {
+        const std::vector<double> value = interpret(program, state);
+        const auto at = [&](int r) {
+            Eigen::VectorXd result(n);
+            for (Eigen::Index i = 0; i < n; ++i) result[i] = value[rows[r * n + i]];
+            return result;
+        };
+        std::vector<int> kept;
+        for (int r = 0; r < static_cast<int>(mechanism.constraints.size()); ++r)
+            if (std::find(redundant.begin(), redundant.end(), r) == redundant.end()) kept.push_back(r);
+        Eigen::MatrixXd basis(n, static_cast<Eigen::Index>(kept.size()));
+        for (std::size_t c = 0; c < kept.size(); ++c) basis.col(static_cast<Eigen::Index>(c)) = at(kept[c]);
+        const Eigen::VectorXd share = least_norm(basis, at(row)).x;
+        if (!share.allFinite()) continue;
+        if (!first) first = share;
+        if ((share - *first).norm() > 1e-7 * (1 + first->norm())) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Mechanism along_axes(Mechanism m, int rolling) {
+    Mechanism::Rolling& rolls = m.rollings[static_cast<std::size_t>(rolling)];
+    rolls.is_along = true;
+    GiNaC::exmap gone;  // multipliers of rows that hold identically along the axes
+    std::vector<Mechanism::Constraint> all;
+    bool put = false;
+    for (const Mechanism::Constraint& c : m.constraints) {
+        if (c.rolling != rolling) {
+            all.push_back(c);
+            continue;
+        }
+        if (!std::exchange(put, true)) all.insert(all.end(), rolls.along.begin(), rolls.along.end());
+        if (std::none_of(rolls.along.begin(), rolls.along.end(),
+                         [&](const Mechanism::Constraint& a) { return a.multiplier.is_equal(c.multiplier); })) {
+            gone[c.multiplier] = 0;
+            m.identities.push_back(c.name);
+        }
+    }
+    m.constraints = std::move(all);
+    for (auto* parts : {&m.outputs, &m.events, &m.definitions})
+        for (Mechanism::Definition& part : *parts)
+            if (!gone.empty()) part.value = substitute(*m.z, {part.value}, gone)[0];
+    return m;
+}
+
+Mechanism with_regular_rows(Mechanism mechanism) {
+    for (std::size_t r = 0; r < mechanism.rollings.size(); ++r) {
+        if (mechanism.rollings[r].along.empty() || mechanism.rollings[r].is_along) continue;
+        const std::vector<int> redundant = redundant_constraints(mechanism);
+        const auto own = std::find_if(redundant.begin(), redundant.end(), [&](int k) {
+            return mechanism.constraints[k].rolling == static_cast<int>(r);
+        });
+        if (own == redundant.end()) continue;
+        const std::vector<State<double>> places =
+            states_that_obey(without_constraints(mechanism, redundant), start_of(mechanism), states);
+        if (std::any_of(own, redundant.end(), [&](int k) {
+                return mechanism.constraints[k].rolling == static_cast<int>(r) &&
+                       factors_change(mechanism, k, redundant, places);
+            }))
+            mechanism = along_axes(std::move(mechanism), static_cast<int>(r));
+    }
+    return mechanism;
 }
 
 std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,

@@ -14,6 +14,7 @@
 #include "alembert/rotation.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 namespace alembert {
 
@@ -62,15 +63,18 @@ PrincipalAxes<Real> principal_axes(const Matrix3<Real>& I) {
     return result;
 }
 
+/// As much of the largest moment is rounding.
+inline constexpr double rounded_moment = 1e-9;
+
 /// What no distribution of mass has: a negative principal moment; a largest one beyond the sum of the others,
-/// C = ∫ (x² + y²) dm ≤ A + B. Up to 1e-9 of the largest either is rounding.
+/// C = ∫ (x² + y²) dm ≤ A + B. `scale`: moments that these are the difference of (about another point), if larger.
 template <typename Real>
-bool has_negative_moment(const PrincipalAxes<Real>& I) {
-    return I.moments[0] < -Real(1e-9) * I.moments.cwiseAbs().maxCoeff();
+bool has_negative_moment(const PrincipalAxes<Real>& I, const Real& scale = 0) {
+    return I.moments[0] < -Real(rounded_moment) * std::max<Real>(scale, I.moments.cwiseAbs().maxCoeff());
 }
 template <typename Real>
-bool breaks_triangle_inequality(const PrincipalAxes<Real>& I) {
-    return I.moments[2] - I.moments[0] - I.moments[1] > Real(1e-9) * I.moments[2];
+bool breaks_triangle_inequality(const PrincipalAxes<Real>& I, const Real& scale = 0) {
+    return I.moments[2] - I.moments[0] - I.moments[1] > Real(rounded_moment) * std::max<Real>(scale, I.moments[2]);
 }
 
 }  // namespace alembert

@@ -20,6 +20,10 @@ inline constexpr double closed_gap = 1e-9;
 /// decided from values that obey the constraints to `initial_values` cannot be had more sharply.
 inline constexpr double dependent_row = 1e-9;
 
+/// A row has vanished at a pose if its size is below this times that of the whole matrix: a few hundred roundings
+/// of terms that cancel.
+inline constexpr double vanished_row = 1e-13;
+
 /// Forces and loads that should balance, times the largest of them: solutions of linear systems with condition
 /// numbers up to 10⁶ keep this.
 inline constexpr double balanced_load = 1e-9;

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "check/root_form.hpp"
+
+#include <stdexcept>
+
+#include "lower/lower.hpp"
+#include "model/energy.hpp"
+#include "state/assemble.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+
+namespace {
+
+constexpr double largest_claim = 4000;  // nodes, written out
+
+/// All powers with exponents k/2, k odd.
+void find_roots(const ex& e, GiNaC::exset& found) {
+    if (GiNaC::is_a<GiNaC::power>(e) && ex(2 * e.op(1)).info(GiNaC::info_flags::odd)) found.insert(e);
+    for (const ex& part : e) find_roots(part, found);
+}
+
+}  // namespace
+
+std::optional<RootForm> root_form(const ex& residual, const Mechanism& m) {
+    if (m.z->tree_size(residual) > largest_claim) return std::nullopt;
+    const ex plain = m.z->expand(residual);
+    GiNaC::exset roots;
+    find_roots(plain, roots);
+    if (roots.empty()) return std::nullopt;
+    const ex s = roots.begin()->op(0);
+    const GiNaC::symbol S("S");
+    GiNaC::exmap by;  // s^(k/2) = s^((k − 1)/2) S
+    for (const ex& root : roots) {
+        if (!root.op(0).is_equal(s)) return std::nullopt;
+        by[root] = pow(s, root.op(1) - GiNaC::numeric(1, 2)) * S;
+    }
+    const ex in_S = plain.subs(by, GiNaC::subs_options::no_pattern).expand();
+    if (!in_S.is_polynomial(S)) return std::nullopt;
+    ex A = 0, B = 0;
+    for (int k = 0; k <= in_S.degree(S); ++k) (k % 2 == 0 ? A : B) += in_S.coeff(S, k) * pow(s, k / 2);
+    if (A.is_zero() || B.is_zero()) return std::nullopt;
+    return RootForm{.norm = m.z->name(A * A - B * B * s), .root = (-A / B).expand()};
+}
+
+bool is_positive_at_start(const ex& value, const Claims& claims, const Equations& equations) {
+    const Mechanism& m = claims.mechanism();
+    if (m.z->depends(value, claims.open_symbols())) return false;
+    try {
+        Start start = start_of(m);
+        assemble(start, m, lower_constraints(m), {});
+        State<double> state = start.state();
+        std::vector<GiNaC::symbol> forced = m.qddot;
+        for (const auto* list : {&m.constraints, &m.redundant})
+            for (const Mechanism::Constraint& c : *list) forced.push_back(c.multiplier);
+        if (m.z->depends(value, forced)) {
+            const Program motion = lower(m, equations, energy_of(m));
+            const std::vector<double> at = interpret(motion, state);
+            for (const int id : motion.nodes_of(Group::acceleration)) state.qddot.push_back(at[id]);
+            for (const int id : motion.nodes_of(Group::multiplier)) state.unknown.push_back(at[id]);
+            state.unknown.insert(state.unknown.begin() + static_cast<std::ptrdiff_t>(m.constraints.size()),
+                                 m.unilateral.size(), 0.0);
+        }
+        state.unknown.resize(equations.lambda.size() + m.undetermined().size() + claims.open().size());
+        Program program;
+        const int root = claims.lower(program, {value})[0];
+        return interpret(program, state)[root] > 0;
+    } catch (const std::runtime_error&) {
+        return false;
+    }
+}
+
+}  // namespace alembert

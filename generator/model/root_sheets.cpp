@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/root_sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/parameter_values.hpp"
+#include "notation/factor.hpp"
+#include "notation/readable.hpp"
+#include "symbolic/fourier.hpp"
+
+namespace alembert {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr double largest_square = 3000;  // nodes, written out
+
+std::optional<ex> root_of_number(const ex& e) {
+    const ex root = sqrt(e);
+    if (GiNaC::is_a<numeric>(root) && GiNaC::ex_to<numeric>(root).is_rational()) return root;
+    return std::nullopt;
+}
+
+/// The root of a product of even powers.
+std::optional<ex> root_of_product(const ex& e) {
+    if (GiNaC::is_a<numeric>(e)) return root_of_number(e);
+    if (GiNaC::is_a<GiNaC::power>(e)) {
+        const ex half = e.op(1) / 2;
+        if (half.info(GiNaC::info_flags::integer)) return pow(e.op(0), half);
+        return std::nullopt;
+    }
+    if (!GiNaC::is_a<GiNaC::mul>(e)) return std::nullopt;
+    ex product = 1;
+    for (const ex& factor : e) {
+        const std::optional<ex> root = root_of_product(factor);
+        if (!root) return std::nullopt;
+        product *= *root;
+    }
+    return product;
+}
+
+/// Of number · monomial · Π sumᵉ with even exponents.
+std::optional<ex> root_of_polynomial(const Polynomial& square) {
+    const Factorization factors = Factorizer()(square);
+    const std::optional<ex> unit = root_of_number(expression(factors.unit));
+    if (!unit) return std::nullopt;
+    ex product = *unit;
+    for (const Factor& factor : factors.monomial) {
+        const Rational half = factor.exponent / 2;
+        if (!is_integer(half)) return std::nullopt;
+        product *= expression(Polynomial(factor.atom, half));
+    }
+    for (const auto& [sum, exponent] : factors.sums) {
+        if (exponent % 2 != 0) return std::nullopt;
+        product *= pow(expression(sum), exponent / 2);
+    }
+    return product;
+}
+
+}  // namespace
+
+RootSheets::RootSheets(const Mechanism& m) : symbols_(m.symbols), z_(m.z), moving_(m.moving()) {
+    const ParameterValues values(m);
+    for (const Mechanism::Parameter& p : m.parameters) start_[p.symbol] = values.number(p.symbol);
+    for (int i = 0; i < m.size(); ++i) {
+        start_[m.q[i]] = values.number(m.z->expand(m.q_start[i]));
+        start_[m.qdot[i]] = values.number(m.z->expand(m.qdot_start[i]));
+    }
+    start_[m.t] = m.run.start ? values.number(m.z->expand(*m.run.start)) : 0.0;
+}
+
+double RootSheets::at_start(const ex& e) const {
+    const ex value = e.subs(start_, GiNaC::subs_options::no_pattern).evalf();
+    if (!GiNaC::is_a<numeric>(value) || !GiNaC::ex_to<numeric>(value).is_real()) return std::nan("");
+    return GiNaC::ex_to<numeric>(value).to_double();
+}
+
+std::optional<ex> RootSheets::square_root(const ex& square) const {
+    if (z_->tree_size(square) > largest_square) return std::nullopt;
+    const auto f = fourier(z_->expand(square), *symbols_);
+    if (!f || f->polynomial().is_zero()) return std::nullopt;
+    if (const auto root = root_of_polynomial(f->polynomial())) return root;
+    return root_of_product(expression(readable(*f)));  // sin² θ, which the normal form has as (1 − cos 2θ)/2
+}
+
+std::optional<ex> RootSheets::root(const ex& square) {
+    const std::optional<ex> found = square_root(square);
+    if (!found) return std::nullopt;
+    const double size = at_start(*found);
+    if (!std::isfinite(size) || std::abs(size) < 1e-9) return std::nullopt;
+    const ex e = size > 0 ? *found : ex(-*found);
+    const bool positive_by_itself =
+        GiNaC::is_a<numeric>(e) || (GiNaC::is_a<GiNaC::symbol>(e) && !z_->depends(e, moving_));
+    if (!positive_by_itself && std::none_of(positive_.begin(), positive_.end(),
+                                            [&](const ex& known) { return (known - e).expand().is_zero(); }))
+        positive_.push_back(e);
+    return z_->name(e);
+}
+
+std::optional<ex> RootSheets::magnitude(const ex& e) const {
+    if (z_->depends(e, moving_)) return std::nullopt;
+    const ex plain = z_->expand(e);
+    const double size = at_start(plain);
+    if (!std::isfinite(size) || size == 0) return std::nullopt;
+    return z_->name(size > 0 ? plain : ex(-plain));
+}
+
+}  // namespace alembert

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Roots on the sheet of the initial state, and formulas that are right on one branch. What is proved is held
+// against floating point: `eval`, which computes the roots themselves.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+using alembert::test::run;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A mass on a spring from the origin, in polar coordinates.
+std::string spring_pendulum(const std::string& r, const std::string& spring = R"(between = ["O", "P"])") {
+    return temporary("spring.toml", fmt::format(R"toml(
+gravity = [0, "g"]
+[parameters]
+m = 1.2
+k = 30.0
+l0 = 0.8
+g = 9.81
+[coordinates]
+r = {}
+th = {{ initial = 0.4, rate = 0.5 }}
+[[particle]]
+name = "P"
+mass = "m"
+position = ["r*sin(th)", "r*cos(th)"]
+[[spring]]
+{}
+stiffness = "k"
+length = "l0"
+)toml",
+                                                r, spring));
+}
+
+Json check_of(const std::string& scene, const std::string& claim) {
+    const auto result = run({"check", scene, temporary("sheet.claims", claim + "\n"), "--json"});
+    INFO(result.err);
+    REQUIRE(!result.out.empty());
+    return Json::parse(result.out)["claims"][0];
+}
+
+const std::string right = "r'' - r*th'^2 - g*cos(th) + k/m*(r - l0) = 0";
+const std::string mirrored = "r'' - r*th'^2 - g*cos(th) + k/m*(r + l0) = 0";
+
+}  // namespace
+
+TEST_CASE("check: a spring's length along its coordinate is that coordinate, on the sheet of the initial state") {
+    for (const char* spring : {R"(between = ["O", "P"])", R"x(along = "sqrt(r^2)")x",
+                               R"x(along = "sqrt(r^2*sin(th)^2 + r^2*cos(th)^2)")x", R"x(along = "norm(pos(P))")x",
+                               R"x(along = "(r^2)^(1/2)")x"}) {
+        const std::string scene = spring_pendulum("1.1", spring);
+        INFO(spring);
+        const auto derived = run({"derive", scene, "--json"});
+        REQUIRE(derived.exit == 0);
+        CHECK(derived.out.find("sqrt") == std::string::npos);
+        CHECK(Json::parse(derived.out)["where"] == Json::array({"r > 0"}));
+        CHECK(run({"derive", scene}).out.find("where r > 0") != std::string::npos);
+        const Json claim = check_of(scene, right);
+        CHECK(claim["verdict"] == "proved");
+        CHECK(claim["where"] == Json::array({"r > 0"}));
+        const Json wrong = check_of(scene, mirrored);
+        CHECK(wrong["verdict"] == "refuted");
+        CHECK(wrong["counterexample"]["r"].get<std::string>()[0] != '-');
+        CHECK(check_of(scene, "r'' = r*th'^2 + g*cos(th) - k/m*(norm(pos(P)) - l0)")["verdict"] == "proved");
+    }
+}
+
+TEST_CASE("check: a coordinate that starts negative is on the other sheet, and eval agrees") {
+    const std::string scene = spring_pendulum("-1.1");
+    CHECK(check_of(scene, mirrored)["verdict"] == "proved");
+    CHECK(check_of(scene, mirrored)["where"] == Json::array({"-r > 0"}));
+    CHECK(check_of(scene, right)["verdict"] == "refuted");
+    const auto result = run({"eval", scene, "--json"});
+    REQUIRE(result.exit == 0);
+    const double a = Json::parse(result.out)["accelerations"]["r"];
+    CHECK(a == doctest::Approx(-1.1 * 0.25 + 9.81 * std::cos(0.4) - 30 / 1.2 * (-1.1 + 0.8)).epsilon(1e-13));
+}
+
+TEST_CASE("check: nothing is assumed where a root's argument may pass zero, nor for a bouncing force") {
+    const std::string bouncing = temporary("bouncing.toml", R"toml(
+[parameters]
+m = 1.0
+k = 2.0
+[coordinates]
+x = 0.5
+[energy]
+kinetic = "m*x'^2/2"
+[forces]
+x = "-k*abs(x)"
+)toml");
+    CHECK(check_of(bouncing, "m*x'' = -k*abs(x)")["verdict"] == "proved");
+    CHECK(check_of(bouncing, "m*x'' = -k*x")["verdict"] == "refuted");
+    CHECK(!check_of(bouncing, "m*x'' = -k*abs(x)").contains("where"));
+    const std::string between = temporary("between.toml", R"toml(
+[parameters]
+m = 1.0
+k = 2.0
+l = 1.0
+[coordinates]
+x = 0
+[energy]
+kinetic = "m*x'^2/2"
+[[spring]]
+along = "sqrt(x^2)"
+stiffness = "k"
+length = "l"
+)toml");
+    const auto result = run({"derive", between, "--json"});
+    CHECK(!Json::parse(result.out).contains("where"));
+}
+
+TEST_CASE("check: a formula of a slider-crank with a root is proved on the branch of the start, which is named") {
+    const auto crank = [](const char* x) {
+        return temporary("crank.toml", fmt::format(R"toml(
+[parameters]
+r = 0.5
+l = 1.3
+m = 2.0
+J = 0.4
+[coordinates]
+th = {{ initial = 0.7, rate = 1 }}
+x = {{ guess = {}, rate_guess = 0 }}
+[energy]
+kinetic = "J*th'^2/2 + m*x'^2/2"
+[[constraint]]
+name = "rod"
+holonomic = "(x - r*cos(th))^2 + r^2*sin(th)^2 - l^2"
+)toml",
+                                                   x));
+    };
+    const std::string outer = "x = r*cos(th) + sqrt(l^2 - r^2*sin(th)^2)",
+                      inner = "x = r*cos(th) - sqrt(l^2 - r^2*sin(th)^2)",
+                      rate = "x' = -r*th'*sin(th) - r^2*th'*sin(th)*cos(th)/sqrt(l^2 - r^2*sin(th)^2)";
+    for (const auto& [start, good, bad] :
+         {std::array{"1.6", outer.c_str(), inner.c_str()}, std::array{"-0.8", inner.c_str(), outer.c_str()}}) {
+        const std::string scene = crank(start);
+        const Json proved = check_of(scene, good);
+        CHECK(proved["verdict"] == "proved");
+        REQUIRE(proved.contains("where"));
+        CHECK(proved["where"].size() == 1);
+        CHECK(proved["where"][0].get<std::string>().find("> 0") != std::string::npos);
+        CHECK(check_of(scene, bad)["verdict"] == "refuted");
+    }
+    CHECK(check_of(crank("1.6"), rate)["verdict"] == "proved");
+    CHECK(check_of(crank("-0.8"), rate)["verdict"] == "refuted");
+    CHECK(check_of(crank("1.6"), "x = r*cos(th) + sqrt(l^2 - r^2*cos(th)^2)")["verdict"] == "refuted");
+}

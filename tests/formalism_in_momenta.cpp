@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// What is printed by a formalism is that formalism's, and holds; a formalism that derives is one that `agree`
+// knows.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "program.hpp"
+#include "scenes.hpp"
+
+using alembert::test::run;
+using alembert::test::source_path;
+using alembert::test::temporary;
+using Json = nlohmann::json;
+
+namespace {
+
+Json derived(const std::string& scene, const std::string& by) {
+    const auto result = run({"derive", scene, "--by", by, "--json"});
+    REQUIRE(result.exit == 0);
+    return Json::parse(result.out);
+}
+
+bool are_proved(const std::string& scene, const Json& equations) {
+    std::string claims;
+    for (const Json& equation : equations) claims += equation["text"].get<std::string>() + "\n";
+    const auto result = run({"check", scene, temporary("momenta.claims", claims)});
+    INFO(claims << result.out << result.err);
+    CHECK(result.exit == 0);
+    return result.exit == 0;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "formalisms: Routh's procedure and Hamilton's equations of symmetric tops are in momenta, and are proved") {
+    for (const char* scene : {"heavy_top", "central_force", "spherical_pendulum"}) {
+        const std::string file = source_path(fmt::format("scenes/textbook/{}.toml", scene));
+        for (const char* by : {"routhian", "hamilton"}) {
+            INFO(scene << " " << by);
+            const Json json = derived(file, by);
+            bool has_momenta = false;
+            for (const Json& equation : json["equations"])
+                has_momenta = has_momenta || equation["text"].get<std::string>().find("p_") != std::string::npos;
+            CHECK(has_momenta);
+            CHECK(are_proved(file, json["equations"]));
+        }
+    }
+}
+
+// ψ' = (p_ψ − p_φ cos θ)/(A sin² θ) in the names of the scene, where φ is the precession (Goldstein, §5-7).
+TEST_CASE("formalisms: the symmetric top's rates in momenta have the book's denominators A sin^2 and C") {
+    const auto result = run({"derive", source_path("scenes/textbook/heavy_top.toml"), "--by", "hamilton"});
+    REQUIRE(result.exit == 0);
+    CHECK(result.out.find("C*cos(theta)^2") == std::string::npos);
+    CHECK(result.out.find("phi' = p_phi/(A*sin(theta)^2) - p_psi*cos(theta)/(A*sin(theta)^2)") !=
+          std::string::npos);
+}
+
+TEST_CASE(
+    "formalisms: where the equations in momenta are too long, the heading does not say that they are shown") {
+    const std::string scene = source_path("scenes/textbook/free_body.toml");
+    const auto result = run({"derive", scene, "--by", "hamilton"});
+    REQUIRE(result.exit == 0);
+    const bool in_momenta = result.out.find("p_") != std::string::npos;
+    CHECK(in_momenta == (result.out.find("Hamilton's canonical equations") != std::string::npos));
+    CHECK(in_momenta == (result.out.find("too long to be shown") == std::string::npos));
+}
+
+// A disc that rolls between rails: its constraints say some things twice.
+TEST_CASE("formalisms: agree knows each formalism by which derive works, with redundant constraints too") {
+    const std::string scene = temporary("twice.toml", R"toml(
+[parameters]
+R = 0.5
+[coordinates]
+x = { initial=0, rate=-0.5}
+y = 0
+phi = { initial = 0.2, rate = 1 }
+[[frame]]
+name = "D"
+rotate = [["z", "phi"]]
+[[body]]
+name = "disc"
+mass = 2
+frame = "D"
+position = ["x", "y"]
+inertia = 0.25
+[[constraint]]
+name = "rail"
+nonholonomic = "x' + R*phi'"
+[[constraint]]
+name = "again"
+nonholonomic = "2*x' + 2*R*phi' + y'"
+[[constraint]]
+name = "height"
+nonholonomic = "3*y'"
+[[force]]
+at = "disc"
+vector = ["-2*x", 1]
+)toml");
+    std::string text = run({"agree", scene, "--json"}).out;
+    const Json agreed = Json::parse(text);
+    CHECK(agreed["verdict"] == "proved");
+    std::set<std::string> known;
+    for (const Json& name : agreed["formalisms"]) known.insert(name.get<std::string>());
+    CHECK(known.contains("kane"));
+    for (const char* by : {"lagrange", "lagrange1", "kane", "routh", "dalembert", "nielsen", "schiehlen",
+                           "hamilton", "recursive", "routhian", "appell", "maggi", "roberson-wittenburg"})
+        CHECK((run({"derive", scene, "--by", by}).exit == 0) == known.contains(by));
+}
