@@ -45,11 +45,11 @@ void add_check(CLI::App& app, Chosen& chosen) {
                                  {.name = "check",
                                   .about = "holds a hand derivation against the derived equations",
                                   .example = "alembert check scenes/textbook/double_pendulum.toml"},
-                                 run, [](CLI::App& verb, CheckOptions& options) {
+                                 run, [](Verb& verb, CheckOptions& options) {
                                      verb.add_option(
                                              "claims", options.claims,
                                              "a file, one equation a line; default: the scene's [[claim]]s")
-                                         ->type_name(values::claims);
+                                         .type_name(values::claims);
                                      add_by_option(verb, options.by);
                                  });
 }

@@ -2,8 +2,8 @@
 // Completion scripts, written from the tree of verbs and options. What options take, values.hpp says. Names are
 // those of the program alone: letters, digits and hyphens. Descriptions are quoted.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <fmt/ranges.h>
 #include "alembert/error.hpp"
 #include "commands/help.hpp"
 #include "commands/show.hpp"
@@ -219,11 +219,11 @@ std::string fish(const CLI::App& app) {
 
 void add_completion(CLI::App& app, Chosen& chosen) {
     const auto shell = std::make_shared<std::string>();
-    CLI::App* const verb = add_verb(app, {.name = "completion",
-                                          .about = "prints a script with which a shell completes commands",
-                                          .example = "alembert completion bash > alembert.bash"});
-    verb->add_option("shell", *shell, "bash, zsh or fish")->type_name(values::shell)->required();
-    verb->callback([shell, &app, &chosen] {
+    Verb verb = add_verb(app, {.name = "completion",
+                               .about = "prints a script with which a shell completes commands",
+                               .example = "alembert completion bash > alembert.bash"});
+    verb.add_option("shell", *shell, "bash, zsh or fish").type_name(values::shell).required();
+    verb.callback([shell, &app, &chosen] {
         chosen = {"completion", [shell, &app] {
                       if (*shell == "bash")
                           show(bash(app));

@@ -36,13 +36,13 @@ void add_derive(CLI::App& app, Chosen& chosen) {
         {.name = "derive",
          .about = "prints the equations of motion in the form of a textbook",
          .example = "alembert derive scenes/textbook/double_pendulum.toml --steps"},
-        run, [](CLI::App& verb, DeriveVerb& options) {
+        run, [](Verb& verb, DeriveVerb& options) {
             add_by_option(verb, options.by);
             verb.add_option("--format", options.page.format, "text (default), latex or mathml")
-                ->type_name(values::format)
-                ->check(CLI::IsMember({"text", "latex", "mathml"}).description(""));
+                .type_name(values::format)
+                .one_of({"text", "latex", "mathml"});
             verb.add_flag("--steps", options.page.steps, "also coordinates, T, V, generalized forces, own steps");
-            verb.add_option("--draw", options.draw, "SVG figure of the system")->type_name(values::file);
+            verb.add_option("--draw", options.draw, "SVG figure of the system").type_name(values::file);
             add_reactions_option(verb, options.reactions);
         });
 }

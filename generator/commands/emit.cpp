@@ -45,10 +45,10 @@ void add_emit(CLI::App& app, Chosen& chosen) {
         {.name = "emit",
          .about = "writes the C++ of the system",
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
-        run, [](CLI::App& verb, EmitVerb& options) {
+        run, [](Verb& verb, EmitVerb& options) {
             verb.add_option("-o,--output", options.folder, "the folder; the file is named after the scene")
-                ->type_name(values::folder)
-                ->required();
+                .type_name(values::folder)
+                .required();
             verb.add_flag("--fold", options.emission.fold, "parameters as constants");
             verb.add_flag("--jacobian", options.emission.jacobian, "also the derivatives of the right-hand side");
             verb.add_flag("--batch", options.emission.batch, "also the same functions for eight systems at once");

@@ -93,14 +93,14 @@ void add_equilibrium(CLI::App& app, Chosen& chosen) {
         {.name = "equilibrium",
          .about = "finds where the system can stay at rest, or move steadily",
          .example = "alembert equilibrium scenes/textbook/watt_governor.toml"},
-        run, [](CLI::App& verb, EquilibriumVerb& options) {
+        run, [](Verb& verb, EquilibriumVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);
             verb.add_option("--follow", options.follow,
                             "follows all over a parameter, with folds and bifurcations")
-                ->type_name(values::interval);
-            verb.add_option("-o,--output", options.output, "CSV file of the branches")->type_name(values::file);
-            verb.add_option("--svg", options.svg, "picture of the branches")->type_name(values::file);
+                .type_name(values::interval);
+            verb.add_option("-o,--output", options.output, "CSV file of the branches").type_name(values::file);
+            verb.add_option("--svg", options.svg, "picture of the branches").type_name(values::file);
         });
 }
 

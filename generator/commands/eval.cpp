@@ -31,7 +31,7 @@ void add_eval(CLI::App& app, Chosen& chosen) {
                                 {.name = "eval",
                                  .about = "evaluates the equations once: accelerations, energies, reactions",
                                  .example = "alembert eval scenes/textbook/double_pendulum.toml --at theta1=0.3"},
-                                run, [](CLI::App& verb, EvalOptions& options) {
+                                run, [](Verb& verb, EvalOptions& options) {
                                     add_at_option(verb, options.at);
                                     add_by_option(verb, options.by);
                                     add_reactions_option(verb, options.reactions);

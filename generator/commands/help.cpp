@@ -2,8 +2,8 @@
 #include "commands/help.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <sstream>
 

@@ -60,17 +60,15 @@ int run(const ImportOptions& options) {
 
 void add_import(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<ImportOptions>();
-    CLI::App* const verb = add_verb(app, {.name = "import",
-                                          .about = "writes the scene of a robot description (URDF)",
-                                          .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
-    verb->add_option("robot", options->robot, "the robot, an .urdf file")->type_name(values::robot)->required();
-    verb->add_option("-o,--output", options->output, "the scene to be written")
-        ->type_name(values::file)
-        ->required();
-    verb->add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
-    verb->add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion");
-    verb->add_flag("--json", options->json, "print one JSON object");
-    verb->callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
+    Verb verb = add_verb(app, {.name = "import",
+                               .about = "writes the scene of a robot description (URDF)",
+                               .example = "alembert import tests/robots/arm6.urdf -o arm6.toml"});
+    verb.add_option("robot", options->robot, "the robot, an .urdf file").type_name(values::robot).required();
+    verb.add_option("-o,--output", options->output, "the scene to be written").type_name(values::file).required();
+    verb.add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
+    verb.add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion");
+    verb.add_flag("--json", options->json, "print one JSON object");
+    verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }
 
 }  // namespace alembert

@@ -30,7 +30,7 @@ void add_inverse(CLI::App& app, Chosen& chosen) {
         {.name = "inverse",
          .about = "calculates the loads that accelerations need",
          .example = "alembert inverse scenes/textbook/double_pendulum.toml --at \"theta1''=2\""},
-        run, [](CLI::App& verb, InverseVerb& options) {
+        run, [](Verb& verb, InverseVerb& options) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);
         });

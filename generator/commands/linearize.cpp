@@ -32,7 +32,7 @@ void add_linearize(CLI::App& app, Chosen& chosen) {
         {.name = "linearize",
          .about = "gives matrices and eigenvalues near an equilibrium",
          .example = "alembert linearize scenes/textbook/watt_governor.toml --at alpha=0"},
-        run, [](CLI::App& verb, LinearizeVerb& options) {
+        run, [](Verb& verb, LinearizeVerb& options) {
             add_at_option(verb, options.at);
             add_by_option(verb, options.by);
         });

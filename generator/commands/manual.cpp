@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Pages of the manual in roff (man(7)), written from the tree of verbs and options.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include <fmt/ranges.h>
 #include "alembert/error.hpp"
 #include "commands/help.hpp"
 #include "commands/show.hpp"
@@ -108,11 +108,11 @@ std::string page_of_program(const CLI::App& app) {
 
 void add_manual(CLI::App& app, Chosen& chosen) {
     const auto name = std::make_shared<std::string>();
-    CLI::App* const verb = add_verb(app, {.name = "man",
-                                          .about = "prints a page of the manual, of the program or of a verb",
-                                          .example = "alembert man simulate > alembert-simulate.1"});
-    verb->add_option("verb", *name, "whose page; without it that of the program")->type_name(values::verb);
-    verb->callback([name, &app, &chosen] {
+    Verb verb = add_verb(app, {.name = "man",
+                               .about = "prints a page of the manual, of the program or of a verb",
+                               .example = "alembert man simulate > alembert-simulate.1"});
+    verb.add_option("verb", *name, "whose page; without it that of the program").type_name(values::verb);
+    verb.callback([name, &app, &chosen] {
         chosen = {"man", [name, &app] {
                       if (name->empty()) return show(page_of_program(app)), 0;
                       std::vector<std::string> known;

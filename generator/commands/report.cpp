@@ -54,13 +54,13 @@ void add_report(CLI::App& app, Chosen& chosen) {
         {.name = "report",
          .about = "writes one page with all about the scene, with a figure that moves",
          .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
-        run, [](CLI::App& verb, ReportVerb& options) {
-            verb.add_option("-o,--output", options.output, "the page, HTML")->type_name(values::file)->required();
+        run, [](Verb& verb, ReportVerb& options) {
+            verb.add_option("-o,--output", options.output, "the page, HTML").type_name(values::file).required();
             add_by_option(verb, options.by);
             add_duration_option(verb, options.wishes);
             verb.add_option("--budget", options.wishes.budget, "evaluations of the motion, at most")
-                ->type_name(values::count)
-                ->check(positive_number());
+                .type_name(values::count)
+                .positive();
             verb.add_flag("!--no-motion", options.moves, "leaves the motion out");
         });
 }

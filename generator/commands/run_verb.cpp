@@ -10,42 +10,42 @@
 
 namespace alembert {
 
-void add_run_options(CLI::App& verb, RunVerb& options) {
+void add_run_options(Verb& verb, RunVerb& options) {
     RunOptions& w = options.wishes;
     add_duration_option(verb, w);
     verb.add_option("--tolerance", w.tolerance, "local error of a component, relative to max(1, |y|)")
-        ->type_name(values::number)
-        ->check(positive_number());
+        .type_name(values::number)
+        .positive();
     verb.add_option("--method", w.method, "the integrator; default: auto, which chooses")
-        ->type_name(values::method);
+        .type_name(values::method);
     verb.add_option("--step", w.step, "fixed step, for methods without step control")
-        ->type_name(values::seconds)
-        ->check(positive_number());
-    verb.add_option("-o,--output", options.output, "table as CSV")->type_name(values::file);
+        .type_name(values::seconds)
+        .positive();
+    verb.add_option("-o,--output", options.output, "table as CSV").type_name(values::file);
     add_limits(verb, w);
     verb.add_flag("--fast-math", w.fast_math, "let the compiler reorder sums");
     add_by_option(verb, options.by);
 }
 
-void add_duration_option(CLI::App& verb, RunOptions& wishes) {
+void add_duration_option(Verb& verb, RunOptions& wishes) {
     verb.add_option("--duration", wishes.duration, "seconds from the start")
-        ->type_name(values::seconds)
-        ->check(nonnegative_number());
+        .type_name(values::seconds)
+        .nonnegative();
 }
 
-void add_limits(CLI::App& verb, RunOptions& wishes) {
+void add_limits(Verb& verb, RunOptions& wishes) {
     verb.add_option("--max-step", wishes.max_step, "longest step, for methods that choose it")
-        ->type_name(values::seconds)
-        ->check(positive_number());
+        .type_name(values::seconds)
+        .positive();
     verb.add_option("--budget", wishes.budget, "evaluations of one motion, at most")
-        ->type_name(values::count)
-        ->check(positive_number());
+        .type_name(values::count)
+        .positive();
 }
 
-void add_show_option(CLI::App& verb, std::string& list, const std::string& picture) {
+void add_show_option(Verb& verb, std::string& list, const std::string& picture) {
     verb.add_option("--show", list, "with " + picture + ": what to draw, as in theta1,theta1',energy")
-        ->type_name(values::names)
-        ->needs(picture);
+        .type_name(values::names)
+        .needs(picture);
 }
 
 std::vector<std::string> shown_names(const std::string& list) {

@@ -14,14 +14,14 @@ struct RunVerb : SceneOptions {
 };
 
 /// --duration, --tolerance, --method, --step, -o, --max-step, --budget, --fast-math, --by.
-void add_run_options(CLI::App& verb, RunVerb& options);
+void add_run_options(Verb& verb, RunVerb& options);
 
 /// --duration alone; --max-step and --budget.
-void add_duration_option(CLI::App& verb, RunOptions& wishes);
-void add_limits(CLI::App& verb, RunOptions& wishes);
+void add_duration_option(Verb& verb, RunOptions& wishes);
+void add_limits(Verb& verb, RunOptions& wishes);
 
 /// --show NAME,NAME…: what a picture shows; refused without the option `picture`, which must be there already.
-void add_show_option(CLI::App& verb, std::string& list, const std::string& picture);
+void add_show_option(Verb& verb, std::string& list, const std::string& picture);
 
 /// "theta1, energy" as names; none where it is empty. Throws ModelError where there is no name between commas.
 std::vector<std::string> shown_names(const std::string& list);

@@ -46,23 +46,22 @@ int run(const SimulateVerb& verb) {
 }  // namespace
 
 void add_simulate(CLI::App& app, Chosen& chosen) {
-    add_scene_verb<SimulateVerb>(app, chosen,
-                                 {.name = "simulate",
-                                  .about = "emits, compiles and integrates, and says how large the error is",
-                                  .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
-                                 run, [](CLI::App& verb, SimulateVerb& options) {
-                                     add_run_options(verb, options);
-                                     verb.add_option("--sample", options.wishes.sample,
-                                                     "time between rows of the table")
-                                         ->type_name(values::seconds)
-                                         ->check(positive_number());
-                                     verb.add_option("--plot", options.plot, "SVG picture of the motion over time")
-                                         ->type_name(values::file);
-                                     add_show_option(verb, options.show, "--plot");
-                                     verb.add_flag("!--no-estimate", options.wishes.estimate,
-                                                   "no second run to estimate the error: half the time");
-                                     add_reactions_option(verb, options.wishes.reactions);
-                                 });
+    add_scene_verb<SimulateVerb>(
+        app, chosen,
+        {.name = "simulate",
+         .about = "emits, compiles and integrates, and says how large the error is",
+         .example = "alembert simulate scenes/textbook/crane.toml --plot motion.svg"},
+        run, [](Verb& verb, SimulateVerb& options) {
+            add_run_options(verb, options);
+            verb.add_option("--sample", options.wishes.sample, "time between rows of the table")
+                .type_name(values::seconds)
+                .positive();
+            verb.add_option("--plot", options.plot, "SVG picture of the motion over time").type_name(values::file);
+            add_show_option(verb, options.show, "--plot");
+            verb.add_flag("!--no-estimate", options.wishes.estimate,
+                          "no second run to estimate the error: half the time");
+            add_reactions_option(verb, options.wishes.reactions);
+        });
 }
 
 }  // namespace alembert

@@ -44,12 +44,12 @@ void add_stability(CLI::App& app, Chosen& chosen) {
         {.name = "stability",
          .about = "says whether an equilibrium, a steady motion or a polynomial is stable, and why",
          .example = "alembert stability scenes/textbook/watt_governor.toml --at alpha=0"},
-        run, [](CLI::App& verb, StabilityVerb& options) {
+        run, [](Verb& verb, StabilityVerb& options) {
             add_by_option(verb, options.by);
             add_at_option(verb, options.at);
             verb.add_option("--period", options.period, "of a periodic system or motion: Floquet multipliers")
-                ->type_name(values::seconds)
-                ->check(positive_number());
+                .type_name(values::seconds)
+                .positive();
         });
 }
 

@@ -65,16 +65,16 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
         {.name = "sweep",
          .about = "integrates from many initial states or with many parameters",
          .example = "alembert sweep scenes/textbook/crane.toml --vary l=1:9:100"},
-        run, [](CLI::App& verb, SweepVerb& options) {
+        run, [](Verb& verb, SweepVerb& options) {
             verb.add_option("--vary", options.vary, "NAME=FROM:TO:COUNT; several make a grid")
-                ->type_name(values::range)
-                ->required();
+                .type_name(values::range)
+                .required();
             add_run_options(verb, options);
             verb.add_option("--threads", options.threads, "default: as many as there are cores")
-                ->type_name(values::count)
-                ->check(CLI::Range(1, 1024).description(""));
+                .type_name(values::count)
+                .between(1, 1024);
             verb.add_option("--svg", options.svg, "SVG picture: lines over one varied quantity, maps over two")
-                ->type_name(values::file);
+                .type_name(values::file);
             add_show_option(verb, options.show, "--svg");
         });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 
@@ -14,6 +15,7 @@ namespace alembert {
 
 namespace {
 
+/// CLI11 tells the range in 309 digits.
 CLI::Validator number(bool zero) {
     return CLI::Validator(
         [zero](const std::string& text) {
@@ -27,35 +29,84 @@ CLI::Validator number(bool zero) {
 
 }  // namespace
 
-CLI::Validator positive_number() {
-    return number(false);
-}
-CLI::Validator nonnegative_number() {
-    return number(true);
+AddedOption& AddedOption::type_name(const char* kind) {
+    option_->type_name(kind);
+    return *this;
 }
 
-void add_scene_options(CLI::App& verb, SceneOptions& options) {
-    verb.add_option("scene", options.scene, "the scene, a TOML file")->type_name(values::scene)->required();
+AddedOption& AddedOption::required() {
+    option_->required();
+    return *this;
+}
+
+AddedOption& AddedOption::needs(const std::string& other) {
+    option_->needs(other);
+    return *this;
+}
+
+AddedOption& AddedOption::positive() {
+    option_->check(number(false));
+    return *this;
+}
+
+AddedOption& AddedOption::nonnegative() {
+    option_->check(number(true));
+    return *this;
+}
+
+AddedOption& AddedOption::between(int least, int most) {
+    option_->check(CLI::Range(least, most).description(""));
+    return *this;
+}
+
+AddedOption& AddedOption::one_of(std::initializer_list<std::string> words) {
+    option_->check(CLI::IsMember(std::vector<std::string>(words)).description(""));
+    return *this;
+}
+
+template <typename T>
+AddedOption Verb::add_option(const std::string& names, T& value, const std::string& about) {
+    return AddedOption(app_->add_option(names, value, about));
+}
+template AddedOption Verb::add_option(const std::string&, std::string&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, int&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, double&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, std::optional<double>&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, std::optional<std::string>&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, std::optional<int>&, const std::string&);
+template AddedOption Verb::add_option(const std::string&, long&, const std::string&);
+
+void Verb::add_flag(const std::string& names, bool& value, const std::string& about) {
+    app_->add_flag(names, value, about);
+}
+
+void Verb::callback(std::function<void()> chosen) {
+    app_->callback(std::move(chosen));
+}
+
+void add_scene_options(Verb& verb, SceneOptions& options) {
+    verb.add_option("scene", options.scene, "the scene, a TOML file").type_name(values::scene).required();
     verb.add_flag("--json", options.json, "print one JSON object");
 }
 
-void add_by_option(CLI::App& verb, std::string& by) {
-    verb.add_option("--by", by, "the formalism; default: the program chooses")->type_name(values::formalism);
+void add_by_option(Verb& verb, std::string& by) {
+    verb.add_option("--by", by, "the formalism; default: the program chooses").type_name(values::formalism);
 }
 
-CLI::App* add_verb(CLI::App& app, const VerbText& text) {
+Verb add_verb(CLI::App& app, const VerbText& text) {
     CLI::App* const verb = app.add_subcommand(text.name, text.about);
     verb->footer(text.example);
-    return verb;
+    return Verb(*verb);
 }
 
-void add_reactions_option(CLI::App& verb, bool& reactions) {
+void add_reactions_option(Verb& verb, bool& reactions) {
     verb.add_flag("--reactions", reactions, "what constraints exert along coordinates, and joints");
 }
 
-void add_at_option(CLI::App& verb, std::vector<std::string>& at) {
+void add_at_option(Verb& verb, std::vector<std::string>& at) {
     verb.add_option("--at", at, "sets a coordinate, a rate (\"theta1'=1\"), a parameter, t; pi/2 is read")
-        ->type_name(values::assignment);
+        .type_name(values::assignment);
 }
 
 void add_verbs(CLI::App& app, Chosen& chosen) {

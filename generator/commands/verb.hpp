@@ -12,13 +12,18 @@
 ///
 /// Mistakes leave as exceptions, which main turns into messages and the exit codes of docs/commands.md.
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "lower/start.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace alembert {
 
@@ -65,37 +70,66 @@ Overrides overrides_of(const std::vector<std::string>& at);
 /// else.
 double number_of(const std::string& text);
 
-/// CLI11's own validators let NaN pass, and tell the range in 309 digits.
-CLI::Validator positive_number();
-CLI::Validator nonnegative_number();
+/// An option that was just added to a verb, and what else there is to be said about it.
+class AddedOption {
+public:
+    explicit AddedOption(CLI::Option* option) : option_(option) {}
+    AddedOption& type_name(const char* kind);  ///< of its value, one of commands/values.hpp
+    AddedOption& required();
+    AddedOption& needs(const std::string& other);  ///< an option that must be given beside it
+    AddedOption& positive();                       ///< a number above zero; CLI11's own check lets NaN pass
+    AddedOption& nonnegative();
+    AddedOption& between(int least, int most);
+    AddedOption& one_of(std::initializer_list<std::string> words);
+
+private:
+    CLI::Option* option_;
+};
+
+/// A verb while its options are added. CLI11 is included in the few files that walk through all verbs and not
+/// here: it takes three seconds to compile in every file that sees it.
+class Verb {
+public:
+    explicit Verb(CLI::App& app) : app_(&app) {}
+    /// The value stays as it is where the option is not given. T: std::string, double, int, std::size_t, an
+    /// std::optional of these, std::vector<std::string>.
+    template <typename T>
+    AddedOption add_option(const std::string& names, T& value, const std::string& about);
+    void add_flag(const std::string& names, bool& value, const std::string& about);
+    /// What is done when the verb has been chosen and its options have been read.
+    void callback(std::function<void()> chosen);
+
+private:
+    CLI::App* app_;
+};
 
 /// --reactions, of the verbs that can tell them.
-void add_reactions_option(CLI::App& verb, bool& reactions);
+void add_reactions_option(Verb& verb, bool& reactions);
 
 /// --at, of the verbs that look at one state.
-void add_at_option(CLI::App& verb, std::vector<std::string>& at);
+void add_at_option(Verb& verb, std::vector<std::string>& at);
 
 /// --by, of the verbs in which the formalism makes a difference.
-void add_by_option(CLI::App& verb, std::string& by);
+void add_by_option(Verb& verb, std::string& by);
 
-void add_scene_options(CLI::App& verb, SceneOptions& options);
+void add_scene_options(Verb& verb, SceneOptions& options);
 
 /// What `--help` says of a verb. The example is a command line that works in the folder of the repository.
 struct VerbText {
     const char *name, *about, *example;
 };
-CLI::App* add_verb(CLI::App& app, const VerbText& text);
+Verb add_verb(CLI::App& app, const VerbText& text);
 
 /// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run`
 /// does the work and gives the exit code.
 template <typename Options>
 void add_scene_verb(CLI::App& app, Chosen& chosen, const VerbText& text, int (*run)(const Options&),
-                    const std::function<void(CLI::App&, Options&)>& more = {}) {
+                    const std::function<void(Verb&, Options&)>& more = {}) {
     const auto options = std::make_shared<Options>();
-    CLI::App* const verb = add_verb(app, text);
-    add_scene_options(*verb, *options);
-    if (more) more(*verb, *options);
-    verb->callback([options, run, &chosen] {
+    Verb verb = add_verb(app, text);
+    add_scene_options(verb, *options);
+    if (more) more(verb, *options);
+    verb.callback([options, run, &chosen] {
         chosen = {options->scene, [options, run] { return run(*options); }};
     });
 }

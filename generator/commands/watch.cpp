@@ -83,19 +83,18 @@ int run(const WatchVerb& verb) {
 
 void add_watch(CLI::App& app, Chosen& chosen) {
     const auto options = std::make_shared<WatchVerb>();
-    CLI::App* const verb =
-        add_verb(app, {.name = "watch",
-                       .about = "shows the scene's page in the browser, anew whenever it is saved",
-                       .example = "alembert watch scenes/textbook/sled.toml"});
-    verb->add_option("scene", options->scene, "the scene, a TOML file")->type_name(values::scene)->required();
-    verb->add_option("--port", options->port, "of this machine's address 127.0.0.1; default: any free port")
-        ->type_name(values::count)
-        ->check(CLI::Range(1, 65535).description(""));
-    verb->add_option("-o,--output", options->output, "writes the page to this file too")->type_name(values::file);
-    add_duration_option(*verb, options->options.wishes);
-    add_by_option(*verb, options->options.by);
-    verb->add_flag("!--no-motion", options->options.moves, "leaves the motion out");
-    verb->callback([options, &chosen] { chosen = {options->scene, [options] { return run(*options); }}; });
+    Verb verb = add_verb(app, {.name = "watch",
+                               .about = "shows the scene's page in the browser, anew whenever it is saved",
+                               .example = "alembert watch scenes/textbook/sled.toml"});
+    verb.add_option("scene", options->scene, "the scene, a TOML file").type_name(values::scene).required();
+    verb.add_option("--port", options->port, "of this machine's address 127.0.0.1; default: any free port")
+        .type_name(values::count)
+        .between(1, 65535);
+    verb.add_option("-o,--output", options->output, "writes the page to this file too").type_name(values::file);
+    add_duration_option(verb, options->options.wishes);
+    add_by_option(verb, options->options.by);
+    verb.add_flag("!--no-motion", options->options.moves, "leaves the motion out");
+    verb.callback([options, &chosen] { chosen = {options->scene, [options] { return run(*options); }}; });
 }
 
 }  // namespace alembert
