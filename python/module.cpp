@@ -223,7 +223,7 @@ void add_classes(py::module_& module) {
         .def_property_readonly("failure", [](const Run& run) { return run.failure; })
         .def_property_readonly("columns", [](const Run& run) { return run.rows.columns; })
         .def_property_readonly("table", [](const py::object& self) {
-            const Table& rows = self.cast<const Run&>().rows;
+            const MotionTable& rows = self.cast<const Run&>().rows;
             return view(rows.values,
                         {static_cast<py::ssize_t>(rows.rows()), static_cast<py::ssize_t>(rows.columns.size())}, self);
         });

@@ -16,6 +16,8 @@
 #include "scenes.hpp"
 #include "state/redundancy.hpp"
 
+namespace analysis_audit {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -421,3 +423,5 @@ TEST_CASE("audit: every constraint of every scene is decided, and exact arithmet
         for (const AuditedConstraint& c : audit.constraints) CHECK(c.integrable.has_value());
     }
 }
+
+}  // namespace analysis_audit

@@ -15,6 +15,8 @@
 #include "program/germ.hpp"
 #include "scenes.hpp"
 
+namespace analysis_kinks {
+
 using namespace alembert;
 
 namespace {
@@ -148,3 +150,5 @@ TEST_CASE(
     CHECK(stiffness("-tanh(x/0.001)", "") == doctest::Approx(1000).epsilon(1e-14));
     CHECK(stiffness("-sqrt(x^2 + 0.01) + 0.1 - 5*x", "") == doctest::Approx(5).epsilon(1e-14));  // smoothed
 }
+
+}  // namespace analysis_kinks

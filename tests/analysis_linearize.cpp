@@ -15,6 +15,8 @@
 #include "state/assemble.hpp"
 #include "state/redundancy.hpp"
 
+namespace analysis_linearize {
+
 using namespace alembert;
 using test::Digits;
 
@@ -357,3 +359,5 @@ TEST_CASE("linearize: what is neither at rest nor steady is refused with what is
     CHECK_THROWS_WITH_AS(linearized(moved, "lagrange", {}), doctest::Contains("change with time (x'' holds t"),
                          ModelError);
 }
+
+}  // namespace analysis_linearize

@@ -12,6 +12,8 @@
 #include "scenes.hpp"
 #include "state/redundancy.hpp"
 
+namespace check_claims {
+
 using namespace alembert;
 
 namespace {
@@ -486,3 +488,5 @@ TEST_CASE(
     REQUIRE(refuted.claims[0].likely);
     CHECK(refuted.claims[0].likely->kind == "sign");
 }
+
+}  // namespace check_claims

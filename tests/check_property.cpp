@@ -17,6 +17,8 @@
 #include "scenes.hpp"
 #include "slips.hpp"
 
+namespace check_property {
+
 using namespace alembert;
 using namespace alembert::test;
 
@@ -127,3 +129,5 @@ TEST_CASE(
         if (wanted != nullptr && c.slowest > 1) fmt::print("  the slowest: {}\n", c.slowest_claim);
     }
 }
+
+}  // namespace check_property

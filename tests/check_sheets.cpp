@@ -12,6 +12,8 @@
 
 #include "program.hpp"
 
+namespace check_sheets {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -155,3 +157,5 @@ holonomic = "(x - r*cos(th))^2 + r^2*sin(th)^2 - l^2"
     CHECK(check_of(crank("-0.8"), rate)["verdict"] == "refuted");
     CHECK(check_of(crank("1.6"), "x = r*cos(th) + sqrt(l^2 - r^2*cos(th)^2)")["verdict"] == "refuted");
 }
+
+}  // namespace check_sheets

@@ -17,6 +17,8 @@
 #include "scenes.hpp"
 #include "slips.hpp"
 
+namespace check_slips {
+
 using namespace alembert;
 using namespace alembert::test;
 
@@ -89,3 +91,5 @@ TEST_CASE(
     CHECK(10 * right >= 9 * all);
     CHECK(all >= 350);
 }
+
+}  // namespace check_slips

@@ -10,6 +10,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_accuracy {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using Json = nlohmann::json;
@@ -83,3 +85,5 @@ TEST_CASE(
               .starts_with("recursive"));
     CHECK(json_of({"derive", scene, "--json"})["formalism"] == "lagrange");
 }
+
+}  // namespace commands_accuracy

@@ -7,6 +7,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_audit {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -140,3 +142,5 @@ nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
     CHECK(json["constraints"][3]["redundant"] == true);
     CHECK(json["constraints"][3]["integral"] == "z - r*sin(theta)");
 }
+
+}  // namespace commands_audit

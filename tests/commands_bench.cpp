@@ -13,6 +13,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_bench {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -242,3 +244,5 @@ TEST_CASE("bench: a bouncing ball has its row, by the times of its contacts") {
     CHECK(result["runs"].back()["error"].get<double>() < 1e-11);
     for (const Json& one : result["runs"]) CHECK(one["seconds"].get<double>() > 0);
 }
+
+}  // namespace commands_bench

@@ -10,6 +10,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_constraints {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -281,3 +283,5 @@ TEST_CASE("commands: kahanli8 integrates a separable system and refuses the othe
     refused(scene("x'^2/2 + x*y' + y'^2", ""), "a rate occurs in the equation of");
     refused(source_path("scenes/textbook/cartesian_pendulum.toml"), "there are constraints");
 }
+
+}  // namespace commands_constraints

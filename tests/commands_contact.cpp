@@ -4,6 +4,8 @@
 
 #include "contacts.hpp"
 
+namespace commands_contact {
+
 using namespace alembert::test;
 
 namespace {
@@ -288,3 +290,5 @@ tolerance = 1e-11
     REQUIRE(of_kind(flat, "rest").size() == 2);
     CHECK(std::abs(value(of_kind(flat, "rest")[0], "time") - 3 * std::sqrt(2 / g)) < 1e-8);
 }
+
+}  // namespace commands_contact

@@ -3,6 +3,8 @@
 // consistent.
 #include "contacts.hpp"
 
+namespace commands_contacts {
+
 using namespace alembert::test;
 
 // The same pendulum against the same wall: in its angle, and in Cartesian coordinates with a rod as constraint.
@@ -233,3 +235,5 @@ TEST_CASE("contact: eval chooses the contacts that last, derive shows gaps and r
     CHECK(derived["degrees_of_freedom"] == 1);
     CHECK(derived["gaps"]["floor"] == "y");
 }
+
+}  // namespace commands_contacts

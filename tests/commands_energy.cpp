@@ -12,6 +12,8 @@
 
 #include "program.hpp"
 
+namespace commands_energy {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -151,3 +153,5 @@ stiffness = 3
     REQUIRE(free.exit == 0);
     CHECK(Json::parse(free.out)["energy_drift"].get<double>() < 1e-10);
 }
+
+}  // namespace commands_energy

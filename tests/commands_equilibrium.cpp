@@ -10,6 +10,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_equilibrium {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -334,3 +336,5 @@ TEST_CASE("equilibrium: what has none is refused, each with its reason") {
     says({"equilibrium", textbook("rotating_hoop"), "--follow", "Omega=1:1"}, 3, "two different numbers");
     says({"equilibrium", textbook("rotating_hoop"), "--svg", "x.svg"}, 3, "expected --follow");
 }
+
+}  // namespace commands_equilibrium

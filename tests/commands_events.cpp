@@ -7,6 +7,8 @@
 
 #include "program.hpp"
 
+namespace commands_events {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -150,3 +152,5 @@ duration = 5
         CHECK(std::abs(motion["events"][0]["time"].get<double>() - quarter) < 1e-12);
     }
 }
+
+}  // namespace commands_events

@@ -10,6 +10,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_exit {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -291,3 +293,5 @@ TEST_CASE("commands: parameters that are chained powers are refused or computed,
     scene.replace(scene.find("p5 = \"p4^64\""), 12, "p5 = \"p4/2^9\"");
     CHECK(run({"emit", temporary("chained.toml", scene), "-o", file + "-d", "--fold"}).exit == 0);
 }
+
+}  // namespace commands_exit

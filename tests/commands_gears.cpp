@@ -10,6 +10,8 @@
 
 #include "program.hpp"
 
+namespace commands_gears {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -148,3 +150,5 @@ axes = "P"
         CHECK(at["accelerations"]["z"].get<double>() == doctest::Approx(-5.0 / 7 * 9.81).epsilon(1e-12));
     }
 }
+
+}  // namespace commands_gears

@@ -17,6 +17,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_hard {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -300,3 +302,5 @@ TEST_CASE("hard: four-bars side by side pass through flat poses on their branch 
         CHECK(end["constraint_drift"].get<double>() < 1e-7);
     }
 }
+
+}  // namespace commands_hard

@@ -8,6 +8,8 @@
 #include "impact_scenes.hpp"
 #include "scenes.hpp"
 
+namespace commands_impact {
+
 using namespace alembert::test;
 
 // Zhang & Qin, example 1-4. By hand: m l² [4/3 1/2; 1/2 1/3] ω = S l (1, 1/2).
@@ -213,3 +215,5 @@ TEST_CASE("impact: speeds with initial values give what the rates that they mean
         CHECK(number(json["energy_loss"]) == doctest::Approx(number(expected["energy_loss"])).epsilon(1e-12));
     }
 }
+
+}  // namespace commands_impact

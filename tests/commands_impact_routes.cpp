@@ -9,6 +9,8 @@
 #include "impact_scenes.hpp"
 #include "scenes.hpp"
 
+namespace commands_impact_routes {
+
 using namespace alembert::test;
 
 // What is printed can be typed: outputs of a scene with other values of the parameters, against the numbers there.
@@ -168,3 +170,5 @@ TEST_CASE("impact: what cannot be struck is refused with its reason") {
     CHECK(singular.exit == 4);
     CHECK(singular.err.find("mass matrix is singular") != std::string::npos);
 }
+
+}  // namespace commands_impact_routes

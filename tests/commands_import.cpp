@@ -16,6 +16,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_import {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -430,3 +432,5 @@ TEST_CASE("import: what is no robot is told in one message, and nothing is writt
     CHECK(run({"import", source_path("tests/robots/arm6.urdf"), "-o", "/no/such/folder/x.toml"}).exit == 5);
     CHECK(run({"import", source_path("tests/robots/arm6.urdf")}).exit == 3);
 }
+
+}  // namespace commands_import

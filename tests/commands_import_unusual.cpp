@@ -10,6 +10,8 @@
 
 #include "program.hpp"
 
+namespace commands_import_unusual {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -22,7 +24,8 @@ const std::string limit = R"(<limit lower="-1" upper="1" effort="1" velocity="1"
 
 struct Parts {
     std::string origin = R"(<origin xyz="0 0 0.5" rpy="0 0 1.5707963267948966"/>)";
-    std::string mass = ::mass, inertia = ::inertia, inertial = "", link = "";
+    std::string mass = commands_import_unusual::mass, inertia = commands_import_unusual::inertia, inertial = "",
+                link = "";
     std::string joint = R"(<origin xyz="0.1 0 0"/><axis xyz="0 1 0"/>)" + limit;
     std::string base = R"(<link name="base"/>)", more = "", robot = R"(<robot name="r">)";
     std::string type = "revolute";
@@ -148,3 +151,5 @@ TEST_CASE(
     CHECK(acceleration(file) ==
           doctest::Approx(1.5 * 9.81 * 0.5 * std::sin(0.4) / (0.1 + 1.5 * 0.25 + 1e-9)).epsilon(1e-13));
 }
+
+}  // namespace commands_import_unusual

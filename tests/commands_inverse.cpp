@@ -14,6 +14,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_inverse {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -621,3 +623,5 @@ coordinates = { psi = { guess = -1, rate_guess = 0 } }
     CHECK(std::abs(M + at[0] * F[1] - at[1] * F[0] + to[0] * P[1] - to[1] * P[0]) < 1e-10);
     CHECK(std::abs(M) > 0.1);
 }
+
+}  // namespace commands_inverse

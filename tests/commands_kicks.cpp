@@ -3,6 +3,8 @@
 // the same system.
 #include "contacts.hpp"
 
+namespace commands_kicks {
+
 using namespace alembert::test;
 
 namespace {
@@ -473,3 +475,5 @@ TEST_CASE("kicks: bench measures them against a strict run, and what does not fo
     CHECK(cvode.exit == 3);
     CHECK(cvode.err.find("does not follow events") != std::string::npos);
 }
+
+}  // namespace commands_kicks

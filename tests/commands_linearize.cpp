@@ -13,6 +13,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_linearize {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -331,3 +333,5 @@ normal = "N"
     CHECK(matrix(near["matrices"]["output_input"])(0, 0) == doctest::Approx(0.5).epsilon(1e-14));
     CHECK(matrix(near["matrices"]["B"])(1, 0) == doctest::Approx(0.25).epsilon(1e-14));
 }
+
+}  // namespace commands_linearize

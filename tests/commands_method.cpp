@@ -8,6 +8,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_method {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -127,3 +129,5 @@ TEST_CASE(
             if (result.exit != 0) CHECK(result.err.size() > 40);
         }
 }
+
+}  // namespace commands_method

@@ -9,6 +9,8 @@
 
 #include "program.hpp"
 
+namespace commands_names {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -101,3 +103,5 @@ potential = "omega*x"
     CHECK(plain.err.find("unknown name 'omega'") != std::string::npos);
     CHECK(plain.err.find("omega(B)") != std::string::npos);
 }
+
+}  // namespace commands_names

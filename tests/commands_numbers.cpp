@@ -8,6 +8,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_numbers {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -135,3 +137,5 @@ TEST_CASE("numbers: powers that are no whole ones do not keep the derivation fro
     CHECK(Json::parse(eval.out)["kinetic"].get<double>() ==
           doctest::Approx(std::pow(a, 3.1416) / 12 + a * a / 4 + 1 + a * a * a).epsilon(1e-14));
 }
+
+}  // namespace commands_numbers

@@ -11,6 +11,8 @@
 #include "scenes.hpp"
 #include "shell.hpp"
 
+namespace commands_output {
+
 using namespace alembert::test;
 namespace fs = std::filesystem;
 
@@ -177,3 +179,5 @@ TEST_CASE(
     CHECK(missing.exit == 5);
     CHECK(contains(missing.err, "there is no folder"));
 }
+
+}  // namespace commands_output

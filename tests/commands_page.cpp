@@ -15,6 +15,8 @@
 #include "report/sha256.hpp"
 #include "scenes.hpp"
 
+namespace commands_page {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -187,3 +189,5 @@ TEST_CASE("page: a script's hash is SHA-256 in base 64, and JSON in a script can
     CHECK(alembert::script_json("</script>\xE2\x80\xA8&") == "\"\\u003c/script\\u003e\\u2028\\u0026\"");
     CHECK(alembert::html("<a href='x'>&\"") == "&lt;a href=&#39;x&#39;&gt;&amp;&quot;");
 }
+
+}  // namespace commands_page

@@ -16,6 +16,8 @@
 #include "report/work_precision.hpp"
 #include "scenes.hpp"
 
+namespace commands_plots {
+
 using namespace alembert;
 using alembert::test::run;
 using alembert::test::temporary;
@@ -257,3 +259,5 @@ TEST_CASE("bench: each method has a style of its own, and the fastest at some er
     CHECK(!std::regex_search(svg, std::regex("font-weight='bold'>method1<")));
     CHECK(is_well_formed(work_precision({}, "none")));
 }
+
+}  // namespace commands_plots

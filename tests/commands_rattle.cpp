@@ -12,6 +12,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_rattle {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -271,3 +273,5 @@ TEST_CASE("sundials: a program without the back end beside it says what to insta
     CHECK(text.find("libsundials-dev") != std::string::npos);
     CHECK(run({"bench", textbook("cartesian_pendulum"), "--method", "cvode"}).exit == 3);
 }
+
+}  // namespace commands_rattle

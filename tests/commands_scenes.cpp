@@ -13,6 +13,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_scenes {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -172,3 +174,5 @@ TEST_CASE("commands: the coin on an incline does not run down but wanders across
                    {{"x", x(theta) - x(theta0)}, {"y", y(theta) - y(theta0)}, {"theta", theta}}) < 1e-11);
     CHECK(json["final"]["rates"]["phi"].get<double>() == doctest::Approx(c + K * std::sin(theta)).epsilon(1e-11));
 }
+
+}  // namespace commands_scenes

@@ -14,6 +14,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_shares {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -169,3 +171,5 @@ TEST_CASE("commands: of rows that depend on each other one is kept that has not 
         CHECK(level["accelerations"][q].get<double>() ==
               doctest::Approx(beside["accelerations"][q].get<double>()).epsilon(1e-5));
 }
+
+}  // namespace commands_shares

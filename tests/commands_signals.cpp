@@ -10,6 +10,8 @@
 #include "scenes.hpp"
 #include "shell.hpp"
 
+namespace commands_signals {
+
 using namespace alembert::test;
 namespace fs = std::filesystem;
 
@@ -54,3 +56,5 @@ TEST_CASE("signals: a run that is ended while it compiles removes its files and 
             CHECK(result.out == exit);
         }
 }
+
+}  // namespace commands_signals

@@ -12,6 +12,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_space {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -606,3 +608,5 @@ TEST_CASE(
                                 "--at", "px4=0.01", "--json"})["accelerations"];
     CHECK(std::abs(other["q7"].get<double>() - numbers["q7"].get<double>()) > 1e-3);
 }
+
+}  // namespace commands_space

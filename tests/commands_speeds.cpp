@@ -9,6 +9,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_speeds {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -155,3 +157,5 @@ TEST_CASE("commands: wrong speeds are refused with the reason") {
     fails("u = { form = \"(x-0.1)*x'\", initial = 2 }\nv = \"y'\"\n", {}, 4, "lose rank at these coordinates");
     fails("u = \"(x-0.1)*x'\"\nv = \"y'\"\n", {}, 4, "there are no finite accelerations");
 }
+
+}  // namespace commands_speeds

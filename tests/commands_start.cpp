@@ -10,6 +10,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_start {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -94,3 +96,5 @@ potential = "a*(x/4 - x^3/3)"
     CHECK(result.out.find("K     a") != std::string::npos);
     CHECK(run({"linearize", scene, "--at", "x=1/2"}).out.find("K     -a") != std::string::npos);
 }
+
+}  // namespace commands_start

@@ -11,6 +11,8 @@
 #include "scenes.hpp"
 #include "shell.hpp"
 
+namespace commands_streams {
+
 using namespace alembert::test;
 
 namespace {
@@ -154,3 +156,5 @@ TEST_CASE("streams: no control character of a scene, a claim or a file's name re
             CHECK(nlohmann::json::accept(result.out));
     }
 }
+
+}  // namespace commands_streams

@@ -13,6 +13,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_sweep {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -166,3 +168,5 @@ TEST_CASE("sweep: a scene without parameters is swept, side by side and by every
                   doctest::Approx(row["varied"]["x"].get<double>() - 0.125).epsilon(1e-14));
     }
 }
+
+}  // namespace commands_sweep

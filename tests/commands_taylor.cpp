@@ -12,6 +12,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace commands_taylor {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -180,3 +182,5 @@ TEST_CASE("taylor: a motion through a kink is followed piece by piece") {
         CHECK(std::abs(run["switches"][0]["time"].get<double>() - half / 2) < 1e-11);
     }
 }
+
+}  // namespace commands_taylor

@@ -11,6 +11,8 @@
 #include "scenes.hpp"
 #include "shell.hpp"
 
+namespace commands_terminal {
+
 using namespace alembert;
 using alembert::test::on_terminal;
 using alembert::test::run;
@@ -204,3 +206,5 @@ TEST_CASE("wording: numbers of one, fractions, rounding and digits read as a per
         CHECK(std::abs(joints["joint_reactions"][joint]["force"][0].get<double>()) > 1);
     }
 }
+
+}  // namespace commands_terminal

@@ -8,6 +8,8 @@
 
 #include "program.hpp"
 
+namespace commands_trust {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -163,3 +165,5 @@ TEST_CASE("simulate: what is not trusted is said with every reason, for people a
     const Json pulse = simulated(oscillator("exp(-((t-5)/w)^2)"), {"--method", "rk4", "--step", "0.1"});
     CHECK_FALSE(trusted(pulse));
 }
+
+}  // namespace commands_trust

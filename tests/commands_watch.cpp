@@ -14,6 +14,8 @@
 
 #include "shell.hpp"
 
+namespace commands_watch {
+
 using alembert::test::run;
 using alembert::test::run_shell;
 using alembert::test::temporary;
@@ -151,3 +153,5 @@ TEST_CASE("watch: a saved scene is told to the browser, and a mistake is shown i
     CHECK(events.read_until("data: 3").find("event: page") != std::string::npos);
     CHECK(answer(watching.port, "GET /page", ours).find("watched.toml:2") == std::string::npos);
 }
+
+}  // namespace commands_watch

@@ -18,6 +18,8 @@
 #include "scene/scene.hpp"
 #include "scene/toml.hpp"
 
+namespace docs {
+
 namespace {
 
 using namespace alembert;
@@ -297,3 +299,5 @@ TEST_CASE("docs: the reader takes the examples of the reference") {
     }
     CHECK(examples > 20);
 }
+
+}  // namespace docs

@@ -17,6 +17,8 @@
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
+namespace emit_parts {
+
 using namespace alembert;
 
 TEST_CASE("parts: what one part makes and a later one takes is carried, once") {
@@ -130,3 +132,5 @@ TEST_CASE("parts: of scenes of every kind, in the shortest parts") {
                   1e-11 * size);  // sums are fused otherwise: some ulps, times M's condition
     }
 }
+
+}  // namespace emit_parts

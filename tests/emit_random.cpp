@@ -20,6 +20,8 @@
 #include "random_scene.hpp"
 #include "scenes.hpp"
 
+namespace emit_random {
+
 using namespace alembert;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("emit: what is emitted for five hundred small scenes at random compile
     }
     CHECK(refused <= count / 10);
 }
+
+}  // namespace emit_random

@@ -8,6 +8,8 @@
 
 #include "emit/register_order.hpp"
 
+namespace emit_register_order {
+
 using namespace alembert;
 
 namespace {
@@ -81,3 +83,5 @@ TEST_CASE("register order: any order keeps what is needed first, and depends on 
         CHECK(order == register_order(statements));
     }
 }
+
+}  // namespace emit_register_order

@@ -4,6 +4,8 @@
 
 #include "emit/scheduled_sum.hpp"
 
+namespace emit_scheduled_sum {
+
 using namespace alembert;
 
 TEST_CASE("scheduled sum: what is ready last is added last") {
@@ -48,3 +50,5 @@ TEST_CASE("scheduled sum: several terms that are subtracted stay in a bracket") 
     CHECK(sum.value(times).text == "x - (y + z)");
     CHECK(sum.value(times).operations == 2);
 }
+
+}  // namespace emit_scheduled_sum

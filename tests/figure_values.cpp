@@ -10,6 +10,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace figure_values {
+
 using namespace alembert;
 using alembert::test::scenes_in;
 using alembert::test::source_path;
@@ -242,3 +244,5 @@ TEST_CASE("figure: scenes of energies alone have none, and all others have point
             for (const Vector3d& p : d.pose) CHECK(p.allFinite());
         }
 }
+
+}  // namespace figure_values

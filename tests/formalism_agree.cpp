@@ -14,6 +14,8 @@
 #include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
 
+namespace formalism_agree {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -290,3 +292,5 @@ TEST_CASE("modular: identities of angles, roots and exponentials hold, and false
     }
     for (const int count : seen_different) CHECK(count > 0);
 }
+
+}  // namespace formalism_agree

@@ -10,6 +10,8 @@
 #include "report/derivation.hpp"
 #include "scenes.hpp"
 
+namespace formalism_appell {
+
 using namespace alembert;
 
 namespace {
@@ -62,3 +64,5 @@ TEST_CASE("appell: the rolling disc in space is that of Routh's and Kane's equat
 TEST_CASE("appell: energies without bodies have no accelerations") {
     CHECK(obstacle_to_appell(textbook("rolling_disc")).value().find("[energy] kinetic") != std::string::npos);
 }
+
+}  // namespace formalism_appell

@@ -9,6 +9,8 @@
 
 #include "formalism/planar_chain.hpp"
 
+namespace formalism_chain {
+
 using namespace alembert;
 
 namespace {
@@ -107,3 +109,5 @@ TEST_CASE(
     CAPTURE(pivoted);
     CHECK(ours <= 10 * pivoted);
 }
+
+}  // namespace formalism_chain

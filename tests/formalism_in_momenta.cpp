@@ -11,6 +11,8 @@
 #include "program.hpp"
 #include "scenes.hpp"
 
+namespace formalism_in_momenta {
+
 using alembert::test::run;
 using alembert::test::source_path;
 using alembert::test::temporary;
@@ -111,3 +113,5 @@ vector = ["-2*x", 1]
                            "hamilton", "recursive", "routhian", "appell", "maggi", "roberson-wittenburg"})
         CHECK((run({"derive", scene, "--by", by}).exit == 0) == known.contains(by));
 }
+
+}  // namespace formalism_in_momenta

@@ -9,6 +9,8 @@
 #include "report/derivation.hpp"
 #include "scenes.hpp"
 
+namespace formalism_maggi {
+
 using namespace alembert;
 
 namespace {
@@ -66,3 +68,5 @@ TEST_CASE("maggi: a disc given by its energies rolls down, x'' = 2/3 g sin β") 
     const GiNaC::ex closed = GiNaC::ex(2) / 3 * g * sin(beta) / (e.u[0].get_name() == "phi'" ? r : GiNaC::ex(1));
     CHECK((acceleration - closed).normal().is_zero());
 }
+
+}  // namespace formalism_maggi

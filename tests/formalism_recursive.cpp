@@ -18,6 +18,8 @@
 #include "program/modular.hpp"
 #include "scenes.hpp"
 
+namespace formalism_recursive {
+
 using namespace alembert;
 
 namespace {
@@ -459,3 +461,5 @@ TEST_CASE(
     REQUIRE(many.runner_up);
     CHECK(many.cost.time() <= many.runner_up->cost.time());
 }
+
+}  // namespace formalism_recursive

@@ -20,6 +20,8 @@
 #include "scenes.hpp"
 #include "state/speeds.hpp"
 
+namespace formalism_speeds {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -283,3 +285,5 @@ TEST_CASE("lagrange1: Newton's law with multipliers, and what is missing elsewhe
             "'x' belongs to particle P and to particle Q");
     CHECK_NOTHROW(lagrange1(scene("[[particle]]\nname = \"P\"\nmass = 1\nposition = [\"x - 1/2\", \"y\", 3]\n")));
 }
+
+}  // namespace formalism_speeds

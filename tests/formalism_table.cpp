@@ -6,6 +6,8 @@
 #include "model/mechanism.hpp"
 #include "scenes.hpp"
 
+namespace formalism_table {
+
 using namespace alembert;
 
 namespace {
@@ -102,3 +104,5 @@ TEST_CASE("origins: each part of a mechanism knows its kind and its row in the s
     CHECK(m.loads[0].origin.kind == Origin::Kind::force);
     CHECK(label(m.loads[0].origin) == "force 1 at gravity");
 }
+
+}  // namespace formalism_table

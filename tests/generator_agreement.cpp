@@ -10,6 +10,8 @@
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
+namespace generator_agreement {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -206,3 +208,5 @@ TEST_CASE("generator: emitted function and interpreter agree on every benchmark 
     for (const char* folder : {"scenes/benchmark", "tests/odd"})
         for (const std::string& file : test::scenes_in(folder)) agrees(file, true);
 }
+
+}  // namespace generator_agreement

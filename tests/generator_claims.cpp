@@ -10,6 +10,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace generator_claims {
+
 using namespace alembert;
 
 namespace {
@@ -105,3 +107,5 @@ TEST_CASE("generator: a wrong hand derivation does not hold") {
     CHECK(result[0].second < 1e-11);
     CHECK(result[1].second > 1e-3);
 }
+
+}  // namespace generator_claims

@@ -16,6 +16,8 @@
 #include "scenes.hpp"
 #include "symbolic/symbols.hpp"
 
+namespace generator_derivatives {
+
 using namespace alembert;
 using test::Dual;
 
@@ -118,7 +120,8 @@ TEST_CASE("partials: forward, reverse and least fill give what dual numbers give
     outputs.push_back(x);
     outputs.push_back(p.number(4));
     const std::vector<int> inputs{x, y};
-    for (const Elimination order : {Elimination::forward, Elimination::reverse, Elimination::least_fill}) {
+    for (const EliminationOrder order :
+         {EliminationOrder::forward, EliminationOrder::reverse, EliminationOrder::least_fill}) {
         Program q = p;
         const auto found = partials(q, outputs, inputs, order);
         REQUIRE(found);
@@ -152,11 +155,11 @@ TEST_CASE("partials: what lies before an input is held, and a budget is kept") {
     const int x = p.variable({Variable::Kind::coordinate, 0}), s = p.call(Op::sin, {x});
     const int f = p.sum(0, {{1, p.product(1, {{s, 2}})}, {3, x}});
     const std::vector<int> outputs{f}, inputs{s, x};
-    const auto found = partials(p, outputs, inputs, Elimination::reverse);
+    const auto found = partials(p, outputs, inputs, EliminationOrder::reverse);
     REQUIRE(found);
     CHECK((*found)[0].node == p.product(2, {{s, 1}}));
     CHECK((*found)[1].node == p.number(3));
-    CHECK_FALSE(partials(p, outputs, inputs, Elimination::reverse, 1));
+    CHECK_FALSE(partials(p, outputs, inputs, EliminationOrder::reverse, 1));
 }
 
 TEST_CASE("derivatives: the Jacobian of a chain of 4 to 8 rods costs at most four right-hand sides") {
@@ -254,3 +257,5 @@ TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") 
         }
     CHECK(checked > 100);
 }
+
+}  // namespace generator_derivatives

@@ -11,6 +11,8 @@
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
+namespace generator_ensemble {
+
 using namespace alembert;
 
 namespace {
@@ -180,3 +182,5 @@ TEST_CASE("ensemble: sizes and options that do not fit are refused") {
     e.states.pop_back();
     CHECK_THROWS_AS(integrate(e, {}), std::invalid_argument);
 }
+
+}  // namespace generator_ensemble

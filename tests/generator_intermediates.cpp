@@ -4,6 +4,8 @@
 #include "symbolic/functions.hpp"
 #include "symbolic/intermediates.hpp"
 
+namespace generator_intermediates {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -75,3 +77,5 @@ TEST_CASE_FIXTURE(Fixture, "intermediates: a twelve-fold nested expression stays
     z.pull_back({{e, 1}}, {x, y});
     CHECK(z.entries().size() < 12 * before);
 }
+
+}  // namespace generator_intermediates

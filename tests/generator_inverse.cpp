@@ -12,6 +12,8 @@
 #include "lower/lower.hpp"
 #include "scenes.hpp"
 
+namespace generator_inverse {
+
 using namespace alembert;
 
 namespace {
@@ -95,3 +97,5 @@ TEST_CASE("inverse: along a tree the operations grow linearly") {
     }
     CHECK(std::abs((operations[2] - operations[1]) - 2 * (operations[1] - operations[0])) < operations[0] / 4);
 }
+
+}  // namespace generator_inverse

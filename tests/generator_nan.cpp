@@ -14,6 +14,8 @@
 #include "program/tape.hpp"
 #include "scenes.hpp"
 
+namespace generator_nan {
+
 using namespace alembert;
 
 namespace {
@@ -75,3 +77,5 @@ TEST_CASE(
         }
     }
 }
+
+}  // namespace generator_nan

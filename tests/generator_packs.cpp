@@ -15,6 +15,8 @@
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 
+namespace generator_packs {
+
 using namespace alembert;
 
 namespace {
@@ -227,3 +229,5 @@ TEST_CASE(
             lane = (lane + 1) % lanes;
         }
 }
+
+}  // namespace generator_packs

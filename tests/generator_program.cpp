@@ -13,6 +13,8 @@
 #include "program/solve.hpp"
 #include "scenes.hpp"
 
+namespace generator_program {
+
 using namespace alembert;
 
 namespace {
@@ -179,3 +181,5 @@ TEST_CASE("energy: where the speeds are body rates, T is half the sum of moments
     CHECK(p.count(kinetic).total() < 12);  // no quaternion in it
     CHECK(p.nodes_of(Group::jacobi) == p.nodes_of(Group::energy));
 }
+
+}  // namespace generator_program

@@ -16,6 +16,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace generator_projection {
+
 using namespace alembert;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -141,3 +143,5 @@ TEST_CASE(
         CHECK(sum == doctest::Approx(gamma[k]).epsilon(1e-10));
     }
 }
+
+}  // namespace generator_projection

@@ -20,6 +20,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace generator_projection_speeds {
+
 using namespace alembert;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -242,3 +244,5 @@ TEST_CASE("projection: in speeds four-bars pass their flat poses on their branch
     CHECK(std::abs(end[3]) < 2e-7);
     CHECK(std::abs(end[7] / 2 + 1.50664218083798) < 2e-7);
 }
+
+}  // namespace generator_projection_speeds

@@ -16,6 +16,8 @@
 #include "alembert/packs.hpp"
 #include "emit/emit.hpp"
 
+namespace generator_sincos {
+
 using namespace alembert;
 
 namespace {
@@ -178,3 +180,5 @@ TEST_CASE("sincos: a lane that needs libm changes no other lane by a bit") {
             CHECK(sines_in_pack(module, angles, 5) == sines_in_pack(module, angles, 5, others));
         }
 }
+
+}  // namespace generator_sincos

@@ -19,6 +19,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace generator_taylor {
+
 using namespace alembert;
 
 namespace {
@@ -274,3 +276,5 @@ TEST_CASE(
         CHECK(taylor_order(tolerance, 0.1, 0) <= most_order);
     }
 }
+
+}  // namespace generator_taylor

@@ -21,6 +21,8 @@
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 
+namespace model_joints {
+
 using namespace alembert;
 
 namespace {
@@ -581,3 +583,5 @@ TEST_CASE("joints: what is locked and what moves are six directions in all") {
     }
     CHECK_FALSE(joint_type_named("hinge"));
 }
+
+}  // namespace model_joints

@@ -9,6 +9,8 @@
 
 #include "program.hpp"
 
+namespace model_moments {
+
 using alembert::test::run;
 using alembert::test::temporary;
 using Json = nlohmann::json;
@@ -74,3 +76,5 @@ TEST_CASE("model: moments about another point are judged beside what they are th
     }
     CHECK(run({"eval", rod("[0, \"m*0.19^2\", \"m*0.19^2\"]", about)}).exit == 3);
 }
+
+}  // namespace model_moments

@@ -23,6 +23,8 @@
 #include "alembert/module.hpp"
 #include "alembert/process.hpp"
 
+namespace runtime_compile {
+
 using namespace alembert;
 namespace fs = std::filesystem;
 
@@ -437,3 +439,5 @@ TEST_CASE("solver: the work of a damper is what the energy loses") {
         CHECK(std::abs(energy(motion.state(row)) - energy(motion.state(0)) - motion.state(row)[2]) < 1e-10);
     CHECK(motion.final_state()[2] < -3);
 }
+
+}  // namespace runtime_compile

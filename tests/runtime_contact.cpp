@@ -12,6 +12,8 @@
 #include "alembert/impact.hpp"
 #include "alembert/phases.hpp"
 
+namespace runtime_contact {
+
 using namespace alembert;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -267,3 +269,5 @@ TEST_CASE("contact: what lies lets go when its reaction vanishes, and rounding d
     CHECK(std::abs(motion.contacts[2].time - 3) < 1e-12);
     CHECK(std::abs(motion.final_state()[0] - 4.5) < 1e-10);
 }
+
+}  // namespace runtime_contact

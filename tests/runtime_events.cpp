@@ -7,6 +7,8 @@
 
 #include "alembert/integrate.hpp"
 
+namespace runtime_events {
+
 using namespace alembert;
 
 namespace {
@@ -289,3 +291,5 @@ TEST_CASE(
         CHECK(std::abs(motion.times.back() - (c - 0.002)) < 1e-9);
     }
 }
+
+}  // namespace runtime_events

@@ -7,6 +7,8 @@
 
 #include "alembert/impact.hpp"
 
+namespace runtime_impact {
+
 using namespace alembert;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -254,3 +256,5 @@ TEST_CASE("impact: random systems obey the law, and the balance of energy closes
     CHECK(contacts > 500);
     CHECK(rounds > 20);
 }
+
+}  // namespace runtime_impact

@@ -6,6 +6,8 @@
 
 #include "alembert/inertia.hpp"
 
+namespace runtime_inertia {
+
 using namespace alembert;
 
 namespace {
@@ -76,3 +78,5 @@ TEST_CASE(
     CHECK(has_negative_moment(with(1, 1, 1, 2)));           // -1, 1, 3
     CHECK(with(2, 2, 1, 1.8).moments[2] == doctest::Approx(3.8));
 }
+
+}  // namespace runtime_inertia

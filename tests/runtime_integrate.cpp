@@ -10,6 +10,8 @@
 #include "alembert/error.hpp"
 #include "alembert/integrate.hpp"
 
+namespace runtime_integrate {
+
 using namespace alembert;
 
 namespace {
@@ -306,3 +308,5 @@ TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are n
     CHECK(latest_end(quick, 2) == 2.2);
     CHECK(latest_end(quick, 2.5) == HUGE_VAL);
 }
+
+}  // namespace runtime_integrate

@@ -10,6 +10,8 @@
 #include "alembert/canonical.hpp"
 #include "alembert/integrate.hpp"
 
+namespace runtime_limits {
+
 using namespace alembert;
 
 namespace {
@@ -124,3 +126,5 @@ TEST_CASE("no crawl: tolerances beyond rounding take a few times the evaluations
             for (const double tolerance : {1e-14, 1e-15, 1e-16, 1e-20}) CHECK(evaluations(tolerance) < 12 * usual);
         }
 }
+
+}  // namespace runtime_limits

@@ -14,6 +14,8 @@
 #include "alembert/verner.hpp"
 #include "runtime_systems.hpp"
 
+namespace runtime_methods {
+
 using namespace alembert;
 using namespace alembert::test;
 
@@ -327,3 +329,5 @@ TEST_CASE("state: a projection that moves nothing costs no evaluation and change
     }
     CHECK(asked > 100);
 }
+
+}  // namespace runtime_methods

@@ -8,6 +8,8 @@
 #include "alembert/canonical.hpp"
 #include "alembert/integrate.hpp"
 
+namespace runtime_rattle {
+
 using namespace alembert;
 
 namespace {
@@ -207,3 +209,5 @@ TEST_CASE("rattle: a right-hand side without momenta is refused") {
         integrate(Bead{0}.by_angle(), {1.0, 0.5}, {.method = Method::rattle, .duration = 1, .step = 0.1}),
         std::invalid_argument);
 }
+
+}  // namespace runtime_rattle

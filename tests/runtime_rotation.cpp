@@ -10,6 +10,8 @@
 
 #include "alembert/rotation.hpp"
 
+namespace runtime_rotation {
+
 using namespace alembert;
 
 namespace {
@@ -187,3 +189,5 @@ TEST_CASE(
     const Vector3r<> seen_in_B = R * Vector3r<>(column(r_rate).real());
     CHECK(distance(absolute_derivative<double>(seen_in_B, w, arm.real()), arm.imag() / h) < rounding);
 }
+
+}  // namespace runtime_rotation

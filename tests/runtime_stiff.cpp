@@ -16,6 +16,8 @@
 #include "alembert/step.hpp"
 #include "runtime_systems.hpp"
 
+namespace runtime_stiff {
+
 using namespace alembert;
 using namespace alembert::test;
 
@@ -341,3 +343,5 @@ TEST_CASE(
         CHECK(last < bound);  // each step may be off by the tolerance
     }
 }
+
+}  // namespace runtime_stiff

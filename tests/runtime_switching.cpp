@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+namespace runtime_switching {
+
 using namespace alembert;
 
 namespace {
@@ -144,3 +146,5 @@ TEST_CASE("switching: two blocks that rub at once stick together and one by one"
     CHECK(motion.final_state()[1] == doctest::Approx(2));
     CHECK(motion.final_state()[3] == doctest::Approx(2));
 }
+
+}  // namespace runtime_switching

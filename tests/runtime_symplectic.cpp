@@ -14,6 +14,8 @@
 #include "alembert/symplectic.hpp"
 #include "runtime_systems.hpp"
 
+namespace runtime_symplectic {
+
 using namespace alembert;
 using namespace alembert::test;
 
@@ -166,3 +168,5 @@ TEST_CASE("gauss: a step in which its equations have no solution says so") {
     MESSAGE(motion.failure->message);
     CHECK(motion.failure->message.find("the equations of gauss could not be solved") == 0);
 }
+
+}  // namespace runtime_symplectic

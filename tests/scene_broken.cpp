@@ -13,6 +13,8 @@
 
 #include "scene/scene.hpp"
 
+namespace scene_broken {
+
 using namespace alembert;
 
 namespace {
@@ -233,3 +235,5 @@ TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
         }
     }
 }
+
+}  // namespace scene_broken

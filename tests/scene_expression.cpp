@@ -6,6 +6,8 @@
 
 #include "scene/expression.hpp"
 
+namespace scene_expression {
+
 using namespace alembert;
 
 namespace {
@@ -238,3 +240,5 @@ TEST_CASE("expression: no soup of words does worse than be refused") {
         parse_equality(text, {}, diagnostics, i % 2 == 0);
     }
 }
+
+}  // namespace scene_expression

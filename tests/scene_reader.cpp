@@ -6,6 +6,8 @@
 
 #include "scene/scene.hpp"
 
+namespace scene_reader {
+
 using namespace alembert;
 
 namespace {
@@ -269,3 +271,5 @@ x = "3*t"
     CHECK(scene.generalized_impulses[0].value.text == "3*t");
     CHECK(scene.forces.empty());
 }
+
+}  // namespace scene_reader

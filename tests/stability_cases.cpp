@@ -9,6 +9,8 @@
 #include "scenes.hpp"
 #include "stability/stability.hpp"
 
+namespace stability_cases {
+
 using namespace alembert;
 
 namespace {
@@ -396,3 +398,5 @@ TEST_CASE("stability: Whipple's bicycle between its weave and capsize speeds") {
         CHECK(s.theorem == (verdict == V::stable ? T::malkin : T::first_approximation));
     }
 }
+
+}  // namespace stability_cases

@@ -10,6 +10,8 @@
 #include "stability/conditions.hpp"
 #include "stability/spectrum.hpp"
 
+namespace stability_numbers {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -126,3 +128,5 @@ TEST_CASE(
         }
     }
 }
+
+}  // namespace stability_numbers

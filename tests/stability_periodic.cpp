@@ -11,6 +11,8 @@
 #include "scenes.hpp"
 #include "stability/stability.hpp"
 
+namespace stability_periodic {
+
 using namespace alembert;
 
 namespace {
@@ -229,3 +231,5 @@ TEST_CASE("stability: what is no equilibrium, touches, or changes with time is r
                     SceneError);
     CHECK_THROWS_AS(build(parse_scene("[polynomial]\ncoefficients = [1, 2]\n", "case.toml")), ModelError);
 }
+
+}  // namespace stability_periodic

@@ -6,6 +6,8 @@
 #include "symbolic/fourier.hpp"
 #include "symbolic_cases.hpp"
 
+namespace symbolic_factor {
+
 using namespace alembert;
 using GiNaC::ex;
 
@@ -48,3 +50,5 @@ TEST_CASE("factor: sums with powers like a^3.1416 are their own factorization's 
     REQUIRE(factorizer(square).sums.size() == 1);
     CHECK(factorizer(square).sums[0].second == 2);
 }
+
+}  // namespace symbolic_factor

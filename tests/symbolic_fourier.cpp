@@ -7,6 +7,8 @@
 
 #include "symbolic_cases.hpp"
 
+namespace symbolic_fourier {
+
 namespace {
 
 using namespace alembert;
@@ -127,3 +129,5 @@ TEST_CASE("fourier: a deeply shared expression is walked once") {
 }
 
 }  // namespace
+
+}  // namespace symbolic_fourier

@@ -10,6 +10,8 @@
 #include "notation/text.hpp"
 #include "symbolic_cases.hpp"
 
+namespace symbolic_print {
+
 namespace {
 
 using namespace alembert;
@@ -185,3 +187,5 @@ TEST_CASE_FIXTURE(Sheet, "mathml: letters carry dots and indices") {
 }
 
 }  // namespace
+
+}  // namespace symbolic_print

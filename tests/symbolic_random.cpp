@@ -9,6 +9,8 @@
 #include "notation/text.hpp"
 #include "symbolic_cases.hpp"
 
+namespace symbolic_random {
+
 namespace {
 
 using namespace alembert;
@@ -112,3 +114,5 @@ TEST_CASE("readable: random expressions keep their value") {
 }
 
 }  // namespace
+
+}  // namespace symbolic_random

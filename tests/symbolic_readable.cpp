@@ -18,6 +18,8 @@
 #include "scene/expression.hpp"
 #include "symbolic_cases.hpp"
 
+namespace symbolic_readable {
+
 namespace {
 
 using namespace alembert;
@@ -239,3 +241,5 @@ TEST_CASE("readable: twenty processes print the same bytes") {
 }
 
 }  // namespace
+
+}  // namespace symbolic_readable

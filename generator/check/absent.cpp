@@ -201,7 +201,8 @@ std::optional<std::pair<int, int>> small_fraction(Prime x) {
     return std::nullopt;
 }
 
-std::string text_of(const std::pair<int, int>& number, const Powers& powers, const std::vector<Steady>& steady) {
+std::string ratio_text(const std::pair<int, int>& number, const Powers& powers,
+                       const std::vector<Steady>& steady) {
     std::string result;
     const auto multiply = [&](const std::string& by) {
         result += (result.empty() || result == "-" ? "" : "*") + by;
@@ -258,7 +259,7 @@ std::vector<Absent> absent_terms(const Program& program, int residual, const std
         if (!fraction || number[2] != number[0]) continue;
         const int effort =
             2 * found->second.size() + (std::abs(fraction->first) != 1 ? 1 : 0) + (fraction->second != 1 ? 1 : 0);
-        found_terms.emplace_back(effort, Absent{k, text_of(*fraction, found->second, steady)});
+        found_terms.emplace_back(effort, Absent{k, ratio_text(*fraction, found->second, steady)});
     }
     std::stable_sort(found_terms.begin(), found_terms.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -13,10 +13,10 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_tree = 4000;
+constexpr double largest_checked = 4000;
 
 bool zero(const ex& e, const Mechanism& m) {
-    return e.is_zero() || (m.z->tree_size(e) < largest_tree && is_identically_zero(e, m));
+    return e.is_zero() || (m.z->tree_size(e) < largest_checked && is_identically_zero(e, m));
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t most_terms = 200;
+constexpr std::size_t most_nearest_terms = 200;
 
 std::optional<Fourier> normal(const ex& e, const Mechanism& m) {
     if (m.z->tree_size(e) > 10000) return std::nullopt;
-    auto f = fourier(m.z->expand(e), *m.symbols, 10 * most_terms);
-    if (f && f->size() > most_terms) return std::nullopt;
+    auto f = fourier(m.z->expand(e), *m.symbols, 10 * most_nearest_terms);
+    if (f && f->size() > most_nearest_terms) return std::nullopt;
     return f;
 }
 

@@ -11,7 +11,7 @@ namespace alembert {
 
 namespace {
 
-int run(const SceneOptions& options) {
+int run_agree(const SceneOptions& options) {
     const Agreed agreed = agree(scene_of(options.scene));
     warn(agreed.warnings);
     if (options.json)
@@ -28,7 +28,7 @@ void add_agree(CLI::App& app, Chosen& chosen) {
                                  {.name = "agree",
                                   .about = "derives by every formalism that applies, and proves them equal",
                                   .example = "alembert agree scenes/textbook/sled.toml"},
-                                 run);
+                                 run_agree);
 }
 
 }  // namespace alembert

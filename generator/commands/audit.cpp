@@ -9,7 +9,7 @@ namespace alembert {
 
 namespace {
 
-int run(const SceneOptions& options) {
+int run_audit(const SceneOptions& options) {
     const Audited audited = audit(scene_of(options.scene));
     warn(audited.warnings);
     if (options.json)
@@ -29,7 +29,7 @@ void add_audit(CLI::App& app, Chosen& chosen) {
                                  {.name = "audit",
                                   .about = "examines the constraints: kinds, rank, redundancy",
                                   .example = "alembert audit scenes/textbook/sled.toml"},
-                                 run);
+                                 run_audit);
 }
 
 }  // namespace alembert

@@ -8,7 +8,7 @@ namespace alembert {
 
 namespace {
 
-int run(const SceneOptions& options) {
+int run_impact(const SceneOptions& options) {
     const Struck struck = impact(scene_of(options.scene));
     warn(struck.warnings);
     if (options.json)
@@ -25,7 +25,7 @@ void add_impact(CLI::App& app, Chosen& chosen) {
                                  {.name = "impact",
                                   .about = "calculates the rates after impulses and sudden constraints",
                                   .example = "alembert impact scenes/textbook/struck_rods.toml"},
-                                 run);
+                                 run_impact);
 }
 
 }  // namespace alembert

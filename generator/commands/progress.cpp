@@ -12,7 +12,7 @@ namespace alembert {
 
 namespace {
 
-constexpr int width = 40;
+constexpr int bar_width = 40;
 constexpr auto first_after = std::chrono::seconds(1);
 constexpr auto redraw_after = std::chrono::milliseconds(100);
 
@@ -30,9 +30,9 @@ void Progress::at(std::string_view what, double part) {
     next_ = Clock::now() + redraw_after;
     drawn_ = true;
     part = std::clamp(part, 0.0, 1.0);
-    const int full = static_cast<int>(part * width);
+    const int full = static_cast<int>(part * bar_width);
     raw_to_terminal(fmt::format("\r\033[K{} [{}{}] {:3.0f} %", what, std::string(full, '='),
-                                std::string(width - full, ' '), 100 * part));
+                                std::string(bar_width - full, ' '), 100 * part));
 }
 
 }  // namespace alembert

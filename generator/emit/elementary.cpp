@@ -7,6 +7,12 @@
 
 namespace alembert {
 
+kainjow::mustache::data list_of(const std::vector<std::string>& lines) {
+    kainjow::mustache::data list{kainjow::mustache::data::type::list};
+    for (const std::string& line : lines) list << line;
+    return list;
+}
+
 std::set<Op> elementary_functions(const Program& program) {
     std::vector<int> roots;
     for (const Root& root : program.roots) roots.push_back(root.node);

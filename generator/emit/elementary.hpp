@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which elementary functions a file needs: those that it does not use are not written into it.
+/// What the templates of emitted files share: lists of lines, and which elementary functions a file needs; those
+/// that it does not use are not written into it.
 
 #include <kainjow/mustache.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "program/program.hpp"
 
 namespace alembert {
+
+kainjow::mustache::data list_of(const std::vector<std::string>& lines);
 
 /// Those that the roots of a program are made of.
 std::set<Op> elementary_functions(const Program& program);

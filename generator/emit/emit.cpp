@@ -21,12 +21,6 @@ namespace {
 
 namespace mustache = kainjow::mustache;
 
-mustache::data list_of(const std::vector<std::string>& lines) {
-    mustache::data list{mustache::data::type::list};
-    for (const std::string& line : lines) list << line;
-    return list;
-}
-
 /// "M10 = 0, M11 = A", over several lines.
 std::vector<std::string> note_lines(const std::vector<std::string>& notes) {
     std::vector<std::string> lines;

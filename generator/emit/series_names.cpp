@@ -14,7 +14,7 @@ using Kind = SeriesNode::Kind;
 namespace {
 
 // What templates/taylor.cpp.mustache declares besides what every emitted file does.
-constexpr const char* own[] = {
+constexpr const char* own_names[] = {
     "k",        "number", "per_k", "order",      "top",       "out",           "work",      "last",    "loaded",
     "wide",     "lanes",  "l",     "columns",    "put",       "columns_count", "convolved", "squared", "gather",
     "gathered", "left",   "right", "room",       "one",       "constant",      "store",     "series",  "quad",
@@ -28,7 +28,7 @@ SeriesWriter::SeriesWriter(const Recurrences& recurrences, const SeriesLanes& la
       lanes_(lanes),
       n_(static_cast<int>(p_.coordinates.size())),
       s_(p_.speeds.empty() ? n_ : static_cast<int>(p_.speeds.size())) {
-    for (const char* name : own) names_.fresh(name);
+    for (const char* name : own_names) names_.fresh(name);
     name_nodes();
     name_packs();
     name_lanes();

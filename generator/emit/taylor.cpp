@@ -57,12 +57,6 @@ std::set<Op> elementary_functions(const Recurrences& r, const std::vector<int>& 
     return functions;
 }
 
-mustache::data list_of(const std::vector<std::string>& lines) {
-    mustache::data list{mustache::data::type::list};
-    for (const std::string& line : lines) list << line;
-    return list;
-}
-
 mustache::data list_of(const std::vector<CodeStatement>& statements) {
     mustache::data list{mustache::data::type::list};
     for (const CodeStatement& statement : statements) list << statement.text;

@@ -19,9 +19,6 @@ namespace {
 constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
 constexpr int widest_expression = 10;            // operations in one statement, so that it can be read
 
-bool is_trigonometric(const Node& node) {
-    return node.op == Op::sin || node.op == Op::cos;
-}
 bool is_negation(const Node& node) {
     return node.is_scaled() && cln::equal(node.coefficients[0], -1);
 }

@@ -22,6 +22,10 @@
 
 namespace alembert {
 
+inline bool is_trigonometric(const Node& node) {
+    return node.op == Op::sin || node.op == Op::cos;
+}
+
 class Writer {
 public:
     /// `leaves`: nodes that have names already (variables, constants that `prepare` made).

@@ -9,14 +9,6 @@
 
 namespace alembert {
 
-namespace {
-
-bool is_trigonometric(const Node& node) {
-    return node.op == Op::sin || node.op == Op::cos;
-}
-
-}  // namespace
-
 std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
     std::map<int, int> depth;  // how many sines of sines there are in a node
     int deepest = 0;

@@ -175,7 +175,7 @@ private:
     SteadyProblem problem_;
     bool conservative_;
     std::vector<std::vector<Column>> curves_;
-    std::vector<std::pair<TracedPoint, Crossing>> crossings_;
+    std::vector<std::pair<TracedPoint, BranchCrossing>> crossings_;
     std::vector<std::pair<PointKind, Column>> told_;
 };
 

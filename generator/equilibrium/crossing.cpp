@@ -48,7 +48,7 @@ const char* name_of(PointKind kind) {
     return "";
 }
 
-Crossing crossing_at(const Tracer& tracer, const TracedPoint& point) try {
+BranchCrossing crossing_at(const Tracer& tracer, const TracedPoint& point) try {
     const TracedSystem here = tracer.linearized_at(point.at, point.p, &point.split);
     const MatrixOf<long double> F = tracer.independent_rows(here);
     if (F.cols() < 2 || F.rows() + 1 != F.cols()) return {};
@@ -64,7 +64,7 @@ Crossing crossing_at(const Tracer& tracer, const TracedPoint& point) try {
     };
     const long double b11 = curvature(v1), b22 = curvature(v2), b12 = (curvature(v1 + v2) - b11 - b22) / 2,
                       inside = b12 * b12 - b11 * b22;
-    Crossing result;
+    BranchCrossing result;
     if (!(inside > 0)) return result;
     // b₁₁ α² + 2 b₁₂ α β + b₂₂ β² = 0 without cancellation: α : β = s : b₁₁ and b₂₂ : s
     const long double s = -(b12 + std::copysign(std::sqrt(inside), b12));

@@ -3,7 +3,7 @@
 
 /// What happens where curves of equilibria cross.
 ///
-///     const Crossing crossing = crossing_at(tracer, point);
+///     const BranchCrossing crossing = crossing_at(tracer, point);
 ///     crossing.kind, crossing.directions          // two tangents
 ///
 /// F_y has two null vectors v₁, v₂ there and one on the left, ψ. With b_ij = ψᵀ F_yy v_i v_j, the tangents α v₁ +
@@ -17,11 +17,11 @@ namespace alembert {
 enum class PointKind { fold, pitchfork, transcritical, touching, hopf, hamiltonian_hopf };
 const char* name_of(PointKind kind);
 
-struct Crossing {
+struct BranchCrossing {
     PointKind kind = PointKind::touching;
     std::vector<VectorOf<long double>> directions;  ///< of y, of length 1
 };
 
-Crossing crossing_at(const Tracer& tracer, const TracedPoint& point);
+BranchCrossing crossing_at(const Tracer& tracer, const TracedPoint& point);
 
 }  // namespace alembert

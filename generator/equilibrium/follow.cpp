@@ -143,7 +143,7 @@ private:
         if (std::isfinite(turn_a) && std::isfinite(b.turn) && (turn_a > 0) != (b.turn > 0)) {
             const auto turn = [&](const TracedPoint& point) { return tracer_.turn_by(point, b.split); };
             if (const auto found = located(a, b, turn)) {
-                const Crossing crossing = crossing_at(tracer_, *found);
+                const BranchCrossing crossing = crossing_at(tracer_, *found);
                 if (inside(found->p)) result.crossings.emplace_back(*found, crossing);
                 add(all, *found, crossing.kind);
             }

@@ -23,7 +23,7 @@ struct FollowedPoint {
 
 struct Followed {
     std::vector<FollowedPoint> points;
-    std::vector<std::pair<TracedPoint, Crossing>> crossings;
+    std::vector<std::pair<TracedPoint, BranchCrossing>> crossings;
     bool closed = false, cut = false;
 };
 

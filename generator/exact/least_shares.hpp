@@ -22,13 +22,13 @@ std::optional<std::vector<Number>> least_shares(const std::vector<std::vector<Nu
     for (std::size_t r = 0; r < all; ++r)
         for (std::size_t k = 0; k < kept; ++k)
             for (std::size_t i = 0; i < rows[r].size(); ++i) B[r][k] += rows[r][i] * rows[k][i];
-    std::vector<std::vector<Number>> system(kept, std::vector<Number>(kept + 1, Number(0)));
+    std::vector<std::vector<Number>> equations(kept, std::vector<Number>(kept + 1, Number(0)));
     for (std::size_t j = 0; j < kept; ++j)
         for (std::size_t r = 0; r < all; ++r) {
-            for (std::size_t k = 0; k < kept; ++k) system[j][k] += B[r][j] * B[r][k];
-            system[j][kept] += B[r][j] * lambda[r];
+            for (std::size_t k = 0; k < kept; ++k) equations[j][k] += B[r][j] * B[r][k];
+            equations[j][kept] += B[r][j] * lambda[r];
         }
-    const std::optional<std::vector<Number>> w = solve(std::move(system));
+    const std::optional<std::vector<Number>> w = solve(std::move(equations));
     if (!w) return std::nullopt;
     std::vector<Number> result(all, Number(0));
     for (std::size_t r = 0; r < all; ++r)

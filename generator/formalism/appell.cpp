@@ -16,7 +16,7 @@ using GiNaC::ex;
 
 namespace {
 
-Possible<Kinematics> possible_kinematics(const Mechanism& m) {
+Possible<Kinematics> kinematics_for_appell(const Mechanism& m) {
     if (const auto unknown = masses_unknown(m, "The Gibbs-Appell equations")) return Obstacle{*unknown};
     return kinematics(m);
 }
@@ -52,12 +52,12 @@ std::vector<ex> without_accelerations(const std::vector<ex>& values, const std::
 }  // namespace
 
 std::optional<std::string> obstacle_to_appell(const Mechanism& m) {
-    return possible_kinematics(m).obstacle();
+    return kinematics_for_appell(m).obstacle();
 }
 
 Equations appell(const Mechanism& m) {
     Intermediates& z = *m.z;
-    const InSpeeds motion(m, possible_kinematics(m).value());
+    const InSpeeds motion(m, kinematics_for_appell(m).value());
     Equations equations = motion.begin("appell");
     const std::vector<ex> slope = z.pull_back({{acceleration_energy(m, motion), 1}}, equations.udot);
     const std::vector<ex> rest = without_accelerations(slope, equations.udot, z),
@@ -86,7 +86,7 @@ Equations appell(const Mechanism& m) {
 
 OwnSteps steps_of_appell(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
-    const InSpeeds motion(m, possible_kinematics(m).value());
+    const InSpeeds motion(m, kinematics_for_appell(m).value());
     const ex S = acceleration_energy(m, motion), still = without_accelerations({S}, e.udot, *m.z)[0];
     Section energy{
         .words =

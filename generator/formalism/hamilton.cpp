@@ -61,7 +61,7 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, const std::vector<
     return result;
 }
 
-Possible<Canonical> canonical(const Mechanism& m) {
+Possible<CanonicalEquations> canonical(const Mechanism& m) {
     const int n = m.size();
     if (const auto none = no_coordinates(m, "Hamilton's equations")) return Obstacle{*none};
     if (!m.constraints.empty())
@@ -70,13 +70,13 @@ Possible<Canonical> canonical(const Mechanism& m) {
             "'routh'"};
     Intermediates& z = *m.z;
     const ex L = m.lagrangian();
-    Canonical c{.p = {},
-                .momenta = z.pull_back({{L, 1}}, m.qdot),
-                .M = GiNaC::matrix(n, n),
-                .H = 0,
-                .qdot = {},
-                .pdot = {},
-                .force = {}};
+    CanonicalEquations c{.p = {},
+                         .momenta = z.pull_back({{L, 1}}, m.qdot),
+                         .M = GiNaC::matrix(n, n),
+                         .H = 0,
+                         .qdot = {},
+                         .pdot = {},
+                         .force = {}};
     for (int j = 0; j < n; ++j) {
         const std::vector<ex> column = z.push_forward(c.momenta, {{m.qdot[j], 1}});
         for (int i = 0; i < n; ++i) {
@@ -125,7 +125,7 @@ std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) {
 }
 
 Equations hamilton(const Mechanism& m) {
-    const Canonical c = canonical(m).value();
+    const CanonicalEquations c = canonical(m).value();
     Intermediates& z = *m.z;
     GiNaC::exmap momenta;
     for (int i = 0; i < m.size(); ++i) momenta[c.p[i]] = c.momenta[i];
@@ -141,7 +141,7 @@ Equations hamilton(const Mechanism& m) {
 
 OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
     const StepWriter write(m);
-    const Canonical c = canonical(m).value();
+    const CanonicalEquations c = canonical(m).value();
     Section section{.words = "Hamilton's function, with p = dL/dq':"};
     for (int i = 0; i < m.size(); ++i) write.equality(section, write.symbol_of(c.p[i]), c.momenta[i]);
     write.equality(section, StepWriter::letter("H"), c.H);

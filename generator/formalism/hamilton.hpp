@@ -3,7 +3,7 @@
 
 /// Hamilton's canonical equations.
 ///
-///     const Canonical c = canonical(mechanism).value();      // c.H in q, p_<coordinate> and t
+///     const CanonicalEquations c = canonical(mechanism).value();      // c.H in q, p_<coordinate> and t
 ///     const Equations equations = hamilton(mechanism);
 ///
 /// `hamilton` eliminates the momenta again by p = ∂L/∂q', so that the result compares with the other formalisms.
@@ -13,7 +13,7 @@
 
 namespace alembert {
 
-struct Canonical {
+struct CanonicalEquations {
     std::vector<GiNaC::symbol> p;    ///< p_<coordinate>
     std::vector<GiNaC::ex> momenta;  ///< ∂L/∂q' in q, q', t
     GiNaC::matrix M;                 ///< ∂p/∂q'
@@ -23,7 +23,7 @@ struct Canonical {
 };
 
 /// An obstacle are constraints, an L that is not of second degree in the rates, and one whose matrix is singular.
-Possible<Canonical> canonical(const Mechanism& mechanism);
+Possible<CanonicalEquations> canonical(const Mechanism& mechanism);
 std::optional<std::string> obstacle_to_hamilton(const Mechanism& mechanism);
 
 /// Throws ModelError with the obstacle where there is one.

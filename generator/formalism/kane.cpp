@@ -107,7 +107,7 @@ std::vector<ex> reaction_along_coordinates(const Mechanism& m) {
     return reaction;
 }
 
-Possible<Kinematics> possible_kinematics(const Mechanism& m) {
+Possible<Kinematics> kinematics_for_kane(const Mechanism& m) {
     if (const auto unknown = masses_unknown(m, "Kane's equations")) return Obstacle{*unknown};
     return kinematics(m);
 }
@@ -115,7 +115,7 @@ Possible<Kinematics> possible_kinematics(const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_kane(const Mechanism& m) {
-    return possible_kinematics(m).obstacle();
+    return kinematics_for_kane(m).obstacle();
 }
 
 PartialVelocities partial_velocities(const Mechanism& m) {
@@ -127,7 +127,7 @@ KaneForces kane_forces(const Mechanism& m) {
 }
 
 Equations kane(const Mechanism& m) {
-    const InSpeeds motion(m, possible_kinematics(m).value());
+    const InSpeeds motion(m, kinematics_for_kane(m).value());
     const KaneForces forces = forces_of(motion, m);
     Equations equations = motion.begin("kane");
     equations.M = forces.M;

@@ -13,7 +13,7 @@ using GiNaC::ex;
 
 namespace {
 
-Possible<Kinematics> possible_kinematics(const Mechanism& m) {
+Possible<Kinematics> kinematics_for_maggi(const Mechanism& m) {
     if (const auto none = no_coordinates(m, "Maggi's equations")) return Obstacle{*none};
     return kinematics(m);
 }
@@ -62,12 +62,12 @@ std::vector<ex> expressions_of(const Equations& lagrange, const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_maggi(const Mechanism& m) {
-    return possible_kinematics(m).obstacle();
+    return kinematics_for_maggi(m).obstacle();
 }
 
 Equations maggi(const Mechanism& m) {
     Intermediates& z = *m.z;
-    const InSpeeds motion(m, possible_kinematics(m).value());
+    const InSpeeds motion(m, kinematics_for_maggi(m).value());
     const GiNaC::matrix B = kernel(m, motion.kinematics());
     const Equations lagrange = lagrange_operator(m);
     Equations equations = motion.begin("maggi");
@@ -96,7 +96,7 @@ Equations maggi(const Mechanism& m) {
 
 OwnSteps steps_of_maggi(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
-    const GiNaC::matrix B = kernel(m, possible_kinematics(m).value());
+    const GiNaC::matrix B = kernel(m, kinematics_for_maggi(m).value());
     Section rates{.words = "The rates that the constraints leave, q' = B u + b, by the columns of B = dq'/du:"};
     for (unsigned c = 0; c < B.cols(); ++c) {
         std::vector<Phrase> column;

@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-bool is_zero(const Vector3& v) {
+bool is_zero_vector(const Vector3& v) {
     return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
 }
 
@@ -34,10 +34,10 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
         // The rows J of one kind, their block of M̄, and what stands beside them on the right.
         const auto add_rows = [&](const std::vector<Vector3>& J, const auto& block, const Vector3& right) {
             for (int r = 0; r < n; ++r) {
-                if (is_zero(J[r])) continue;
+                if (is_zero_vector(J[r])) continue;
                 const Vector3 p = block(J[r]);
                 for (int s = 0; s <= r; ++s)
-                    if (!is_zero(J[s])) mass[r * n + s].push_back(dot(p, J[s], z));
+                    if (!is_zero_vector(J[s])) mass[r * n + s].push_back(dot(p, J[s], z));
                 own[r].push_back(dot(right, J[r], z));
             }
         };

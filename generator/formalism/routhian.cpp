@@ -37,9 +37,9 @@ Possible<Reduction> reduction(const Mechanism& m) {
         return Obstacle{
             "Routh's procedure removes cyclic coordinates, and the scene has none: L depends on each of them, or "
             "a force acts on it"};
-    const Possible<Canonical> possible = canonical(m);  // its obstacles, p and M
+    const Possible<CanonicalEquations> possible = canonical(m);  // its obstacles, p and M
     if (const auto obstacle = possible.obstacle()) return Obstacle{*obstacle};
-    const Canonical& all = possible.value();
+    const CanonicalEquations& all = possible.value();
     const int c = static_cast<int>(r.cyclic.size()), e = m.size() - c;
     for (int i = 0, k = 0; i < m.size(); ++i)
         if (k < c && r.cyclic[k] == i)

@@ -7,7 +7,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_tree = 30000;  // nodes, written out
+constexpr double largest_shown = 30000;  // nodes, written out
 constexpr std::size_t most_terms = 150;
 
 }  // namespace
@@ -28,7 +28,7 @@ Phrase StepWriter::rate(const GiNaC::symbol& momentum) const {
 }
 
 std::optional<Fourier> StepWriter::normal(const ex& e) const {
-    if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
+    if (m_.z->tree_size(e) > largest_shown) return std::nullopt;
     std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
     if (f && f->size() > most_terms) return std::nullopt;
     return f;

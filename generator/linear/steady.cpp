@@ -15,7 +15,7 @@
 namespace alembert {
 
 using Index = Eigen::Index;
-using Matrix = MatrixOf<long double>;
+using LongMatrix = MatrixOf<long double>;
 using Column = VectorOf<long double>;
 
 namespace {
@@ -27,18 +27,18 @@ constexpr long double longest_step = 0.5L;
 constexpr long double solved = 1e-13L;  // of what a change of 1 by scale does
 
 /// Least squares, of least length.
-Column least_step(const Matrix& J, const Column& r, bool& full_rank) {
+Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
     if (J.cols() == 0) {
         full_rank = true;
         return Column(0);
     }
-    Matrix scaled = J;
+    LongMatrix scaled = J;
     Column right = -r;
     for (Index i = 0; i < J.rows(); ++i) {
         const long double row = J.row(i).cwiseAbs().maxCoeff();
         if (row > 0) scaled.row(i) /= row, right[i] /= row;
     }
-    Eigen::JacobiSVD<Matrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    Eigen::JacobiSVD<LongMatrix> svd(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
     svd.setThreshold(no_pivot);
     full_rank = svd.rank() == J.cols();
     return svd.solve(right);
@@ -70,14 +70,14 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
 
     // Speeds that move no essential coordinate.
     const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
-    Matrix moves(nr, p);
+    LongMatrix moves(nr, p);
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
-    Matrix free = Matrix::Identity(p, p);
+    LongMatrix free = LongMatrix::Identity(p, p);
     if (nr > 0 && p > 0 && !moves.isZero(0)) {
-        const Eigen::FullPivLU<Matrix> lu(moves);
-        free = lu.dimensionOfKernel() > 0 ? Matrix(lu.kernel()) : Matrix(p, 0);
+        const Eigen::FullPivLU<LongMatrix> lu(moves);
+        free = lu.dimensionOfKernel() > 0 ? LongMatrix(lu.kernel()) : LongMatrix(p, 0);
     }
-    kept_speeds_ = Matrix::Zero(free.cols(), residuals_.s);
+    kept_speeds_ = LongMatrix::Zero(free.cols(), residuals_.s);
     for (Index k = 0; k < free.cols(); ++k)
         for (Index i = 0; i < p; ++i) kept_speeds_(k, split.u[i]) = free(i, k) / free.col(k).norm();
 }
@@ -105,7 +105,7 @@ SteadySystem SteadyProblem::linearized_at(const Instant<long double>& at, const 
     for (Index i = 0; i < p; ++i) result.unknowns.push_back(nr + i);
     const Index n_still = static_cast<Index>(still.size()), kept = rates == Rates::given ? kept_speeds_.rows() : 0;
     result.residual.resize(p + n_still + kept);
-    Matrix all(p + n_still + kept, nr + p);
+    LongMatrix all(p + n_still + kept, nr + p);
     result.residual.head(p) = t.balance;
     all.topRows(p) = -t.force.leftCols(nr + p);
     for (Index j = 0; j < n_still; ++j) {

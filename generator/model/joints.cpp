@@ -12,7 +12,7 @@ using GiNaC::ex;
 namespace {
 
 /// About an axis, or by a quaternion.
-struct Turn {
+struct JointTurn {
     Vector3 axis;
     ex angle = 0;
     std::optional<std::array<ex, 4>> quaternion = {};
@@ -26,7 +26,7 @@ Vector3 unit(int k) {
 
 /// Of the joint: turns about axes that each takes along, and shifts along its axes in the parent.
 struct Motion {
-    std::vector<Turn> turns = {};
+    std::vector<JointTurn> turns = {};
     Vector3 shift{0, 0, 0};
 };
 
@@ -61,23 +61,23 @@ Motion motion_of(const Joint& joint, Places& places) {
     return motion;
 }
 
-std::vector<Turn> turns_of(const std::vector<Rotation>& rotations, Places& places) {
-    std::vector<Turn> turns;
+std::vector<JointTurn> turns_of(const std::vector<Rotation>& rotations, Places& places) {
+    std::vector<JointTurn> turns;
     for (const Rotation& r : rotations) turns.push_back({places.unit_axis(r), places.value(r.angle)});
     return turns;
 }
 
-std::vector<Turn> backwards(std::vector<Turn> turns) {
+std::vector<JointTurn> backwards(std::vector<JointTurn> turns) {
     std::reverse(turns.begin(), turns.end());
-    for (Turn& turn : turns) {
+    for (JointTurn& turn : turns) {
         turn.angle = -turn.angle;
         for (std::size_t k = 1; turn.quaternion && k < 4; ++k) (*turn.quaternion)[k] = -(*turn.quaternion)[k];
     }
     return turns;
 }
 
-Orientation turned(Orientation o, const std::vector<Turn>& turns, Places& places) {
-    for (const Turn& turn : turns)
+Orientation turned(Orientation o, const std::vector<JointTurn>& turns, Places& places) {
+    for (const JointTurn& turn : turns)
         o = turn.quaternion ? places.turned(o, *turn.quaternion) : places.turned(o, turn.axis, turn.angle);
     return o;
 }
@@ -123,7 +123,7 @@ Across across(const Vector3& a, Places& places) {
 }  // namespace
 
 Orientation orientation_by(const Joint& joint, Places& places) {
-    const std::vector<Turn> turns = motion_of(joint, places).turns;
+    const std::vector<JointTurn> turns = motion_of(joint, places).turns;
     const bool forwards = *joint.places_child;
     const Joint::Side &from = forwards ? joint.parent : joint.child, &to = forwards ? joint.child : joint.parent;
     return turned(turned(axes_of(from, places), forwards ? turns : backwards(turns), places),

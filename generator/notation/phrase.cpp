@@ -17,9 +17,9 @@ namespace alembert {
 
 namespace {
 
-using Kind = Phrase::Kind;
+using Form = Phrase::Kind;
 
-Phrase node(Kind kind, std::vector<Phrase> args) {
+Phrase node(Form kind, std::vector<Phrase> args) {
     Phrase result;
     result.kind = kind;
     result.args = std::move(args);
@@ -39,7 +39,7 @@ Phrase number(const Rational& value, bool decimal) {
 
 Phrase symbol(const GiNaC::ex& symbol, const SymbolInfo& info) {
     Phrase result;
-    result.kind = Kind::symbol;
+    result.kind = Form::symbol;
     result.symbol = symbol;
     result.info = info;
     return result;
@@ -53,22 +53,22 @@ Phrase sum(std::vector<Phrase> terms) {
     if (terms.empty()) return number(0);
     std::vector<Phrase> flat;
     for (Phrase& term : terms) {
-        if (term.kind == Kind::sum)
+        if (term.kind == Form::sum)
             std::move(term.args.begin(), term.args.end(), std::back_inserter(flat));
         else
             flat.push_back(std::move(term));
     }
-    return flat.size() == 1 ? std::move(flat[0]) : node(Kind::sum, std::move(flat));
+    return flat.size() == 1 ? std::move(flat[0]) : node(Form::sum, std::move(flat));
 }
 
 Phrase product(std::vector<Phrase> factors) {
     if (factors.empty()) return number(1);
-    return factors.size() == 1 ? std::move(factors[0]) : node(Kind::product, std::move(factors));
+    return factors.size() == 1 ? std::move(factors[0]) : node(Form::product, std::move(factors));
 }
 
 Phrase quotient(Phrase numerator, Phrase denominator) {
     if (denominator.is_number(1)) return numerator;
-    return node(Kind::quotient, {std::move(numerator), std::move(denominator)});
+    return node(Form::quotient, {std::move(numerator), std::move(denominator)});
 }
 
 Phrase power(Phrase base, const Rational& exponent) {
@@ -78,25 +78,25 @@ Phrase power(Phrase base, const Rational& exponent) {
 }
 
 Phrase power(Phrase base, Phrase exponent) {
-    return node(Kind::power, {std::move(base), std::move(exponent)});
+    return node(Form::power, {std::move(base), std::move(exponent)});
 }
 
 Phrase tuple(std::vector<Phrase> elements) {
-    return node(Kind::call, std::move(elements));
+    return node(Form::call, std::move(elements));
 }
 
 Phrase call(std::string name, std::vector<Phrase> args) {
-    Phrase result = node(Kind::call, std::move(args));
+    Phrase result = node(Form::call, std::move(args));
     result.name = std::move(name);
     return result;
 }
 
 Phrase negative(Phrase arg) {
-    if (arg.kind == Kind::negative) {
+    if (arg.kind == Form::negative) {
         Phrase inner = std::move(arg.args[0]);
         return inner;
     }
-    return node(Kind::negative, {std::move(arg)});
+    return node(Form::negative, {std::move(arg)});
 }
 
 }  // namespace phrases
@@ -105,28 +105,28 @@ int cost(const Phrase& phrase) {
     int result = 0;
     for (const Phrase& arg : phrase.args) result += cost(arg);
     switch (phrase.kind) {
-        case Kind::number:
+        case Form::number:
             return is_integer(phrase.value) || phrase.decimal ? 1 : 2;
-        case Kind::symbol:
+        case Form::symbol:
             return 2;
-        case Kind::sum:
+        case Form::sum:
             return result + static_cast<int>(phrase.args.size()) - 1;
-        case Kind::product:
-            for (const Phrase& arg : phrase.args) result += arg.kind == Kind::sum;
+        case Form::product:
+            for (const Phrase& arg : phrase.args) result += arg.kind == Form::sum;
             return result;
-        case Kind::quotient:
+        case Form::quotient:
             return result + 1;
-        case Kind::power:
-            return result + (phrase.args[0].kind == Kind::sum);
-        case Kind::call: {
+        case Form::power:
+            return result + (phrase.args[0].kind == Form::sum);
+        case Form::call: {
             // sin 2θ is to be read twice
             const Phrase& arg = phrase.args[0];
-            const Phrase& first = arg.kind == Kind::sum ? arg.args[0] : arg;
-            const bool multiple = (phrase.name == "sin" || phrase.name == "cos") && first.kind == Kind::product &&
-                                  first.args[0].kind == Kind::number;
+            const Phrase& first = arg.kind == Form::sum ? arg.args[0] : arg;
+            const bool multiple = (phrase.name == "sin" || phrase.name == "cos") && first.kind == Form::product &&
+                                  first.args[0].kind == Form::number;
             return result + (multiple ? 4 : 1);
         }
-        case Kind::negative:
+        case Form::negative:
             return result + 1;
     }
     return result;
@@ -136,21 +136,21 @@ GiNaC::ex expression(const Phrase& phrase) {
     GiNaC::exvector args;
     for (const Phrase& arg : phrase.args) args.push_back(expression(arg));
     switch (phrase.kind) {
-        case Kind::number:
+        case Form::number:
             return expression(phrase.value);
-        case Kind::symbol:
+        case Form::symbol:
             return phrase.symbol;
-        case Kind::sum:
+        case Form::sum:
             return GiNaC::add(args);
-        case Kind::product:
+        case Form::product:
             return GiNaC::mul(args);
-        case Kind::quotient:
+        case Form::quotient:
             return args[0] / args[1];
-        case Kind::power:
+        case Form::power:
             return GiNaC::pow(args[0], args[1]);
-        case Kind::negative:
+        case Form::negative:
             return -args[0];
-        case Kind::call:
+        case Form::call:
             break;
     }
     if (phrase.name == "sqrt") return GiNaC::sqrt(args[0]);
@@ -193,12 +193,12 @@ std::string digits(const Phrase& number) {
 }
 
 Fronted take_front(const Phrase& phrase) {
-    if (phrase.kind == Kind::number) return {phrase, phrases::number(1)};
-    if (phrase.kind == Kind::product && phrase.args[0].kind == Kind::number) {
+    if (phrase.kind == Form::number) return {phrase, phrases::number(1)};
+    if (phrase.kind == Form::product && phrase.args[0].kind == Form::number) {
         std::vector<Phrase> rest(phrase.args.begin() + 1, phrase.args.end());
         return {phrase.args[0], phrases::product(std::move(rest))};
     }
-    if (phrase.kind == Kind::quotient) {
+    if (phrase.kind == Form::quotient) {
         Fronted top = take_front(phrase.args[0]);
         const Fronted bottom = take_front(phrase.args[1]);
         // 2x/(3y) stays one fraction

@@ -106,7 +106,7 @@ public:
     }
 
     /// ∂(q', u')/∂inputs through R, with M u' from M or from T.
-    std::optional<Matrix> implicit(const std::vector<int>& inputs, Elimination order, bool by_energy) {
+    std::optional<Matrix> implicit(const std::vector<int>& inputs, EliminationOrder order, bool by_energy) {
         System system = system_of(p_);
         const std::optional<Matrix> x = solve_for_sides(p_, system.K, {system.b}, system.speeds);
         if (!x) return std::nullopt;
@@ -152,7 +152,7 @@ public:
     }
 
     /// The same straight through the accelerations.
-    std::optional<Matrix> direct(const std::vector<int>& inputs, Elimination order) {
+    std::optional<Matrix> direct(const std::vector<int>& inputs, EliminationOrder order) {
         std::optional<Matrix> result = rates(inputs, order);
         if (!result) return result;
         const auto below = of(p_.nodes_of(Group::acceleration), inputs, order);
@@ -173,7 +173,7 @@ public:
         for (const int id : state_) row_of.erase(id);
         for (const auto& [id, row] : row_of)
             if (!p_[id].is_number()) inputs.push_back(id);
-        const auto parts = partials(p_, power, inputs, Elimination::reverse, budget_);
+        const auto parts = partials(p_, power, inputs, EliminationOrder::reverse, budget_);
         if (!parts) return std::nullopt;
         std::vector<std::vector<Program::Term>> sums(state_.size());
         for (const Partial& part : *parts) {
@@ -215,7 +215,7 @@ private:
     /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing where numbers show that T has another M.
     std::optional<std::vector<int>> inertia_by_energy(const System& system, const std::vector<int>& z) {
         const int epsilon = p_.variable({Variable::Kind::unknown, first_unknown_ + system.size()});
-        const auto momenta = of(p_.nodes_of(Group::kinetic), speeds(), Elimination::reverse);
+        const auto momenta = of(p_.nodes_of(Group::kinetic), speeds(), EliminationOrder::reverse);
         if (!momenta) return std::nullopt;
         std::map<int, int> moved;
         for (std::size_t i = 0; i < z.size(); ++i)
@@ -223,7 +223,7 @@ private:
         Substitution at_moved(p_, std::move(moved));
         std::vector<int> there;
         for (const int node : (*momenta)[0]) there.push_back(at_moved(node));
-        const auto slope = of(there, {epsilon}, Elimination::forward);
+        const auto slope = of(there, {epsilon}, EliminationOrder::forward);
         if (!slope) return std::nullopt;
         Substitution at_zero(p_, {{epsilon, p_.number(0)}});
         std::vector<int> result;
@@ -263,7 +263,8 @@ private:
         return p_.sum(0, terms);
     }
 
-    std::optional<Matrix> of(const std::vector<int>& outputs, const std::vector<int>& inputs, Elimination order) {
+    std::optional<Matrix> of(const std::vector<int>& outputs, const std::vector<int>& inputs,
+                             EliminationOrder order) {
         const auto parts = partials(p_, outputs, inputs, order, budget_);
         if (!parts) return std::nullopt;
         Matrix result(outputs.size(), std::vector<int>(inputs.size(), p_.number(0)));
@@ -273,7 +274,7 @@ private:
     }
 
     /// ∂q'/∂inputs.
-    std::optional<Matrix> rates(const std::vector<int>& inputs, Elimination order) {
+    std::optional<Matrix> rates(const std::vector<int>& inputs, EliminationOrder order) {
         if (!p_.speeds.empty()) return of(p_.nodes_of(Group::rate), inputs, order);
         Matrix result(static_cast<std::size_t>(n_), std::vector<int>(inputs.size(), p_.number(0)));
         for (int i = 0; i < n_; ++i)
@@ -293,16 +294,17 @@ private:
 struct Route {
     const char* name;
     enum { by_energy, by_matrix, direct } through;
-    Elimination order;
+    EliminationOrder order;
 };
 
-constexpr Route routes[] = {{"implicit with M u' from T, reverse", Route::by_energy, Elimination::reverse},
-                            {"implicit with M u' from T, least fill", Route::by_energy, Elimination::least_fill},
-                            {"implicit, reverse", Route::by_matrix, Elimination::reverse},
-                            {"implicit, least fill", Route::by_matrix, Elimination::least_fill},
-                            {"implicit, forward", Route::by_matrix, Elimination::forward},
-                            {"direct, least fill", Route::direct, Elimination::least_fill},
-                            {"direct, forward", Route::direct, Elimination::forward}};
+constexpr Route routes[] = {
+    {"implicit with M u' from T, reverse", Route::by_energy, EliminationOrder::reverse},
+    {"implicit with M u' from T, least fill", Route::by_energy, EliminationOrder::least_fill},
+    {"implicit, reverse", Route::by_matrix, EliminationOrder::reverse},
+    {"implicit, least fill", Route::by_matrix, EliminationOrder::least_fill},
+    {"implicit, forward", Route::by_matrix, EliminationOrder::forward},
+    {"direct, least fill", Route::direct, EliminationOrder::least_fill},
+    {"direct, forward", Route::direct, EliminationOrder::forward}};
 constexpr int few_operations =
     2000;  ///< where all routes are tried; beyond, the two that are shortest for large systems
 
@@ -319,7 +321,7 @@ std::optional<Differentiated> differentiated(const Program& program, const Deriv
     Operations fewest;
     const bool is_large = program.count(program.right_hand_side()).total() > few_operations;
     for (const Route& route : routes) {
-        if (is_large && (route.through == Route::direct || route.order != Elimination::reverse)) continue;
+        if (is_large && (route.through == Route::direct || route.order != EliminationOrder::reverse)) continue;
         Differentiation trial(program, wishes.budget);
         const auto jacobian = jacobian_by(route, trial, trial.state());
         if (!jacobian) continue;

@@ -7,7 +7,7 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t longest = 12;  // terms
+constexpr std::size_t longest_sum = 12;  // terms
 
 }  // namespace
 
@@ -27,9 +27,9 @@ Program flattened(const Program& old) {
             constants[id] = node.number;
             for (std::size_t k = 0; k < node.args.size(); ++k) {
                 const int arg = node.args[k];
-                const bool dissolves = uses[arg] == 1 && !terms[arg].empty() &&
-                                       cln::equal(cln::abs(node.coefficients[k]), 1) &&
-                                       terms[id].size() + terms[arg].size() + node.args.size() - k - 1 <= longest;
+                const bool dissolves =
+                    uses[arg] == 1 && !terms[arg].empty() && cln::equal(cln::abs(node.coefficients[k]), 1) &&
+                    terms[id].size() + terms[arg].size() + node.args.size() - k - 1 <= longest_sum;
                 if (!dissolves) {
                     terms[id].emplace_back(node.coefficients[k], arg);
                     continue;

@@ -12,15 +12,15 @@ namespace {
 
 using Real = Germ::Real;
 
-constexpr double known_to = 6;       // power of ε up to which a series is kept
-constexpr std::size_t longest = 14;  // Taylor coefficients
+constexpr double known_to = 6;                 // power of ε up to which a series is kept
+constexpr std::size_t coefficients_kept = 14;  // Taylor coefficients
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
 /// Of sin(c + s), or cos with a quarter turn more.
 std::vector<Real> of_sine(Real sine, Real cosine) {
     std::vector<Real> result;
     Real factorial = 1;
-    for (std::size_t k = 0; k < longest; ++k) {
+    for (std::size_t k = 0; k < coefficients_kept; ++k) {
         if (k > 0) factorial *= static_cast<Real>(k);
         const Real cycle[] = {sine, cosine, -sine, -cosine};
         result.push_back(cycle[k % 4] / factorial);
@@ -32,7 +32,7 @@ std::vector<Real> of_sine(Real sine, Real cosine) {
 std::vector<Real> of_hyperbolic(Real value, Real derivative) {
     std::vector<Real> result;
     Real factorial = 1;
-    for (std::size_t k = 0; k < longest; ++k) {
+    for (std::size_t k = 0; k < coefficients_kept; ++k) {
         if (k > 0) factorial *= static_cast<Real>(k);
         result.push_back((k % 2 == 0 ? value : derivative) / factorial);
     }
@@ -161,7 +161,7 @@ Germ Germ::to_the(Real a) const {
     }
     unit = unit.shifted(-exponent);
     std::vector<Real> binomial{1};
-    for (std::size_t k = 1; k < longest; ++k)
+    for (std::size_t k = 1; k < coefficients_kept; ++k)
         binomial.push_back(binomial.back() * (a - static_cast<Real>(k - 1)) / static_cast<Real>(k));
     Germ result = unit.through(binomial) * Germ(std::pow(c, a));
     result = result.shifted(exponent * static_cast<double>(a));
@@ -216,7 +216,7 @@ Germ exp(const Germ& a) {
 
 Germ tanh(const Germ& a) {
     std::vector<Real> taylor{std::tanh(a.at(0).value)};
-    while (taylor.size() < longest) {
+    while (taylor.size() < coefficients_kept) {
         const std::size_t k = taylor.size() - 1;
         Real square = 0;
         for (std::size_t i = 0; i <= k; ++i) square += taylor[i] * taylor[k - i];
@@ -228,7 +228,7 @@ Germ tanh(const Germ& a) {
 Germ atan(const Germ& a) {
     const Real c = a.at(0).value;
     std::vector<Real> taylor{std::atan(c)}, slope;
-    while (taylor.size() < longest) {
+    while (taylor.size() < coefficients_kept) {
         const std::size_t k = slope.size();
         const Real before = k > 0 ? slope[k - 1] : 0, two_before = k > 1 ? slope[k - 2] : 0;
         slope.push_back(((k == 0 ? 1 : 0) - 2 * c * before - two_before) / (1 + c * c));
@@ -249,7 +249,7 @@ Germ log(const Germ& a) {
     if (!a.defined_ || c <= 0) return Germ::undefined();
     std::vector<Real> taylor{std::log(c)};
     Real power = -1;
-    for (std::size_t k = 1; k < longest; ++k) {
+    for (std::size_t k = 1; k < coefficients_kept; ++k) {
         power /= -c;
         taylor.push_back(power / static_cast<Real>(k));
     }

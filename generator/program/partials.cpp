@@ -117,10 +117,10 @@ public:
         first_output_ = size;
     }
 
-    bool eliminate(Elimination order, long budget) {
+    bool eliminate(EliminationOrder order, long budget) {
         left_ = budget;
-        if (order == Elimination::least_fill) return eliminate_least_fill();
-        if (order == Elimination::reverse) std::reverse(inner_.begin(), inner_.end());
+        if (order == EliminationOrder::least_fill) return eliminate_least_fill();
+        if (order == EliminationOrder::reverse) std::reverse(inner_.begin(), inner_.end());
         return std::all_of(inner_.begin(), inner_.end(), [&](int v) { return eliminate(v); });
     }
 
@@ -231,7 +231,7 @@ private:
 }  // namespace
 
 std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
-                                             std::span<const int> inputs, Elimination order, long budget) {
+                                             std::span<const int> inputs, EliminationOrder order, long budget) {
     Graph graph(program, outputs, inputs);
     if (!graph.eliminate(order, budget)) return std::nullopt;
     return graph.result();

@@ -3,7 +3,7 @@
 
 /// Partial derivatives on the graph of a program, by elimination of vertices.
 ///
-///     const std::vector<Partial> J = *partials(program, {f}, {x, y}, Elimination::least_fill);
+///     const std::vector<Partial> J = *partials(program, {f}, {x, y}, EliminationOrder::least_fill);
 ///     J[0].node;                                        // ∂f/∂x, a node of the same program
 ///
 /// Each node is an edge from each of its arguments, with its partial derivative for a label; a vertex v goes by
@@ -26,7 +26,7 @@
 
 namespace alembert {
 
-enum class Elimination { forward, reverse, least_fill };
+enum class EliminationOrder { forward, reverse, least_fill };
 
 struct Partial {
     int output, input;  ///< positions in the lists that were asked for
@@ -36,6 +36,7 @@ struct Partial {
 /// All partial derivatives that are not identically zero, row by row. Nothing where more than `budget` products of
 /// labels would be made.
 std::optional<std::vector<Partial>> partials(Program& program, std::span<const int> outputs,
-                                             std::span<const int> inputs, Elimination order, long budget = 400000);
+                                             std::span<const int> inputs, EliminationOrder order,
+                                             long budget = 400000);
 
 }  // namespace alembert

@@ -89,7 +89,7 @@ std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& con
         inputs.push_back(p.variable({Variable::Kind::rate, i}));
         directions.push_back(p.variable({Variable::Kind::acceleration, i}));
     }
-    const auto found = partials(p, conditions, inputs, Elimination::forward);
+    const auto found = partials(p, conditions, inputs, EliminationOrder::forward);
     if (!found) return std::nullopt;
     std::vector<std::vector<Program::Term>> terms(conditions.size());
     for (const Partial& one : *found)

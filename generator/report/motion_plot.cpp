@@ -44,7 +44,7 @@ std::vector<PlottedLine> columns_of(const Run& run) {
 /// The named columns, or all but reactions, with their points.
 std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
     std::vector<PlottedLine> all = columns_of(run), result;
-    const Table& rows = run.rows;
+    const MotionTable& rows = run.rows;
     for (std::size_t column = 1; column < rows.columns.size(); ++column)
         for (std::size_t row = 0; row < rows.rows(); ++row)
             all[column - 1].points.emplace_back(rows.at(row, 0), rows.at(row, column));

@@ -119,7 +119,7 @@ std::string symbol(const Mechanism& m, const GiNaC::symbol& s) {
     return inline_math(phrases::symbol(s, m.symbols->info(s)));
 }
 
-std::string number(double x) {
+std::string six_digits(double x) {
     return std::abs(x) < 1e-14 ? "0" : fmt::format("{:.6g}", x);
 }
 
@@ -143,7 +143,8 @@ void add_mechanism(PageParts& page, const Overview& all) {
     table(body, "Coordinates", {"symbol", "at the start", "rate at the start", "unit", "meaning"});
     for (std::size_t k = 0; k < m.q.size(); ++k)
         put(body, "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-            symbol(m, m.q[k]), number(all.start.q[k]), number(all.start.qdot[k]), html(unit_text(m.units[k])),
+            symbol(m, m.q[k]), six_digits(all.start.q[k]), six_digits(all.start.qdot[k]),
+            html(unit_text(m.units[k])),
             html(k < all.scene.coordinates.size() ? all.scene.coordinates[k].about : ""));
     put(body, "</tbody></table></div>\n");
     if (!m.speeds.empty()) {

@@ -179,7 +179,7 @@ private:
     PageParts& page_;
     const Overview& all_;
     const WatchedMotion& motion_;
-    const Table& rows_;
+    const MotionTable& rows_;
     bool si_;
     std::vector<double> times_;
     std::map<std::size_t, int> columns_;  ///< of the table → of the page

@@ -251,7 +251,7 @@ std::string as_text(const Run& run, const Ink& ink) {
     return page;
 }
 
-std::string as_csv(const Table& table) {
+std::string as_csv(const MotionTable& table) {
     std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
     for (std::size_t row = 0; row < table.rows(); ++row)
         for (std::size_t column = 0; column < table.columns.size(); ++column)

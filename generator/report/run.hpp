@@ -11,6 +11,6 @@ Json as_json(const Run& run);
 std::string as_text(const Run& run, const Ink& ink = {});
 
 /// The rows, with 17 significant digits.
-std::string as_csv(const Table& table);
+std::string as_csv(const MotionTable& table);
 
 }  // namespace alembert

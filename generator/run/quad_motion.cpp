@@ -8,7 +8,7 @@ namespace alembert {
 
 namespace {
 
-using Vector = std::vector<Quad>;
+using QuadVector = std::vector<Quad>;
 
 Quad size_of(Quad y) {
     return std::max(Quad(1), abs(y));
@@ -19,17 +19,17 @@ class Extrapolation {
 public:
     Extrapolation(const QuadRhs& rhs, std::size_t size, int columns)
         : rhs_(rhs),
-          table_(static_cast<std::size_t>(columns), Vector(size)),
+          table_(static_cast<std::size_t>(columns), QuadVector(size)),
           before_(size),
           middle_(size),
           rate_(size) {}
 
     /// The state at t + h; gives the error estimate.
-    double operator()(Quad t, const Vector& y, const Vector& first_rate, Quad h, Vector& out) {
+    double operator()(Quad t, const QuadVector& y, const QuadVector& first_rate, Quad h, QuadVector& out) {
         const std::size_t columns = table_.size();
         double error = HUGE_VAL;
         for (std::size_t j = 0; j < columns; ++j) {
-            Vector row = midpoint(t, y, first_rate, h, 2 * static_cast<int>(j) + 2);
+            QuadVector row = midpoint(t, y, first_rate, h, 2 * static_cast<int>(j) + 2);
             for (std::size_t k = 1; k <= j; ++k) {  // Aitken & Neville in h², along the row
                 const Quad ratio = Quad(j + 1) / Quad(j + 1 - k);
                 const Quad weight = 1 / (ratio * ratio - 1);
@@ -49,7 +49,7 @@ public:
     long evaluations = 0;
 
 private:
-    Vector midpoint(Quad t, const Vector& y, const Vector& first_rate, Quad h, int steps) {
+    QuadVector midpoint(Quad t, const QuadVector& y, const QuadVector& first_rate, Quad h, int steps) {
         const Quad part = h / steps;
         before_ = y;
         for (std::size_t i = 0; i < y.size(); ++i) middle_[i] = y[i] + part * first_rate[i];
@@ -63,8 +63,8 @@ private:
     }
 
     const QuadRhs& rhs_;
-    std::vector<Vector> table_;
-    Vector before_, middle_, rate_;
+    std::vector<QuadVector> table_;
+    QuadVector before_, middle_, rate_;
 };
 
 /// Nodes on (0, 1) and weights ∫ of the Lagrange polynomials from 0 to each node and to 1, by Legendre's
@@ -113,7 +113,7 @@ public:
         : rhs_(rhs),
           rough_(rough),
           options_(options),
-          slopes_(Gauss::stages, Vector(size)),
+          slopes_(Gauss::stages, QuadVector(size)),
           defect_(slopes_),
           here_(size),
           trial_(size),
@@ -129,7 +129,7 @@ public:
             for (int j = 0; j < Gauss::stages; ++j) a_[i][j] = static_cast<double>(gauss_.a[i][j]);
     }
 
-    bool step(Quad t, Vector& y, Quad h, int depth = 0) {
+    bool step(Quad t, QuadVector& y, Quad h, int depth = 0) {
         if (evaluations > options_.budget || depth > 20) return false;
         if (iterate(t, y, h)) {
             for (std::size_t i = 0; i < y.size(); ++i) {
@@ -149,7 +149,7 @@ private:
     static constexpr int most_rounds = 60;
 
     /// Where the corrections no longer shrink, rounding has the word.
-    bool iterate(Quad t, const Vector& y, Quad h) {
+    bool iterate(Quad t, const QuadVector& y, Quad h) {
         rhs_(t, y.data(), change_.data());
         ++evaluations;
         for (std::size_t n = 0; n < y.size(); ++n) {
@@ -200,7 +200,7 @@ private:
     }
 
     /// f(y + h Σ a_ij k_j) − k_i, and the largest of them times h.
-    double defects(Quad t, const Vector& y, Quad h) {
+    double defects(Quad t, const QuadVector& y, Quad h) {
         double largest = 0;
         for (std::size_t i = 0; i < Gauss::stages; ++i) {
             for (std::size_t n = 0; n < y.size(); ++n) {
@@ -262,16 +262,16 @@ private:
     const QuadOptions& options_;
     const Gauss gauss_;
     double a_[Gauss::stages][Gauss::stages];
-    std::vector<Vector> slopes_, defect_;
+    std::vector<QuadVector> slopes_, defect_;
     Rough here_;
-    Vector trial_, change_;
+    QuadVector trial_, change_;
     std::vector<Rough> rough_slopes_, correction_, rough_defect_, places_, rates_;
     Rough rough_trial_, rough_rate_;
 };
 
 }  // namespace
 
-double agreement(const Vector& a, const Vector& b) {
+double agreement(const QuadVector& a, const QuadVector& b) {
     double largest = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Quad difference = abs(a[i] - b[i]) / size_of(b[i]);
@@ -281,10 +281,10 @@ double agreement(const Vector& a, const Vector& b) {
     return largest;
 }
 
-QuadMotion extrapolate(const QuadRhs& rhs, Vector state, Quad start, Quad end, const QuadOptions& options) {
+QuadMotion extrapolate(const QuadRhs& rhs, QuadVector state, Quad start, Quad end, const QuadOptions& options) {
     const int columns = std::clamp(static_cast<int>(std::lround(-std::log10(options.tolerance) / 2)), 4, 14);
     Extrapolation one(rhs, state.size(), columns);
-    Vector rate(state.size()), next(state.size());
+    QuadVector rate(state.size()), next(state.size());
     QuadMotion motion{.finished = false, .state = {}, .mesh = {start}};
     Quad t = start, h = (end - start) / 100;
     while (t < end) {
@@ -312,7 +312,7 @@ QuadMotion extrapolate(const QuadRhs& rhs, Vector state, Quad start, Quad end, c
     return motion;
 }
 
-QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, Vector state, const std::vector<Quad>& mesh,
+QuadMotion collocate(const QuadRhs& rhs, const RoughRhs& rough, QuadVector state, const std::vector<Quad>& mesh,
                      const QuadOptions& options) {
     Collocation one(rhs, rough, state.size(), options);
     QuadMotion motion{.finished = true, .state = {}, .mesh = mesh};

@@ -93,9 +93,9 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
     }
 }
 
-Table rows_of(const PhasedMotion& motion, const Derived& d, LoadedModes& modes, const JointReactions* reactions,
-              const State<double>& first) {
-    Table table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
+MotionTable rows_of(const PhasedMotion& motion, const Derived& d, LoadedModes& modes,
+                    const JointReactions* reactions, const State<double>& first) {
+    MotionTable table{.columns = row_columns(d.mechanism, modes({}).program, reactions), .values = {}};
     for (std::size_t k = 0; k < motion.phases.size(); ++k) {
         const Phase& phase = motion.phases[k];
         std::size_t rows = phase.motion.rows();

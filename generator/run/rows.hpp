@@ -9,7 +9,7 @@
 namespace alembert {
 
 /// A table of numbers, row by row.
-struct Table {
+struct MotionTable {
     std::vector<std::string> columns;
     std::vector<double> values;  ///< rows() · columns.size()
 
@@ -27,7 +27,7 @@ void check_columns(const std::vector<std::string>& columns, const std::vector<st
 
 /// The table with these columns. Where rates jump there are two rows for one time, before and after; where they
 /// only change their law, one. Reactions are at the parameters of `first`.
-Table rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
-              const JointReactions* reactions, const State<double>& first);
+MotionTable rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
+                    const JointReactions* reactions, const State<double>& first);
 
 }  // namespace alembert

@@ -63,7 +63,7 @@ struct Run : Derived {
     std::optional<ErrorEstimate> estimate = {};
     std::vector<std::string> doubts = {};    ///< why the result is not to be trusted
     std::vector<std::string> adjusted = {};  ///< what was moved at the start so that the constraints hold
-    Table rows = {};
+    MotionTable rows = {};
     Timings timings = {};
     /// Why the motion broke off, in terms of the scene. What was computed until then is there.
     std::optional<std::string> failure = {};

@@ -29,7 +29,7 @@ namespace {
 
 using Kind = Tree::Kind;
 
-constexpr std::size_t most_bytes = 64 * 1024;
+constexpr std::size_t longest_expression = 64 * 1024;
 constexpr int most_levels = 200;
 constexpr double most_exponent = 64;
 
@@ -275,10 +275,10 @@ private:
 };
 
 TreePtr parse(const Expression& expression, bool rates_before, std::vector<Diagnostic>& diagnostics) {
-    if (expression.text.size() > most_bytes) {
+    if (expression.text.size() > longest_expression) {
         diagnostics.push_back(
             {expression.place(), fmt::format("an expression of {} bytes; the limit is {} (64 KiB)",
-                                             expression.text.size(), most_bytes)});
+                                             expression.text.size(), longest_expression)});
         return nullptr;
     }
     try {

@@ -8,21 +8,22 @@ namespace alembert {
 
 namespace {
 
-using Kind = Move::Kind;
+using MoveKind = Move::Kind;
 using Type = Joint::Type;
 
 const std::vector<std::pair<Type, JointMoves>>& table() {
     static const std::vector<std::pair<Type, JointMoves>> rows{
         {Type::fixed, {"fixed", {}}},
-        {Type::revolute, {"revolute", {{Kind::turn}}}},
-        {Type::prismatic, {"prismatic", {{Kind::shift}}}},
-        {Type::cylindrical, {"cylindrical", {{Kind::turn}, {Kind::shift}}}},
-        {Type::universal, {"universal", {{Kind::turn, 'x'}, {Kind::turn, 'y'}}}},
-        {Type::spherical, {"spherical", {{Kind::turn_in_space}}}},
-        {Type::planar, {"planar", {{Kind::shift, 'x'}, {Kind::shift, 'y'}, {Kind::turn, 'z'}}}},
-        {Type::screw, {"screw", {{Kind::turn}, {Kind::screw}}}},
+        {Type::revolute, {"revolute", {{MoveKind::turn}}}},
+        {Type::prismatic, {"prismatic", {{MoveKind::shift}}}},
+        {Type::cylindrical, {"cylindrical", {{MoveKind::turn}, {MoveKind::shift}}}},
+        {Type::universal, {"universal", {{MoveKind::turn, 'x'}, {MoveKind::turn, 'y'}}}},
+        {Type::spherical, {"spherical", {{MoveKind::turn_in_space}}}},
+        {Type::planar, {"planar", {{MoveKind::shift, 'x'}, {MoveKind::shift, 'y'}, {MoveKind::turn, 'z'}}}},
+        {Type::screw, {"screw", {{MoveKind::turn}, {MoveKind::screw}}}},
         {Type::free,
-         {"free", {{Kind::shift, 'x'}, {Kind::shift, 'y'}, {Kind::shift, 'z'}, {Kind::turn_in_space}}}},
+         {"free",
+          {{MoveKind::shift, 'x'}, {MoveKind::shift, 'y'}, {MoveKind::shift, 'z'}, {MoveKind::turn_in_space}}}},
     };
     return rows;
 }
@@ -30,13 +31,13 @@ const std::vector<std::pair<Type, JointMoves>>& table() {
 std::string words_of(const Move& move, bool by_angles) {
     const bool own = move.along == 'a';
     switch (move.kind) {
-        case Kind::turn:
+        case MoveKind::turn:
             return own ? "the turn" : std::string("the turn about ") + move.along;
-        case Kind::shift:
+        case MoveKind::shift:
             return own ? "the shift" : std::string(1, move.along);
-        case Kind::turn_in_space:
+        case MoveKind::turn_in_space:
             return by_angles ? "the three angles" : "a quaternion, scalar first (or three angles, with 'angles')";
-        case Kind::screw:
+        case MoveKind::screw:
             break;
     }
     return {};
@@ -44,18 +45,18 @@ std::string words_of(const Move& move, bool by_angles) {
 
 }  // namespace
 
-bool JointMoves::has(Kind kind) const {
+bool JointMoves::has(MoveKind kind) const {
     return std::any_of(moves.begin(), moves.end(), [&](const Move& move) { return move.kind == kind; });
 }
 
 bool JointMoves::has_axis() const {
     return std::any_of(moves.begin(), moves.end(),
-                       [](const Move& move) { return move.along == 'a' && move.kind != Kind::turn_in_space; });
+                       [](const Move& move) { return move.along == 'a' && move.kind != MoveKind::turn_in_space; });
 }
 
 std::size_t JointMoves::before_turn_in_space() const {
     const auto turn = std::find_if(moves.begin(), moves.end(),
-                                   [](const Move& move) { return move.kind == Kind::turn_in_space; });
+                                   [](const Move& move) { return move.kind == MoveKind::turn_in_space; });
     return static_cast<std::size_t>(turn - moves.begin());
 }
 
@@ -82,10 +83,10 @@ std::optional<Type> joint_type_named(const std::string& name) {
 std::size_t coordinates_of(const Joint& joint) {
     std::size_t count = 0;
     for (const Move& move : moves_of(joint.type).moves)
-        count += move.kind == Kind::screw           ? 0
-                 : move.kind != Kind::turn_in_space ? 1
-                 : joint.angles.empty()             ? 4
-                                                    : 3;
+        count += move.kind == MoveKind::screw           ? 0
+                 : move.kind != MoveKind::turn_in_space ? 1
+                 : joint.angles.empty()                 ? 4
+                                                        : 3;
     return count;
 }
 
@@ -93,7 +94,7 @@ std::string meaning_of_coordinates(const Joint& joint) {
     if (coordinates_of(joint) < 2) return {};
     std::vector<std::string> words;
     for (const Move& move : moves_of(joint.type).moves)
-        if (move.kind != Kind::screw) words.push_back(words_of(move, !joint.angles.empty()));
+        if (move.kind != MoveKind::screw) words.push_back(words_of(move, !joint.angles.empty()));
     std::string text = ": ";
     for (std::size_t k = 0; k < words.size(); ++k)
         text += (k == 0 ? "" : k + 1 == words.size() ? ", then " : ", ") + words[k];
@@ -103,7 +104,7 @@ std::string meaning_of_coordinates(const Joint& joint) {
 int locked_directions(Type type) {
     int locked = 6;
     for (const Move& move : moves_of(type).moves)
-        locked -= move.kind == Kind::screw ? 0 : move.kind == Kind::turn_in_space ? 3 : 1;
+        locked -= move.kind == MoveKind::screw ? 0 : move.kind == MoveKind::turn_in_space ? 3 : 1;
     return locked;
 }
 

@@ -13,29 +13,29 @@
 namespace alembert {
 namespace {
 
-using Kind = Declared::Kind;
+using DeclaredAs = Declared::Kind;
 
 struct Declaration {
     const Name* name;
-    Kind kind;
+    DeclaredAs kind;
     std::size_t index;
 };
 
 /// A name without a place was missing in the file, which the reader has told.
 template <typename Item>
-void add(std::vector<Declaration>& list, const std::vector<Item>& items, Kind kind) {
+void add(std::vector<Declaration>& list, const std::vector<Item>& items, DeclaredAs kind) {
     for (std::size_t i = 0; i < items.size(); ++i)
         if (items[i].name.place.line > 0) list.push_back({&items[i].name, kind, i});
 }
 
-bool is_reserved(const std::string& name, Kind kind) {
+bool is_reserved(const std::string& name, DeclaredAs kind) {
     switch (kind) {
-        case Kind::frame:
+        case DeclaredAs::frame:
             return name == "N";
-        case Kind::point:
-        case Kind::particle:
+        case DeclaredAs::point:
+        case DeclaredAs::particle:
             return name == "O";
-        case Kind::body:
+        case DeclaredAs::body:
             return name == "N" || name == "O";
         default:
             return name == "t" || name == "pi" || is_reserved_function(name);
@@ -51,7 +51,7 @@ std::string reason(const std::string& name) {
 }
 
 /// Tells an illegal or reserved name; true where it may be used.
-bool check(const Name& name, Kind kind, std::vector<Diagnostic>& diagnostics) {
+bool check(const Name& name, DeclaredAs kind, std::vector<Diagnostic>& diagnostics) {
     if (!is_name(name.text))
         diagnostics.push_back(
             {name.place, fmt::format("{} is not a name: a name is a letter or _, then letters, digits, _",
@@ -87,25 +87,25 @@ std::array<Name, 3> multipliers_of(const RollingRule& rule) {
             Name{stem + "_z", rule.name.place}};
 }
 
-std::string described(Kind kind) {
+std::string described(DeclaredAs kind) {
     switch (kind) {
-        case Kind::coordinate:
+        case DeclaredAs::coordinate:
             return "a coordinate";
-        case Kind::speed:
+        case DeclaredAs::speed:
             return "a generalized speed";
-        case Kind::parameter:
+        case DeclaredAs::parameter:
             return "a parameter";
-        case Kind::input:
+        case DeclaredAs::input:
             return "an input";
-        case Kind::definition:
+        case DeclaredAs::definition:
             return "a definition";
-        case Kind::frame:
+        case DeclaredAs::frame:
             return "a frame";
-        case Kind::point:
+        case DeclaredAs::point:
             return "a point";
-        case Kind::particle:
+        case DeclaredAs::particle:
             return "a particle";
-        case Kind::body:
+        case DeclaredAs::body:
             return "a body";
         default:
             return "a multiplier";
@@ -114,11 +114,11 @@ std::string described(Kind kind) {
 
 NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     std::vector<Declaration> values, frames, points;
-    add(values, scene.coordinates, Kind::coordinate);
-    add(values, scene.speeds, Kind::speed);
-    add(values, scene.parameters, Kind::parameter);
-    add(values, scene.inputs, Kind::input);
-    add(values, scene.definitions, Kind::definition);
+    add(values, scene.coordinates, DeclaredAs::coordinate);
+    add(values, scene.speeds, DeclaredAs::speed);
+    add(values, scene.parameters, DeclaredAs::parameter);
+    add(values, scene.inputs, DeclaredAs::input);
+    add(values, scene.definitions, DeclaredAs::definition);
     std::vector<Name> multipliers;
     for (const ConstraintRule& rule : scene.constraints)
         multipliers.push_back(rule.multiplier ? *rule.multiplier
@@ -134,10 +134,10 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
             for (int k = 1; k <= locked_directions(joint.type); ++k)
                 multipliers.push_back({fmt::format("lambda_{}_{}", joint.name.text, k), joint.name.place});
     for (std::size_t i = 0; i < multipliers.size(); ++i)
-        if (multipliers[i].place.line > 0) values.push_back({&multipliers[i], Kind::multiplier, i});
-    add(frames, scene.frames, Kind::frame);
-    add(points, scene.points, Kind::point);
-    add(points, scene.particles, Kind::particle);
+        if (multipliers[i].place.line > 0) values.push_back({&multipliers[i], DeclaredAs::multiplier, i});
+    add(frames, scene.frames, DeclaredAs::frame);
+    add(points, scene.points, DeclaredAs::point);
+    add(points, scene.particles, DeclaredAs::particle);
     const auto refuse = [&](std::vector<Declaration>& list) {
         std::erase_if(list, [&](const Declaration& d) { return !check(*d.name, d.kind, diagnostics); });
     };
@@ -145,7 +145,7 @@ NameSpaces declare(const Scene& scene, std::vector<Diagnostic>& diagnostics) {
     refuse(frames);
     refuse(points);
     std::vector<Declaration> bodies;
-    add(bodies, scene.bodies, Kind::body);
+    add(bodies, scene.bodies, DeclaredAs::body);
     refuse(bodies);
     frames.insert(frames.end(), bodies.begin(), bodies.end());
     points.insert(points.end(), bodies.begin(), bodies.end());

@@ -13,12 +13,12 @@
 namespace alembert {
 namespace {
 
-using Kind = Declared::Kind;
+using DeclaredAs = Declared::Kind;
 
-constexpr int most_levels = 2000;
+constexpr int most_defined_levels = 2000;
 
 struct Node {
-    Kind kind;
+    DeclaredAs kind;
     std::size_t index;
     const Name* name;
     std::vector<std::size_t> targets = {};
@@ -37,15 +37,15 @@ int levels_of(const Tree& tree) {
 class Graph {
 public:
     explicit Graph(const Scene& scene) : scene_(scene) {
-        add(scene.parameters, Kind::parameter, values_);
-        add(scene.inputs, Kind::input, values_);
-        add(scene.definitions, Kind::definition, values_);
-        add(scene.speeds, Kind::speed, values_);
-        add(scene.frames, Kind::frame, frames_);
-        add(scene.bodies, Kind::body, frames_);
-        add(scene.points, Kind::point, points_);
-        add(scene.particles, Kind::particle, points_);
-        add(scene.bodies, Kind::body, points_);
+        add(scene.parameters, DeclaredAs::parameter, values_);
+        add(scene.inputs, DeclaredAs::input, values_);
+        add(scene.definitions, DeclaredAs::definition, values_);
+        add(scene.speeds, DeclaredAs::speed, values_);
+        add(scene.frames, DeclaredAs::frame, frames_);
+        add(scene.bodies, DeclaredAs::body, frames_);
+        add(scene.points, DeclaredAs::point, points_);
+        add(scene.particles, DeclaredAs::particle, points_);
+        add(scene.bodies, DeclaredAs::body, points_);
         connect();
     }
 
@@ -62,7 +62,7 @@ private:
     References references_;
 
     template <typename Item>
-    void add(const std::vector<Item>& items, Kind kind, Index& index) {
+    void add(const std::vector<Item>& items, DeclaredAs kind, Index& index) {
         for (std::size_t i = 0; i < items.size(); ++i) {
             const std::string& name = items[i].name.text;
             const bool is_fixed = (&index == &frames_ && name == "N") || (&index == &points_ && name == "O");
@@ -176,12 +176,12 @@ private:
         node.state = Node::State::done;
         int deepest = 0;
         for (const std::size_t next : node.targets) deepest = std::max(deepest, nodes_[next].levels);
-        node.levels = std::min(deepest + node.weight, most_levels + 1);
-        if (node.levels > most_levels && deepest <= most_levels)
+        node.levels = std::min(deepest + node.weight, most_defined_levels + 1);
+        if (node.levels > most_defined_levels && deepest <= most_defined_levels)
             diagnostics.push_back(
                 {node.name->place, fmt::format("{} stands on a chain of more than {} levels of others",
-                                               in_quotes(node.name->text), most_levels)});
-        if ((node.kind == Kind::definition || node.kind == Kind::speed) && !node.in_circle)
+                                               in_quotes(node.name->text), most_defined_levels)});
+        if ((node.kind == DeclaredAs::definition || node.kind == DeclaredAs::speed) && !node.in_circle)
             references_.definitions.emplace_back(node.kind, node.index);
     }
 
@@ -214,16 +214,16 @@ private:
     }
 
     std::string meaning(const std::vector<std::size_t>& circle) const {
-        std::set<Kind> kinds;
+        std::set<DeclaredAs> kinds;
         for (const std::size_t k : circle) kinds.insert(nodes_[k].kind);
         const std::string first = in_quotes(nodes_[circle.front()].name->text);
-        if (kinds == std::set{Kind::definition}) return "definitions in a circle";
-        if (kinds == std::set{Kind::speed}) return "speeds in a circle";
-        if (kinds == std::set{Kind::parameter}) return "parameters in a circle";
-        if (kinds == std::set{Kind::input}) return "inputs in a circle";
-        if (kinds == std::set{Kind::frame}) return "the frame " + first + " is its own ancestor";
-        const bool is_place = std::all_of(kinds.begin(), kinds.end(), [](Kind kind) {
-            return kind == Kind::point || kind == Kind::particle || kind == Kind::body;
+        if (kinds == std::set{DeclaredAs::definition}) return "definitions in a circle";
+        if (kinds == std::set{DeclaredAs::speed}) return "speeds in a circle";
+        if (kinds == std::set{DeclaredAs::parameter}) return "parameters in a circle";
+        if (kinds == std::set{DeclaredAs::input}) return "inputs in a circle";
+        if (kinds == std::set{DeclaredAs::frame}) return "the frame " + first + " is its own ancestor";
+        const bool is_place = std::all_of(kinds.begin(), kinds.end(), [](DeclaredAs kind) {
+            return kind == DeclaredAs::point || kind == DeclaredAs::particle || kind == DeclaredAs::body;
         });
         if (is_place) return first + " is where it is by itself";
         return first + " is determined by itself";

@@ -11,7 +11,7 @@
 namespace alembert {
 namespace {
 
-constexpr std::size_t most_bytes = 1024 * 1024;
+constexpr std::size_t largest_scene = 1024 * 1024;
 
 /// Reads one TOML string from its opening quotes on, adding what it means byte by byte.
 class StringReader {
@@ -139,9 +139,9 @@ Literal read_string(const SourceText& source, std::size_t begin) {
 
 std::vector<Diagnostic> check_bytes(std::string_view text) {
     std::vector<Diagnostic> found;
-    if (text.size() > most_bytes) {
+    if (text.size() > largest_scene) {
         found.push_back(
-            {{}, fmt::format("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), most_bytes)});
+            {{}, fmt::format("the scene has {} bytes; the limit is {} (1 MiB)", text.size(), largest_scene)});
         return found;
     }
     bool has_invalid = false, has_control = false, has_return = false;

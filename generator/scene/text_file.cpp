@@ -14,7 +14,7 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t most_bytes = 1024 * 1024;
+constexpr std::size_t largest_file = 1024 * 1024;
 
 [[noreturn]] void refuse_file(const std::string& file, std::string message) {
     Scene scene;
@@ -30,11 +30,12 @@ std::string text_of_file(const std::string& file) {
     if (!std::filesystem::exists(file, error)) refuse_file(file, "no such file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) refuse_file(file, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    std::string text(most_bytes + 1, '\0');
+    std::string text(largest_file + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (stream.bad()) refuse_file(file, "cannot be read");
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > most_bytes) refuse_file(file, "has more than 1048576 bytes (1 MiB), the limit for a scene");
+    if (text.size() > largest_file)
+        refuse_file(file, "has more than 1048576 bytes (1 MiB), the limit for a scene");
     return text;
 }
 

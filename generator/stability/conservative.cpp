@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double short_enough = 2000;  // nodes
+constexpr double short_form_nodes = 2000;  // nodes
 
 std::optional<ex> potential_of(const Mechanism& m, const std::vector<ex>& Q) {
     GiNaC::symbol s("s");
@@ -26,7 +26,7 @@ std::optional<ex> potential_of(const Mechanism& m, const std::vector<ex>& Q) {
     for (const GiNaC::symbol& q : m.q) coordinates.append(q);
     ex V = 0;
     for (int i = 0; i < m.size(); ++i) {
-        if (m.z->tree_size(Q[i]) > short_enough || m.z->depends(Q[i], other)) return {};
+        if (m.z->tree_size(Q[i]) > short_form_nodes || m.z->depends(Q[i], other)) return {};
         const ex force = m.z->expand(Q[i]);
         if (!force.is_polynomial(coordinates)) return {};
         for (int j = 0; j < i; ++j)

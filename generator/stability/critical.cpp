@@ -65,9 +65,9 @@ Eigen::MatrixXd numbers(const CertainMatrix& m) {
 }
 
 /// Terms of degree two and three of a field, as symmetric forms.
-class Forms {
+class TaylorForms {
 public:
-    Forms(const std::vector<Expansion>& F, const Monomials& monomials) {
+    TaylorForms(const std::vector<Expansion>& F, const Monomials& monomials) {
         for (const Expansion& f : F) {
             terms_.emplace_back();
             for (int k = 0; k < monomials.size(); ++k) {
@@ -164,7 +164,7 @@ Decision pair_on_axis(const Local& local, const std::vector<RootOf>& roots) {
     std::vector<Expansion> x;
     for (int i = 0; i < n; ++i)
         x.push_back(Expansion::variable(monomials, i, state_value(local, static_cast<std::size_t>(i))));
-    const Forms form(field(local, x), monomials);
+    const TaylorForms form(field(local, x), monomials);
     const Eigen::MatrixXcd A = numbers(local.A).cast<Complex>(), one = Eigen::MatrixXcd::Identity(n, n);
     const Complex i_omega(0, omega);
     const auto kernel = [&](const Eigen::MatrixXcd& m) {

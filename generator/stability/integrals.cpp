@@ -167,16 +167,16 @@ std::vector<ex> constant_angular_momenta(const Local& local) {
 }
 
 /// What enters the combination: gradients and second derivatives over the variables, H first.
-struct Forms {
+struct EnergyForms {
     int size = 0;
     std::vector<CertainVector> gradient;
     std::vector<CertainMatrix> second;
 };
 
-Forms forms_of(const Local& local, const std::vector<ex>& functions) {
+EnergyForms forms_of(const Local& local, const std::vector<ex>& functions) {
     const Residuals& r = local.residuals;
     std::vector<int> variables;
-    Forms result;
+    EnergyForms result;
     for (int i = 0; i < r.n; ++i) variables.push_back(local.is_essential(i) ? result.size++ : -1);
     for (int i = 0; i < r.s; ++i) variables.push_back(result.size++);
     const Monomials monomials(result.size, 2);
@@ -243,7 +243,7 @@ std::optional<std::vector<double>> climb(const CertainMatrix& Q0, const std::vec
 
 /// `either_sign`: H is conserved, so that a maximum will do as well.
 bool definite(const Local& local, const std::vector<ex>& functions, bool either_sign) {
-    const Forms forms = forms_of(local, functions);
+    const EnergyForms forms = forms_of(local, functions);
     const int n = forms.size, count = static_cast<int>(forms.gradient.size());
     // Multipliers: columns of `balance` are gradients, that of H last.
     CertainMatrix balance(n, count), level(count - 1, n);

@@ -14,7 +14,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int highest_degree = 10, highest_form = 6;
+constexpr int highest_potential_degree = 10, highest_form = 6;
 
 /// W and its gradient as a program in the essential coordinates.
 class AmendedPotential {
@@ -100,15 +100,16 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     for (int i = 0; i < n; ++i)
         if (i != base) others.push_back(i);
     const CertainMatrix K_yy = K.part(others, others);
-    const Monomials line(1, highest_degree);
-    std::vector<CertainVector> curve(static_cast<std::size_t>(n), CertainVector(highest_degree + 1, Certain(0)));
+    const Monomials line(1, highest_potential_degree);
+    std::vector<CertainVector> curve(static_cast<std::size_t>(n),
+                                     CertainVector(highest_potential_degree + 1, Certain(0)));
     curve[base][1] = 1;
     const auto series = [&] {
         std::vector<Expansion> result;
         const Expansion x = Expansion::variable(line, 0, 0);
         for (int i = 0; i < n; ++i) {
             Expansion sum(0), power(1);
-            for (int k = 1; k <= highest_degree; ++k) {
+            for (int k = 1; k <= highest_potential_degree; ++k) {
                 power = power * x;
                 if (!curve[i][k].is_zero()) sum += Expansion(curve[i][k]) * power;
             }
@@ -116,7 +117,7 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
         }
         return result;
     };
-    for (int order = 1; order < highest_degree && !others.empty(); ++order) {
+    for (int order = 1; order < highest_potential_degree && !others.empty(); ++order) {
         const std::vector<Expansion> gradient = W.at(series());
         CertainMatrix right(static_cast<int>(others.size()), 1);
         for (std::size_t k = 0; k < others.size(); ++k)
@@ -126,7 +127,7 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
         for (std::size_t k = 0; k < others.size(); ++k) curve[others[k]][order] += step->entries[k];
     }
     const Expansion value = W.at(series()).back();
-    for (int k = 2; k <= highest_degree; ++k) {
+    for (int k = 2; k <= highest_potential_degree; ++k) {
         const Certain c = value.coefficient(k);
         if (c.is_zero()) continue;
         if (!c.sign()) return {};

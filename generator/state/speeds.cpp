@@ -16,7 +16,7 @@ namespace alembert {
 
 namespace {
 
-constexpr int states = 8;
+constexpr int most_states = 8;
 /// The first row that is a combination of those before it, or −1 (Gram-Schmidt, twice).
 int first_dependent(const Eigen::MatrixXd& rows) {
     std::vector<Eigen::RowVectorXd> basis;
@@ -59,7 +59,7 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
     std::optional<int> dependent;  // the last such row over all states
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> away(-0.7, 0.7);
-    for (int k = 0; k <= states; ++k) {
+    for (int k = 0; k <= most_states; ++k) {
         Start start = start_of(m);
         for (double& q : start.q) q += k == 0 ? 0 : away(random) * (1 + std::abs(q));
         const std::vector<double> value = interpret(program, start.state());

@@ -14,14 +14,14 @@ namespace {
 constexpr double most_work = 4000;
 constexpr int highest_degree = 12;
 
-using Symbols = std::set<ex, GiNaC::ex_is_less>;
+using SymbolSet = std::set<ex, GiNaC::ex_is_less>;
 
-void gather(const ex& e, Symbols& symbols) {
+void gather(const ex& e, SymbolSet& symbols) {
     if (GiNaC::is_a<GiNaC::symbol>(e)) symbols.insert(e);
     for (const ex& part : e) gather(part, symbols);
 }
 
-bool is_small(const ex& sum, const Symbols& symbols) {
+bool is_small(const ex& sum, const SymbolSet& symbols) {
     int total = 0;
     for (const ex& symbol : symbols) {
         const int degree = sum.degree(symbol);
@@ -42,7 +42,7 @@ ex factored(const ex& e) {
     if (GiNaC::is_a<GiNaC::power>(e)) return pow(factored(e.op(0)), e.op(1));
     if (!e.info(GiNaC::info_flags::rational_polynomial)) return e;
     const ex sum = e.expand();
-    Symbols symbols;
+    SymbolSet symbols;
     gather(sum, symbols);
     return is_small(sum, symbols) ? GiNaC::factor(sum) : e;
 }

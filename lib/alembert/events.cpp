@@ -9,14 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "alembert/tolerances.hpp"
+
 namespace alembert {
 namespace {
 
-constexpr int points = 5;       ///< where a step is looked at, ends included
-constexpr int most_rounds = 8;  ///< of looking again before an event that stops
+constexpr int points = 5;      ///< where a step is looked at, ends included
+constexpr int most_looks = 8;  ///< of looking again before an event that stops
 constexpr std::array<double, points> places = {0, 0.25, 0.5, 0.75, 1};
 constexpr double bend = 2;  ///< a function that heads for zero may fall this many times as steeply further on
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
 
@@ -98,7 +99,7 @@ void EventWatch::begin(double t, const double* state, const double* rate) {
 /// event that contains accelerations has the part of its slope that these leave.
 void EventWatch::slopes_at(double t, const double* state, const double* rate, const std::vector<double>& values,
                            double length) {
-    const double ahead = std::max(1e-6 * length, 64 * epsilon * std::abs(t));
+    const double ahead = std::max(1e-6 * length, 64 * tolerance::epsilon * std::abs(t));
     for (std::size_t i = 0; i < ahead_.size(); ++i) ahead_[i] = state[i] + ahead * rate[i];
     events_(t + ahead, ahead_.data(), rate, ahead_values_.data());
     for (std::size_t k = 0; k < slope_.size(); ++k) slope_[k] = (ahead_values_[k] - values[k]) / ahead;
@@ -110,7 +111,7 @@ std::vector<Crossing> EventWatch::look(const Stretch& step) {
     const std::vector<int> sign_before = sign_;
     std::vector<Crossing> found = scan(step);
     const bool is_stopped = std::any_of(found.begin(), found.end(), [&](const Crossing& c) { return stops(c); });
-    for (int round = 0; is_stopped && round < most_rounds; ++round) {
+    for (int round = 0; is_stopped && round < most_looks; ++round) {
         last_ = value_before;
         slope_ = slope_before;
         sign_ = sign_before;  // those at the end of the step matter no more: the run ends here
@@ -302,7 +303,7 @@ double EventWatch::locate(const Stretch& step, int index, double left, double g_
                           double g_right) {
     double b = left, g_b = g_left;    // the newest point
     double a = right, g_a = g_right;  // the other side of the zero
-    const double least = 4 * epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
+    const double least = 4 * tolerance::epsilon * std::max(1.0, std::abs(step.end) / (step.end - step.start));
     const double highest = std::max(std::abs(g_left), std::abs(g_right));  // a pole rises above both
     double part = 0.5;
     for (int i = 0; i < 100; ++i) {

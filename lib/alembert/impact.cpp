@@ -21,15 +21,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rank_threshold = 1e-10;  // of rows of length 1
-constexpr double rounding = 1e-12;        // of the size of what is added up
-constexpr double rest = 1e-9;             // of the same: what counts as nothing
-constexpr double slow = rest / rounding;  // approaches that do not bounce, in grains
-constexpr int most_elastic = 1000;        // collisions in one instant; a thin wedge takes π over its angle
+constexpr double dependent = 1e-10;           // of rows of length 1
+constexpr double grain_of_sum = 1e-12;        // of the size of what is added up
+constexpr double rest = 1e-9;                 // of the same: what counts as nothing
+constexpr double slow = rest / grain_of_sum;  // approaches that do not bounce, in grains
+constexpr int most_elastic = 1000;            // collisions in one instant; a thin wedge takes π over its angle
 constexpr int most_collisions = 2 * most_elastic;
 
 Orthogonal decomposed(const MatrixXd& matrix) {
-    return {matrix, rank_threshold};
+    return {matrix, dependent};
 }
 
 bool is_definite(const MatrixXd& mass) {
@@ -67,7 +67,7 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
         Index best = -1;
         for (Index j = 0; j < E.cols(); ++j)
             if (std::find(passive.begin(), passive.end(), j) == passive.end() &&
-                slope[j] > rounding * E.col(j).norm() && (best < 0 || slope[j] > slope[best]))
+                slope[j] > grain_of_sum * E.col(j).norm() && (best < 0 || slope[j] > slope[best]))
                 best = j;
         if (best < 0) break;
         passive.push_back(best);
@@ -81,7 +81,7 @@ VectorXd non_negative_least_squares(const MatrixXd& E, const VectorXd& f) {
             std::vector<Index> kept;
             for (std::size_t i = 0; i < passive.size(); ++i) {
                 const double w = wish[static_cast<Index>(i)], moved = u[passive[i]] + part * (w - u[passive[i]]);
-                const bool stays = w > 0 || moved > rounding * std::abs(w);
+                const bool stays = w > 0 || moved > grain_of_sum * std::abs(w);
                 u[passive[i]] = stays ? moved : 0;
                 if (stays) kept.push_back(passive[i]);
             }
@@ -120,7 +120,7 @@ Push least_push(const MatrixXd& G, const VectorXd& h) {
     for (std::size_t i = 0; i < touching.size(); ++i) bounds[static_cast<Index>(i)] = h[touching[i]];
     const VectorXd exact = decomposed(active.transpose()).solve(bounds);
     const VectorXd shared = decomposed(active).solve(exact);
-    if ((active * shared - y).norm() > rest * y.norm() || shared.minCoeff() < -rounding * shared.norm())
+    if ((active * shared - y).norm() > rest * y.norm() || shared.minCoeff() < -grain_of_sum * shared.norm())
         return push;
     push.u.setZero();
     for (std::size_t i = 0; i < touching.size(); ++i)
@@ -151,7 +151,7 @@ struct Setting {
         for (Index k = 0; k < G.rows(); ++k) G_free.row(k) -= bilateral_part(G.row(k).transpose()).transpose();
         length = G_free.rowwise().norm();
         for (Index k = 0; k < G.rows(); ++k) {
-            if (length[k] <= rank_threshold * G.row(k).norm()) length[k] = 0;
+            if (length[k] <= dependent * G.row(k).norm()) length[k] = 0;
             if (length[k] > 0)
                 G_free.row(k) /= length[k];
             else
@@ -223,7 +223,7 @@ ImpactResult strike(const MatrixXd& mass, const VectorXd& before, const VectorXd
     const auto size = [&](Index i) { return s.G.row(i).norm() * largest + std::abs(contact_drift[i]); };
     double grain = 0;  // what rounding may be, in the unit of |x|
     for (Index i = 0; i < k; ++i)
-        if (s.length[i] > 0) grain = std::max(grain, rounding * size(i) / s.length[i]);
+        if (s.length[i] > 0) grain = std::max(grain, grain_of_sum * size(i) / s.length[i]);
     for (bool again = true; again;) {
         std::vector<Index> meeting;
         VectorXd h(k), approach(k), e(k);
@@ -301,14 +301,14 @@ ImpactResult press(const MatrixXd& mass, const VectorXd& force, const MatrixXd& 
     }
     Push given = least_push(s.G_free, h);
     if (!given.exists)
-        given = least_push(s.G_free, h - rounding * size.cwiseQuotient(s.length.cwiseMax(rank_threshold)));
+        given = least_push(s.G_free, h - grain_of_sum * size.cwiseQuotient(s.length.cwiseMax(dependent)));
     if (!given.exists)
         return {.failure = "no accelerations keep all contacts apart",
                 .after = {},
                 .bilateral = {},
                 .contact = {},
                 .stays_closed = {}};
-    result.contact = given.u.cwiseQuotient(s.length.cwiseMax(rank_threshold));
+    result.contact = given.u.cwiseQuotient(s.length.cwiseMax(dependent));
     const VectorXd y = s.G_free.transpose() * given.u, lacking = y - s.G.transpose() * result.contact;
     const VectorXd gained = s.mass.solve_upper(y);
     result.after += gained;

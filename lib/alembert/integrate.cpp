@@ -79,7 +79,7 @@ namespace {
 
 template <class AnyStep>
 Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events) {
-    return Run<AnyStep>(rhs, initial, options, events).go();
+    return StepLoop<AnyStep>(rhs, initial, options, events).go();
 }
 
 /// The rest of a run that was found to be stiff, rows on the same grid.

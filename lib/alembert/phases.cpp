@@ -18,12 +18,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_events_at_once = 100;
-
-bool contains(const std::vector<int>& list, int k) {
-    return std::find(list.begin(), list.end(), k) != list.end();
-}
 
 /// How one contact is watched in a phase.
 struct Watch {
@@ -180,7 +175,7 @@ private:
         Options here = options_;
         if (in_phases_) {
             here.start = t_;
-            here.duration = end - t_ > 16 * epsilon * std::abs(end) ? end - t_ : 0;
+            here.duration = end - t_ > 16 * tolerance::epsilon * std::abs(end) ? end - t_ : 0;
             here.sample = sample_interval(options_);
             here.grid = options_.start;
             if (count_ > 0) {  // so that no short contact is passed over
@@ -291,7 +286,7 @@ private:
             } else if (value[scene + k] <= slack[k]) {
                 const double off = std::abs(value[scene + k]);
                 const double fall = here.contacts.acceleration[k] - here.contacts.rows.row(k).dot(acceleration);
-                const double rise = (2 * off + 16 * epsilon * sizes[k]) / speed[k];
+                const double rise = (2 * off + 16 * tolerance::epsilon * sizes[k]) / speed[k];
                 if (speed[k] > still[k])
                     watch.open_until =
                         t_ + (fall > 0 ? std::min(rise, speed[k] / fall / 2) : rise);  // a quarter of the flight

@@ -10,9 +10,9 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_rounds = 8;         // Newton's method from the end of an accepted step needs one or two
-constexpr double small_change = 1e-8;  // its square is rounding
-constexpr double rounding = 0x1p-53;   // of a number of size 1
+constexpr int most_corrections = 8;       // Newton's method from the end of an accepted step needs one or two
+constexpr double small_change = 1e-8;     // its square is rounding
+constexpr double one_rounding = 0x1p-53;  // of a number of size 1
 constexpr double singular_pivot = 1e-5;
 constexpr double held = 5e-5;
 
@@ -87,14 +87,14 @@ bool Projection::unrolled(double t, double* state) {
     const auto project = module_.projection()->project;
     is_near_singular_ = false;
     double former = HUGE_VAL;
-    for (int round = 0; round < most_rounds && project != nullptr; ++round) {
+    for (int round = 0; round < most_corrections && project != nullptr; ++round) {
         project(t, state, par_.data(), moved_.data(), misfit_.data(), pivots_.data());
         double size = 0, zero = 0;
         bool moves = false, is_large = false;
         for (const double misfit : misfit_) size = std::max(size, std::abs(misfit));
         for (std::size_t i = 0; i < moved_.size(); ++i) {
             const double change = std::abs(moved_[i] - state[i]), scale = std::max(1.0, std::abs(state[i]));
-            moves |= change > rounding * scale;
+            moves |= change > one_rounding * scale;
             is_large |= i < static_cast<std::size_t>(n_) && change >= small_change * scale;
             zero += moved_[i] * 0;
         }
@@ -155,7 +155,7 @@ void Projection::operator()(double t, double* state) {
     if (unrolled(t, state)) return;
     Eigen::Map<Eigen::VectorXd> q(state, n_), u(state + n_, s_);
     double former = HUGE_VAL;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_corrections; ++round) {
         evaluate(t, state);
         const double size = position_.lpNorm<Eigen::Infinity>();
         if (!(size > 0) || !(size < former / 2)) break;

@@ -5,8 +5,8 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_rounds = 50, patience = 8;
-constexpr double rounding = 1e-12;  // changes below this that no longer shrink are rounding
+constexpr int most_iterations = 50, patience = 8;
+constexpr double still_shrinking = 1e-12;  // changes below this that no longer shrink are rounding
 constexpr double nothing = 4e-16;
 
 double largest_change(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -69,7 +69,7 @@ bool RattleStep::operator()(double t, double h, double* state) {
     Vector P;
     double former = HUGE_VAL, pulled = 0;  // by the constraints, in the last round
     for (int round = 0;; ++round) {
-        if (round == most_rounds) return false;
+        if (round == most_iterations) return false;
         P = p + h / 2 * here_.F;
         if (m_ > 0) P += here_.A.transpose() * impulse_;
         before_ = v_;
@@ -84,7 +84,7 @@ bool RattleStep::operator()(double t, double h, double* state) {
         w_ = there_.factors.solve(P - there_.free);
         change = std::max(change, std::abs(h) * largest_change(w_, before_));
         if (!(change < HUGE_VAL)) return false;
-        if ((change <= nothing && (round > 0 || m_ == 0)) || (change >= former && change < rounding)) break;
+        if ((change <= nothing && (round > 0 || m_ == 0)) || (change >= former && change < still_shrinking)) break;
         if (round > patience && change >= former) return false;
         former = change;
         if (m_ > 0) {

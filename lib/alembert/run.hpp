@@ -4,8 +4,8 @@
 /// One integration by steps of one kind, from options that have been checked to a trajectory. This is the inside
 /// of `integrate`: call that.
 ///
-///     Trajectory motion = Run<Step<dop853_tableau>>(rhs, initial, options, events).go();
-///     Trajectory motion = Run<Stepper<Gauss>>(rhs, initial, options, events).go();
+///     Trajectory motion = StepLoop<Step<dop853_tableau>>(rhs, initial, options, events).go();
+///     Trajectory motion = StepLoop<Stepper<Gauss>>(rhs, initial, options, events).go();
 ///
 /// A step is what has the members of Step (step.hpp). One that has `next_length(ratio)` chooses the length of the
 /// next step itself, because it chooses more with it (an order, or whether to keep a factorization).
@@ -37,9 +37,9 @@ inline double sample_interval(const Options& options) {
 
 /// A run with one method: its step, and what is collected on the way.
 template <class AnyStep>
-class Run {
+class StepLoop {
 public:
-    Run(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
+    StepLoop(const Rhs& rhs, const std::vector<double>& initial, const Options& options, const Events& events)
         : options_(options),
           end_(options.start + options.duration),
           grid_(options.grid.value_or(options.start)),

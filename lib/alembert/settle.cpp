@@ -21,13 +21,9 @@ using Eigen::VectorXd;
 constexpr double clock_grain = 1e-12;  // of the time; shorter flights cannot be told apart
 constexpr int most_rounds = 4;         // Newton's method from within the tolerance needs one or two
 
-bool contains(const std::vector<int>& list, int k) {
-    return std::find(list.begin(), list.end(), k) != list.end();
-}
-
 class Settling {
 public:
-    Settling(const Contacts& contacts, const Instant& instant, std::vector<double>& state)
+    Settling(const Contacts& contacts, const PhaseEnd& instant, std::vector<double>& state)
         : contacts_(contacts), at_(instant), state_(state), count_(static_cast<int>(contacts.names.size())) {
         look();
         n_ = here_.f.size();
@@ -247,7 +243,7 @@ private:
     }
 
     const Contacts& contacts_;
-    const Instant& at_;
+    const PhaseEnd& at_;
     std::vector<double>& state_;
     int count_;
     Index n_ = 0;
@@ -259,7 +255,7 @@ private:
 
 }  // namespace
 
-Settled settle(const Contacts& contacts, const Instant& instant, std::vector<double>& state) {
+Settled settle(const Contacts& contacts, const PhaseEnd& instant, std::vector<double>& state) {
     return Settling(contacts, instant, state).go();
 }
 

@@ -19,6 +19,7 @@
 ///  - the contacts that last are those of contact.hpp; one whose reaction has come down to zero is let go if that
 ///    is consistent.
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -38,6 +39,11 @@ struct Contacts {
     Kicks kicks = {};  ///< of events beside the contacts
 };
 
+/// Is k one of them?
+inline bool contains(const std::vector<int>& list, int k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+}
+
 struct ContactEvent {
     enum class Kind {
         impact,
@@ -53,7 +59,7 @@ struct ContactEvent {
 };
 
 /// Where the last phase has ended, and why.
-struct Instant {
+struct PhaseEnd {
     double t = 0;
     double tolerance = 1e-9;
     std::vector<int> closed = {}, resting = {};  ///< until now (contact.hpp: Lasting)
@@ -71,6 +77,6 @@ struct Settled {
 };
 
 /// Moves `state` (q, q', and what there is beyond, which stays).
-Settled settle(const Contacts& contacts, const Instant& instant, std::vector<double>& state);
+Settled settle(const Contacts& contacts, const PhaseEnd& instant, std::vector<double>& state);
 
 }  // namespace alembert

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "alembert/run.hpp"
+#include "alembert/tolerances.hpp"
 
 namespace alembert {
 
@@ -19,8 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_at_once = 6;        // signs that are undecided together: 3⁶ choices are tried
+constexpr int most_undecided = 6;      // signs that are undecided together: 3⁶ choices are tried
 constexpr int most_in_one_place = 50;  // changes without the time moving on
 constexpr double slack = 1e-9;         // of a consistent choice, relative to the rates of g on both sides
 constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
@@ -168,7 +168,7 @@ private:
         const std::size_t scene = events_.list.size();
         Options here = options_;
         here.start = t_;
-        here.duration = end_ - t_ > 16 * epsilon * std::abs(end_) ? end_ - t_ : 0;
+        here.duration = end_ - t_ > 16 * tolerance::epsilon * std::abs(end_) ? end_ - t_ : 0;
         here.sample = sample_interval(options_);
         here.grid = options_.grid.value_or(options_.start);
         here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
@@ -229,8 +229,8 @@ private:
             (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
             Watched one{.index = k, .sign = static_cast<double>(sides_[k])};
             const double off = std::abs(now.value(k)), speed = one.sign * now.slope(k);
-            const double rounding = 2 * off + 64 * epsilon * (*sizes_)[k];
-            if (one.sign * now.value(k) <= 64 * epsilon * (*sizes_)[k]) {
+            const double rounding = 2 * off + 64 * tolerance::epsilon * (*sizes_)[k];
+            if (one.sign * now.value(k) <= 64 * tolerance::epsilon * (*sizes_)[k]) {
                 if (speed * (end_ - t_) > 1e6 * rounding)
                     one.open_until = t_ + rounding / speed;
                 else
@@ -305,10 +305,10 @@ private:
     /// Sides for those that are open, the others as they are.
     bool choose(const std::vector<int>& open) {
         if (open.empty()) return true;
-        if (open.size() > most_at_once)
+        if (open.size() > most_undecided)
             return fail(
                 fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
-                            system_.names[open.front()], open.size() - 1, t_, most_at_once));
+                            system_.names[open.front()], open.size() - 1, t_, most_undecided));
         std::vector<Choice> found;
         std::vector<int> sides = sides_;
         std::size_t count = 1;

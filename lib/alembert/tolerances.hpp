@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 /// What counts as zero, equal or closed in floating point, and why. All are relative: each is multiplied with the
 /// size that is named. Bounds on the work of a search are no tolerances and stand where the search is; what is
 /// proved is proved in exact arithmetic and needs none.
 
 namespace alembert::tolerance {
+
+/// From 1 to the next number.
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Initial values break a constraint, or a rate its velocity constraint, if they are off by more than this times
 /// the sum of the sizes of its terms. Nine digits are what people type, and what a solved guess reaches without
