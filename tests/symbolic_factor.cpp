@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <random>
+
 #include "notation/factor.hpp"
+#include "notation/irreducible.hpp"
 #include "symbolic/bounded_factor.hpp"
 #include "symbolic/fourier.hpp"
 #include "symbolic_cases.hpp"
@@ -32,6 +35,41 @@ TEST_CASE("factor: products of small sums come back as products, large ones stay
     const ex large = pow(x, 60) + pow(y, 59) * z + pow(z, 61) * x + 1;
     CHECK(factored(large).is_equal(large));
     CHECK((factored(large * (x + y)) - large * (x + y)).expand().is_zero());
+}
+
+TEST_CASE(
+    "factor: the quick proof of irreducibility holds for what GiNaC finds no factor of, and for no product") {
+    test::Mechanics m;
+    const ex a = m.parameter("a"), b = m.parameter("b"), c = m.parameter("c");
+    const auto is_proved = [&](const ex& e) {
+        const Polynomial polynomial = fourier(e.expand(), m.symbols).value().polynomial();
+        const Atom atom = Polynomial(fourier(a, m.symbols).value().polynomial()).terms()[0].monomial[0].atom;
+        return is_surely_irreducible(polynomial, atom, 1);
+    };
+    int proved = 0, irreducible = 0;
+    std::mt19937_64 random(7);
+    const auto number = [&] { return GiNaC::numeric(static_cast<long>(random() % 7) - 3); };
+    const auto sum = [&](int degree) {
+        ex result = number() * pow(b, 3) + number() * c * c + 1;
+        result += pow(a, degree);
+        for (int k = 1; k < degree; ++k) result += pow(a, k) * (number() * b + number() * c * c + number());
+        return result;
+    };
+    for (int k = 0; k < 60; ++k) {
+        const ex first = sum(2 + k % 3), second = sum(1 + k % 2);
+        if (first.degree(a) < 1 || second.degree(a) < 1) continue;
+        CAPTURE(first);
+        CAPTURE(second);
+        CHECK(!is_proved(first * second));
+        CHECK(!is_proved((b + c + 1) * first));
+        if (GiNaC::is_a<GiNaC::add>(GiNaC::factor(first.expand())) && first.degree(a) > 1) {
+            ++irreducible;
+            proved += is_proved(first) ? 1 : 0;
+        }
+    }
+    MESSAGE(proved << " of " << irreducible << " irreducible sums are proved to be so");
+    CHECK(irreducible > 20);
+    CHECK(2 * proved > irreducible);
 }
 
 TEST_CASE("factor: sums with powers like a^3.1416 are their own factorization's product") {

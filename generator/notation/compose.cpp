@@ -65,9 +65,9 @@ Piece symbol_piece(const Factor& factor) {
     return piece;
 }
 
-/// Shorter forms are searched for until so many polynomials have been composed. A free rigid body takes nearly
-/// 2000.
-constexpr std::size_t most_composed = 3000;
+/// Shorter forms are searched for until polynomials of so many terms together have been composed, which takes a
+/// few tenths of a second. A free rigid body takes 2900.
+constexpr std::size_t most_effort = 6000;
 
 /// Steady terms first, then by degree, then in canonical order.
 bool stands_before(const Term& a, const Term& b) {
@@ -126,6 +126,7 @@ bool Composer::stays_apart(const Polynomial& polynomial) const {
 const Composer::Entry& Composer::entry(const Polynomial& polynomial) {
     const auto found = memo_.find(polynomial);
     if (found != memo_.end()) return found->second;
+    effort_ += polynomial.size();
     Phrase phrase = compose(polynomial);
     const int measured = alembert::cost(phrase);
     return memo_.emplace(polynomial, Entry{std::move(phrase), measured}).first->second;
@@ -140,7 +141,7 @@ int Composer::cost(const Polynomial& polynomial) {
 }
 
 bool Composer::is_exhausted() const {
-    return memo_.size() > most_composed;
+    return effort_ > most_effort;
 }
 
 const Polynomial& Composer::unfolded(const Polynomial& normal_form) {

@@ -43,6 +43,7 @@ private:
     bool stays_apart(const Polynomial& polynomial) const;
 
     bool decimals_;
+    std::size_t effort_ = 0;  ///< terms of all polynomials that have been composed
     Factorizer factorizer_;
     struct Entry {
         Phrase phrase;

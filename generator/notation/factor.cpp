@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
 // P = a·v + b, linear in v, has the factors of gcd(a, b) and one more. That settles nearly every coefficient of a
-// mechanism; only what is linear in nothing goes to GiNaC's factor (square-free, then multivariate Hensel lifting;
-// Geddes, Czapor & Labahn, Algorithms for Computer Algebra (1992), chapters 6 and 8).
+// mechanism. Of what is linear in nothing most is soon proved to be irreducible; the rest goes to GiNaC's factor
+// (square-free, then multivariate Hensel lifting; Geddes, Czapor & Labahn, Algorithms for Computer Algebra (1992),
+// chapters 6 and 8).
 #include "notation/factor.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+
+#include "notation/irreducible.hpp"
 
 namespace alembert {
 
@@ -55,6 +58,14 @@ bool is_small(const Polynomial& polynomial, const Occurrences& atoms) {
         total = total + degree;
     }
     return total * Rational(polynomial.size() * atoms.size()) <= most_for_ginac;
+}
+
+/// In the variable of the lowest degree, whose images are irreducible most often.
+bool is_surely_irreducible(const Polynomial& polynomial, const Occurrences& atoms) {
+    const auto degree = [](const auto& entry) { return Rational(entry.second.highest / entry.second.unit); };
+    const auto lowest = std::min_element(atoms.begin(), atoms.end(),
+                                         [&](const auto& a, const auto& b) { return degree(a) < degree(b); });
+    return is_surely_irreducible(polynomial, lowest->first, lowest->second.unit);
 }
 
 /// dividend/divisor where it goes without remainder: lexicographic division, the divisor's lead being its first
@@ -185,9 +196,10 @@ Factorization Factorizer::irreducible_factors(const Polynomial& polynomial) {
         linear = atom.get();
         fewest = occurrence.terms;
     }
+    const bool is_searched = !linear && is_small(polynomial, atoms);
     if (linear)
         split_linear(polynomial, *linear, result);
-    else if (is_small(polynomial, atoms) && ++searches_ <= most_searches)
+    else if (is_searched && !is_surely_irreducible(polynomial, atoms) && ++searches_ <= most_searches)
         result = factors_by_ginac(polynomial, atoms);
     else
         result.sums.emplace_back(polynomial, 1);

@@ -45,7 +45,7 @@ State<double> start_state(const Mechanism& m) {
     }
 }
 
-State<double> state_of_row(const Table& rows, std::size_t row, State<double> like) {
+State<double> state_of_row(const MotionTable& rows, std::size_t row, State<double> like) {
     const std::size_t n = like.q.size();
     like.t = rows.at(row, 0);
     for (std::size_t k = 0; k < n; ++k) {
