@@ -137,7 +137,10 @@ const Phrase& Composer::operator()(const Polynomial& polynomial) {
 }
 
 int Composer::cost(const Polynomial& polynomial) {
-    return entry(polynomial).cost;
+    if (!is_exhausted()) return entry(polynomial).cost;
+    int symbols = 0;
+    for (const Term& term : polynomial.terms()) symbols += 2 + 2 * static_cast<int>(term.monomial.size());
+    return symbols;
 }
 
 bool Composer::is_exhausted() const {

@@ -22,7 +22,7 @@ public:
 
     /// Sines and cosines are variables like others here. Sums are grouped where that is shorter.
     const Phrase& operator()(const Polynomial& polynomial);
-    /// cost((*this)(polynomial))
+    /// cost((*this)(polynomial)), or a guess by the number of symbols once nothing shorter is searched for.
     int cost(const Polynomial& polynomial);
     /// The same for a normal form, with multiple angles undone where that is shorter.
     Phrase formula(const Polynomial& normal_form);
