@@ -294,30 +294,6 @@ private:
 
 }  // namespace
 
-std::optional<int> twelfths_of_pi(double angle) {
-    const double k = std::round(angle * 12 / M_PI);
-    if (std::abs(k) > 1200 || std::abs(angle - k * M_PI / 12) > 4e-16 * std::abs(angle)) return {};
-    return static_cast<int>(k);
-}
-
-Real33 RobotPose::rotation() const {
-    const auto about = [](int axis, double angle) {
-        double c = std::cos(angle), s = std::sin(angle);
-        if (const std::optional<int> k = twelfths_of_pi(angle); k && *k % 6 == 0) {
-            constexpr std::array<double, 4> cosine{1, 0, -1, 0};
-            c = cosine[static_cast<std::size_t>((*k / 6) & 3)];
-            s = cosine[static_cast<std::size_t>((*k / 6 + 3) & 3)];
-        }
-        const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-        Real33 R = Real33::Identity();
-        R(i, i) = R(j, j) = c;
-        R(j, i) = s;
-        R(i, j) = -s;
-        return R;
-    };
-    return about(2, rpy[2]) * about(1, rpy[1]) * about(0, rpy[0]);
-}
-
 Robot parse_robot(const std::string& text, const std::string& file) {
     return Reader(text, file).read();
 }
