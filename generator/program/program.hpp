@@ -120,7 +120,12 @@ enum class Group : unsigned char {
     jacobi,
     output,
     event,
-    load,  ///< inverse dynamics: M q'' − f
+    slip,         ///< of each dry friction: its sliding velocity,
+    stick_bound,  ///< its static coefficient over the kinetic one,
+    friction,     ///< the size of its force while it slides,
+    normal,       ///< its normal force,
+    determinant,  ///< and what this is divided by where it is a multiplier, 1 without friction (frictions.hpp)
+    load,         ///< inverse dynamics: M q'' − f
     force,
     moment,  ///< of joints, three components for each
     input,   ///< prescribed motions and their derivatives
