@@ -298,3 +298,35 @@ TEST_CASE("friction: a ball with backspin grips or slides in each bounce as Rout
     CHECK(x < 0);  // the spin has turned it back
     check_balance(motion);
 }
+
+TEST_CASE("friction: verbs and methods that do not know it say so") {
+    const auto told = [](const std::vector<std::string>& command) {
+        const auto result = run(command);
+        CHECK(result.exit == 3);
+        return result.err;
+    };
+    CHECK(told({"sweep", scene_of("clutch"), "--vary", "mu=0.3:0.4:2"}).find("does not follow dry friction") !=
+          std::string::npos);
+    CHECK(told({"simulate", scene_of("clutch"), "--method", "cvode"}).find("dry friction") != std::string::npos);
+    for (const char* verb : {"linearize", "inverse", "impact"})
+        CHECK(told({verb, scene_of("billiard_ball")}).find("'cloth'") != std::string::npos);
+}
+
+TEST_CASE("friction: eval finds what sticks, and the force that holds it") {
+    // A block at rest on a slope, pulled by 5 N: it holds while 5 + m g sin alpha is below mu_s m g cos alpha.
+    const auto at_rest = [](const char* force) {
+        const auto result =
+            run({"eval",
+                 changed("block_on_slope", {{"rate = \"-v0\"", "rate = 0"},
+                                            {"value = \"c*t\"", std::string("value = \"") + force + "\""}}),
+                 "--json"});
+        REQUIRE(result.exit == 0);
+        return Json::parse(result.out);
+    };
+    const Json holds = at_rest("3"), slips = at_rest("5");
+    CHECK(holds["friction"]["slope"] == "stick");
+    CHECK(std::abs(holds["accelerations"]["s"].get<double>()) < 1e-14);
+    CHECK(slips["friction"]["slope"] == "slip +");
+    CHECK(slips["accelerations"]["s"].get<double>() ==
+          near(5.0 / 2 + g * std::sin(0.3) - 0.4 * g * std::cos(0.3)));
+}

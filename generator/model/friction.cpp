@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. Where v stays 0 the sign is the
 // number between −μₛ/μ and μₛ/μ that keeps it so; a run finds it (alembert/switching.hpp).
+#include "model/friction.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "alembert/error.hpp"
 #include "model/building.hpp"
 #include "model/constraint.hpp"
 #include "symbolic/functions.hpp"
@@ -94,6 +97,15 @@ void add_friction(Building& here, const FrictionRule& rule, int index) {
 }
 
 }  // namespace
+
+void need_given_normal_forces(const Mechanism& m, std::string_view who) {
+    for (const Mechanism::Friction& f : m.frictions)
+        if (f.multiplier)
+            throw ModelError(
+                fmt::format("{} does not know friction whose normal force is a reaction, as that of "
+                            "'{}'; give it as an expression, `normal`, in place of `on`",
+                            who, f.name));
+}
 
 void add_frictions(Building& here) {
     for (std::size_t k = 0; k < here.scene.frictions.size(); ++k)

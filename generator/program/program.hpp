@@ -122,7 +122,7 @@ enum class Group : unsigned char {
     event,
     slip,         ///< of each dry friction: its sliding velocity,
     stick_bound,  ///< its static coefficient over the kinetic one,
-    friction,     ///< the size of its force while it slides,
+    friction,     ///< its coefficient while it slides,
     normal,       ///< its normal force,
     determinant,  ///< and what this is divided by where it is a multiplier, 1 without friction (frictions.hpp)
     load,         ///< inverse dynamics: M q'' − f
