@@ -3,6 +3,7 @@
 // switching (tests/reference/belt_blocks.py).
 #include <doctest/doctest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,29 @@ doctest::Approx near(double value) {
 void check_balance(const Json& motion) {
     CHECK(motion["work_balance"].get<double>() < 1e-12);
 }
+
+/// The ladder of scenes/friction while it slides down: theta, theta' and the force of the wall, by Newton's and
+/// Euler's equations and Runge-Kutta's method.
+struct Ladder {
+    double theta = 0.8, rate = 0;
+
+    /// theta'' and the forces of the floor and the wall.
+    static Eigen::Vector3d solved(double theta, double rate) {
+        const double m = 10, l = 2, f = 0.2, w = 0.3, c = std::cos(theta), s = std::sin(theta);
+        Eigen::Matrix3d A;
+        A << m * l * c, f, -1, -m * l * s, -1, -w, m * l * l / 3, -l * s + f * l * c, l * c + w * l * s;
+        return A.partialPivLu().solve(
+            Eigen::Vector3d(m * l * s * rate * rate, m * l * c * rate * rate - m * g, 0));
+    }
+    double wall() const { return solved(theta, rate)[2]; }
+    Ladder after(double h) const {
+        const auto slope = [](const Ladder& at) { return Eigen::Vector2d(at.rate, solved(at.theta, at.rate)[0]); };
+        const auto moved = [&](const Eigen::Vector2d& by) { return Ladder{theta + by[0], rate + by[1]}; };
+        const Eigen::Vector2d a = slope(*this), b = slope(moved(h / 2 * a)), c = slope(moved(h / 2 * b)),
+                              d = slope(moved(h * c));
+        return moved(h / 6 * (a + 2 * b + 2 * c + d));
+    }
+};
 
 }  // namespace
 
@@ -329,4 +353,41 @@ TEST_CASE("friction: eval finds what sticks, and the force that holds it") {
     CHECK(slips["friction"]["slope"] == "slip +");
     CHECK(slips["accelerations"]["s"].get<double>() ==
           near(5.0 / 2 + g * std::sin(0.3) - 0.4 * g * std::cos(0.3)));
+}
+
+TEST_CASE("friction: a ladder leaves its rough wall when Newton's equations say so") {
+    const Json motion = simulated(scene_of("ladder"));
+    const auto releases = of_kind(motion, "release", "wall");
+    REQUIRE(releases.size() == 1);
+    const double step = 1e-3;
+    Ladder ladder;
+    double t = 0;
+    for (Ladder next = ladder.after(step); next.wall() > 0; next = ladder.after(step)) {
+        ladder = next;
+        t += step;
+    }
+    double low = 0, high = step;
+    for (int k = 0; k < 60; ++k) (ladder.after((low + high) / 2).wall() > 0 ? low : high) = (low + high) / 2;
+    CHECK(value(releases[0], "time") == doctest::Approx(t + low).epsilon(1e-11));
+    check_balance(motion);
+}
+
+TEST_CASE("friction: the amplitudes of a pendulum obey the work that its pivot takes, to where it sticks") {
+    const double weight = 9.81 * 0.5, moment = 0.2 * 50 * 0.02;
+    double theta = 1.2, side = 1;
+    std::size_t turns = 0;
+    while (weight * std::sin(theta) > moment) {
+        double next = theta - 2 * moment / weight;
+        for (int k = 0; k < 50; ++k)
+            next += (weight * (std::cos(next) - std::cos(theta)) - moment * (theta + next)) /
+                    (weight * std::sin(next) + moment);
+        theta = next;
+        side = -side;
+        ++turns;
+    }
+    const Json motion = simulated(scene_of("coulomb_pendulum"));
+    CHECK(of_kind(motion, "slip").size() + 1 == turns);
+    CHECK(of_kind(motion, "stick").size() == 1);
+    CHECK(coordinate(motion, "theta") == doctest::Approx(side * theta).epsilon(1e-11));
+    check_balance(motion);
 }

@@ -163,10 +163,11 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         wanted.push_back(std::get<0>(norms.back()));
     }
     // Open contacts do not push; those that the equations hold closed get their multipliers below.
-    for (const Mechanism::Unilateral& contact : m.unilateral)
-        lowering.define(contact.gap.multiplier, program.number(0));
     // f without friction whose normal force is a multiplier.
     Lowering acting_alone(program, m, options.fold);
+    for (const Mechanism::Unilateral& contact : m.unilateral)
+        for (Lowering* const one : {&lowering, &acting_alone})
+            one->define(contact.gap.multiplier, program.number(0));
     const NormalForces normal_forces(m, equations);
     if (normal_forces.any()) {
         normal_forces.leave_out(acting_alone, program);

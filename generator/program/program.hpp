@@ -124,7 +124,7 @@ enum class Group : unsigned char {
     stick_bound,  ///< its static coefficient over the kinetic one,
     friction,     ///< its coefficient while it slides,
     normal,       ///< its normal force,
-    determinant,  ///< and what this is divided by where it is a multiplier, 1 without friction (frictions.hpp)
+    determinant,  ///< and what this is divided by where it is a multiplier, else 1 (lower/normal_forces.hpp)
     load,         ///< inverse dynamics: M q'' − f
     force,
     moment,  ///< of joints, three components for each
