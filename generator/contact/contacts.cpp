@@ -9,6 +9,7 @@
 #include "alembert/tolerances.hpp"
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
+#include "program/partials.hpp"
 
 namespace alembert {
 
@@ -35,6 +36,19 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
 
 namespace {
 
+/// ∂slip/∂q' of each friction, n entries each.
+void add_slip_rows(Program& program) {
+    const std::vector<int> slips = program.nodes_of(Group::slip);
+    const int n = static_cast<int>(program.coordinates.size());
+    if (slips.empty()) return;
+    std::vector<int> rates;
+    for (int i = 0; i < n; ++i) rates.push_back(program.variable({Variable::Kind::rate, i}));
+    const auto found = partials(program, slips, rates, Elimination::forward);
+    std::vector<int> rows(slips.size() * rates.size(), program.number(0));
+    for (const Partial& one : found.value()) rows[static_cast<std::size_t>(one.output * n + one.input)] = one.node;
+    for (const int entry : rows) program.roots.push_back({Group::form_row, "", entry});
+}
+
 /// Rows and the like of all constraints, contacts last; no solution, which may not exist with all of them.
 Program view_of(const Mechanism& mechanism) {
     Mechanism closed = with_all_closed(mechanism);
@@ -45,13 +59,26 @@ Program view_of(const Mechanism& mechanism) {
     energy.power = 0;  // it holds multipliers
     Program program = lower(closed, routh(closed), energy);
     const auto is_wanted = [](const Root& root) {
-        for (const Group group :
-             {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position, Group::velocity})
+        for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position,
+                                  Group::velocity, Group::slip, Group::stick_bound, Group::friction})
             if (root.group == group) return true;
         return false;
     };
     std::erase_if(program.roots, [&](const Root& root) { return !is_wanted(root); });
+    add_slip_rows(program);
     return program.canonical();
+}
+
+/// In the order of the contacts' frictions; −1 for frictions that are not at a contact.
+std::vector<int> contacts_of_frictions(const Mechanism& m) {
+    std::vector<int> result;
+    for (const Mechanism::Friction& f : m.frictions) {
+        const auto found = std::find_if(m.unilateral.begin(), m.unilateral.end(), [&](const auto& contact) {
+            return f.multiplier && contact.gap.multiplier.is_equal(*f.multiplier);
+        });
+        result.push_back(found == m.unilateral.end() ? -1 : static_cast<int>(found - m.unilateral.begin()));
+    }
+    return result;
 }
 
 }  // namespace
@@ -59,7 +86,8 @@ Program view_of(const Mechanism& mechanism) {
 ContactView::ContactView(const Mechanism& mechanism)
     : program_(view_of(mechanism)),
       n_(mechanism.size()),
-      bilateral_(static_cast<int>(mechanism.constraints.size())) {
+      bilateral_(static_cast<int>(mechanism.constraints.size())),
+      rough_(contacts_of_frictions(mechanism)) {
     for (const Mechanism::Unilateral& contact : mechanism.unilateral) names_.push_back(contact.gap.name);
 }
 
@@ -87,6 +115,18 @@ Situation ContactView::at(const State<double>& state) const {
     std::iota(which.begin(), which.end(), 0);
     here.bilateral = selected(rows, {which.begin(), which.begin() + bilateral_});
     here.contacts = selected(rows, {which.begin() + bilateral_, which.end()});
+    const Eigen::VectorXd slip = of(Group::slip), slip_row = of(Group::form_row), sliding = of(Group::friction),
+                          bound = of(Group::stick_bound);
+    for (std::size_t k = 0; k < rough_.size(); ++k) {
+        if (rough_[k] < 0) continue;
+        const auto i = static_cast<Eigen::Index>(k);
+        const Eigen::RowVectorXd along = slip_row.segment(i * n_, n_).transpose();
+        here.rough.push_back({.contact = rough_[k],
+                              .slip = along,
+                              .drift = slip[i] - along.dot(u),
+                              .coefficient = sliding[i],
+                              .resting = sliding[i] * bound[i]});
+    }
     return here;
 }
 

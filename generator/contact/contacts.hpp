@@ -39,6 +39,7 @@ public:
 private:
     Program program_;
     int n_, bilateral_;
+    std::vector<int> rough_;  ///< of each friction: its contact, or −1
     std::vector<std::string> names_;
 };
 

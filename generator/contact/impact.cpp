@@ -10,6 +10,7 @@
 #include "formalism/routh.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
+#include "model/friction.hpp"
 #include "program/rounding.hpp"
 #include "state/assemble.hpp"
 
@@ -128,6 +129,7 @@ Impact impact(const Mechanism& mechanism) {
 
 Struck impact(Scene scene) {
     Struck result{prepared(std::move(scene))};
+    need_given_normal_forces(result.mechanism, "impact");
     result.hit = impact(result.mechanism);
     return result;
 }

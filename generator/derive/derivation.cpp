@@ -27,6 +27,7 @@ public:
         result_.degrees_of_freedom = m_.size();
         for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
         gaps();
+        frictions();
         for (const GiNaC::symbol& q : m_.q) result_.coordinates.push_back(symbol_of(q));
         for (int i = 0; i < e_.size(); ++i)
             result_.rows.push_back(symbol_of(e_.speeds_are_rates() ? m_.q[i] : e_.u[i]));
@@ -198,6 +199,15 @@ private:
         return std::any_of(m_.unilateral.begin(), m_.unilateral.end(), [&](const Mechanism::Unilateral& contact) {
             return contact.gap.multiplier.is_equal(c.multiplier);
         });
+    }
+
+    void frictions() {
+        for (const Mechanism::Friction& f : m_.frictions) {
+            const auto slip = normal(f.slip), sliding = normal(f.coefficient * f.normal),
+                       sticking = normal(f.resting * f.normal);
+            if (slip && sliding && sticking)
+                result_.frictions.push_back({f.name, readable(*slip), readable(*sliding), readable(*sticking)});
+        }
     }
 
     void gaps() {

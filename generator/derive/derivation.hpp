@@ -43,6 +43,13 @@ struct Derivation {
     std::vector<Phrase> positive;                             ///< on the sheet of roots on which all this holds
     std::vector<ReadableEquation> shares;              ///< of multipliers whose constraints depend on each other
     std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: what is not negative
+    /// Dry friction: it slides with the velocity `slip` against the force `sliding`, or sticks with a force of at
+    /// most `sticking`.
+    struct Rubs {
+        std::string name;
+        Phrase slip, sliding, sticking;
+    };
+    std::vector<Rubs> frictions;
 };
 
 /// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.

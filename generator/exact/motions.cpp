@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "exact/motions.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
 #include <tuple>
 
+#include "alembert/error.hpp"
 #include "exact/angle_sum.hpp"
 #include "exact/common_zeros.hpp"
 #include "exact/least_shares.hpp"
@@ -86,6 +89,13 @@ std::optional<Prime> value_of(const Program& p, int node, const ExactState& stat
 
 Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+    for (const Mechanism::Friction& f : m.frictions)
+        for (const GiNaC::symbol& lambda : e.lambda)
+            if (f.multiplier && f.multiplier->is_equal(lambda))
+                throw ModelError(fmt::format(
+                    "claims are not checked where friction, as '{}', is on a constraint, whose reaction may have "
+                    "either sign; make it a [[unilateral]] contact, or give the normal force as an expression",
+                    f.name));
     std::vector<ex> list;
     for (int i = 0; i < n_; ++i)
         for (int j = 0; j < n_; ++j) list.push_back(e.M(i, j));

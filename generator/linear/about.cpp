@@ -12,6 +12,7 @@
 #include "linear/linearize_symbolic.hpp"
 #include "lower/lower.hpp"
 #include "model/constant.hpp"
+#include "model/friction.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
 #include "state/assemble.hpp"
@@ -104,6 +105,7 @@ void close_contacts(Derived& d, const Start& start) {
 
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options) {
     LinearizedScene result{derived(std::move(scene), {.by = options.by, .at = options.at})};
+    need_given_normal_forces(result.mechanism, "linearize");
     result.start = start_of(result.mechanism, options.at);
     assemble(result.start, result.mechanism, lower_constraints(result.mechanism), options.at);
     if (!result.mechanism.unilateral.empty()) close_contacts(result, result.start);

@@ -9,6 +9,7 @@
 #include "formalism/routh.hpp"
 #include "lower/articulated_bodies.hpp"
 #include "lower/lower.hpp"
+#include "model/friction.hpp"
 
 namespace alembert {
 
@@ -16,6 +17,7 @@ using GiNaC::ex;
 
 std::vector<int> inverse_loads(Program& program, const Mechanism& m,
                                const std::vector<std::pair<GiNaC::symbol, int>>& given) {
+    need_given_normal_forces(m, "inverse");
     std::vector<std::pair<GiNaC::symbol, int>> known = given;
     for (const Mechanism::Unilateral& contact : m.unilateral)
         known.emplace_back(contact.gap.multiplier, program.number(0));

@@ -11,6 +11,7 @@
 #include "lower/articulated_bodies.hpp"
 #include "lower/energy_roots.hpp"
 #include "lower/lowering.hpp"
+#include "lower/normal_forces.hpp"
 #include "lower/project.hpp"
 #include "program/solve.hpp"
 
@@ -161,10 +162,23 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
                            equations.gamma[k]);
         wanted.push_back(std::get<0>(norms.back()));
     }
-    lowering.lower_definitions(wanted);
     // Open contacts do not push; those that the equations hold closed get their multipliers below.
+    // f without friction whose normal force is a multiplier.
+    Lowering acting_alone(program, m, options.fold);
     for (const Mechanism::Unilateral& contact : m.unilateral)
-        lowering.define(contact.gap.multiplier, program.number(0));
+        for (Lowering* const one : {&lowering, &acting_alone})
+            one->define(contact.gap.multiplier, program.number(0));
+    const NormalForces normal_forces(m, equations);
+    if (normal_forces.any()) {
+        normal_forces.leave_out(acting_alone, program);
+        define_rates(acting_alone, program, m, equations, udot);
+        acting_alone.lower_definitions(wanted);
+    }
+    Lowering& acting = normal_forces.any() ? acting_alone : lowering;
+    std::vector<ex> others;
+    for (const ex& e : wanted)
+        if (!normal_forces.any() || !m.z->depends(e, normal_forces.multipliers())) others.push_back(e);
+    lowering.lower_definitions(others);
 
     const auto blame_row = [&](int i) {
         if (equations.row_sources.empty()) return;
@@ -180,7 +194,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     RecursionNodes by_tree;
     if (recursive)
         by_tree = recursion(program, *equations.tree, *m.z, *options.recursion, has_matrix,
-                            [&](const ex& e) { return lowering(e); });
+                            [&](const ex& e) { return acting(e); });
     for (int i = 0; i < n && has_matrix; ++i)
         for (int j = 0; j <= i; ++j) {
             blame_row(i);
@@ -194,7 +208,7 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         }
     for (int i = 0; i < n && has_matrix; ++i) {
         blame_row(i);
-        std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : lowering(equations.forcing(i))}};
+        std::vector<Program::Term> terms{{1, recursive ? by_tree.forcing[i] : acting(equations.forcing(i))}};
         for (const auto& [c, row, gamma] : norms)
             terms.emplace_back(
                 1, program.product(1, {{lowering(c), 1}, {lowering((*row)[i]), 1}, {lowering(gamma), 1}}));
@@ -230,9 +244,11 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     if (!has_matrix && !by_tree.acceleration)
         throw ModelError(
             "the rates of the joints do not determine those of the coordinates; take the formalism 'recursive'");
-    if (const auto solution = by_tree.acceleration && m.constraints.empty()
-                                  ? by_tree.acceleration
-                                  : solve_symmetric(program, mass, forcing, n)) {
+    std::optional<std::vector<int>> solution = by_tree.acceleration && m.constraints.empty() ? by_tree.acceleration
+                                               : normal_forces.any()
+                                                   ? normal_forces.solve(lowering, program, mass, forcing)
+                                                   : solve_symmetric(program, mass, forcing, n);
+    if (solution) {
         for (int i = 0; i < n; ++i)
             program.roots.push_back({Group::acceleration, fmt::format("a{}", i), (*solution)[i]});
         for (std::size_t k = 0; k < kept.size(); ++k)
@@ -268,6 +284,8 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
     wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
+    for (const Mechanism::Friction& f : m.frictions)
+        wanted.insert(wanted.end(), {f.slip, f.coefficient, f.resting, f.normal});
     lowering.lower_definitions(wanted);
     add_energy_roots(lowering, program, m, equations, energy,
                      norms.empty() && has_matrix ? mass : std::vector<int>());
@@ -275,6 +293,16 @@ Program lower(const Mechanism& m, const Equations& equations, const Energy& ener
         program.roots.push_back({Group::output, part.name, lowering(part.value)});
     for (const Mechanism::Definition& part : m.events)
         program.roots.push_back({Group::event, part.name, lowering(part.value)});
+    for (const Mechanism::Friction& f : m.frictions) {
+        const int bound = f.resting.is_equal(f.coefficient)
+                              ? program.number(1)
+                              : program.product(1, {{lowering(f.resting), 1}, {lowering(f.coefficient), -1}});
+        program.roots.push_back({Group::slip, f.name, lowering(f.slip)});
+        program.roots.push_back({Group::stick_bound, f.name, bound});
+        program.roots.push_back({Group::friction, f.name, lowering(f.coefficient)});
+        program.roots.push_back({Group::normal, f.name, lowering(f.normal)});
+        program.roots.push_back({Group::determinant, f.name, normal_forces.determinant(program, f)});
+    }
     return program.canonical();
 }
 

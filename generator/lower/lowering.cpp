@@ -35,7 +35,7 @@ int Lowering::operator()(const ex& e) {
     return node;
 }
 
-int Lowering::define(const GiNaC::symbol& symbol, int node) {
+int Lowering::define(const ex& symbol, int node) {
     known_[symbol] = node;
     return node;
 }

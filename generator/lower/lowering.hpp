@@ -22,8 +22,8 @@ public:
 
     int operator()(const GiNaC::ex& e);
 
-    /// The value of a symbol that is none of the scene's.
-    int define(const GiNaC::symbol& symbol, int node);
+    /// The value of a symbol that is none of the scene's, or of an expression wherever it occurs.
+    int define(const GiNaC::ex& symbol, int node);
 
     /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
     void lower_definitions(const std::vector<GiNaC::ex>& roots);

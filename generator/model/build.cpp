@@ -108,6 +108,7 @@ Mechanism built(Building& here) {
     add_loads(here);
     add_speeds(here);
     add_conditions(here);
+    add_frictions(here);
     add_outputs(here);
     add_run(here);
     if (!here.mistakes.empty()) fail(scene, here.mistakes);

@@ -49,5 +49,7 @@ void declare(Building& here);
 void add_loads(Building& here);
 /// [[constraint]], quaternions' norms, [[rolling]], joints that close loops, [[unilateral]].
 void add_conditions(Building& here);
+/// [[friction]]: once the conditions are known.
+void add_frictions(Building& here);
 
 }  // namespace alembert

@@ -132,6 +132,18 @@ struct Mechanism {
         GiNaC::ex restitution;  ///< relative speed after an impact over the one before, 0 to 1; in parameters
     };
 
+    /// Dry friction, whose force −coefficient·normal·sign(slip) is among `loads` (Origin::Kind::friction). While
+    /// it sticks, slip = 0, and the force is at most resting·normal.
+    struct Friction {
+        std::string name;
+        GiNaC::ex slip;                  ///< linear in the rates
+        GiNaC::ex coefficient, resting;  ///< kinetic and static
+        GiNaC::ex normal;                ///< N; of a constraint or contact λ or |λ|
+        /// Whose λ it is, in `constraints` (of the mode) by its multiplier; nothing where N is given.
+        std::optional<GiNaC::symbol> multiplier;
+        Place place;
+    };
+
     std::string name;  ///< of the scene's file, without folder and ending
     std::string title;
     std::shared_ptr<Symbols> symbols;
@@ -165,6 +177,7 @@ struct Mechanism {
     };
     std::vector<Rolling> rollings;
     std::vector<Unilateral> unilateral;
+    std::vector<Friction> frictions;
     std::vector<Definition> outputs, events;
 
     /// What a zero of an event does, beside being told.

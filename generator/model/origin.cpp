@@ -39,6 +39,8 @@ std::string label(const Origin& origin) {
             return "[energy] lagrangian";
         case Kind::rayleigh:
             return "[dissipation]";
+        case Kind::friction:
+            return "friction " + origin.name;
     }
     return {};
 }

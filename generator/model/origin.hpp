@@ -27,6 +27,7 @@ struct Origin {
         given_potential,
         given_lagrangian,
         rayleigh,  ///< [dissipation]
+        friction,  ///< dry
     };
     Kind kind = Kind::body;
     int index = 0;  ///< position in the scene's table of that kind; of gravity in the table of what it acts on

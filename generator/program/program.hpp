@@ -120,7 +120,12 @@ enum class Group : unsigned char {
     jacobi,
     output,
     event,
-    load,  ///< inverse dynamics: M q'' − f
+    slip,         ///< of each dry friction: its sliding velocity,
+    stick_bound,  ///< its static coefficient over the kinetic one,
+    friction,     ///< its coefficient while it slides,
+    normal,       ///< its normal force,
+    determinant,  ///< and what this is divided by where it is a multiplier, else 1 (lower/normal_forces.hpp)
+    load,         ///< inverse dynamics: M q'' − f
     force,
     moment,  ///< of joints, three components for each
     input,   ///< prescribed motions and their derivatives

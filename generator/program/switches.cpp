@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
+#include "program/interpret.hpp"
 #include "program/partials.hpp"
 #include "program/rewriting.hpp"
 
@@ -100,7 +103,81 @@ std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& con
     return rates;
 }
 
+/// +1 or −1 where b is a positive or negative multiple of a in three states of no meaning, else 0. (One may have
+/// come through a readable form.)
+int ratio_of(const Program& p, int a, int b) {
+    constexpr double same = 1e-9;
+    double first = 0;
+    for (int trial = 0; trial < 3; ++trial) {
+        unsigned seed = 7U + static_cast<unsigned>(trial);
+        const auto numbers = [&seed](std::size_t count) {
+            std::vector<double> list(count);
+            for (double& x : list) {
+                seed = seed * 1664525U + 1013904223U;
+                x = 0.1 + 0.8 * (seed >> 8) / 16777216.0;
+            }
+            return list;
+        };
+        const std::size_t n = p.coordinates.size(), s = p.speeds.empty() ? n : p.speeds.size();
+        State<double> state{.parameters = numbers(p.parameters.size()),
+                            .t = 0.3,
+                            .q = numbers(n),
+                            .qdot = numbers(s),
+                            .qddot = {}};
+        const std::vector<double> value = interpret(p, state);
+        const double ratio = value[static_cast<std::size_t>(b)] / value[static_cast<std::size_t>(a)];
+        if (trial == 0) first = ratio;
+        if (!std::isfinite(ratio) || ratio == 0 || std::abs(ratio - first) > same * std::abs(first)) return 0;
+    }
+    return first > 0 ? 1 : -1;
+}
+
+/// Which frictions each condition belongs to.
+std::vector<std::vector<Switched::Rubbing>> frictions_of(const Program& p, const std::vector<int>& conditions) {
+    std::vector<std::vector<Switched::Rubbing>> result(conditions.size());
+    const std::vector<int> slips = p.nodes_of(Group::slip);
+    for (std::size_t i = 0; i < slips.size(); ++i)
+        for (std::size_t k = 0; k < conditions.size(); ++k)
+            if (const int direction = ratio_of(p, conditions[k], slips[i]); direction != 0)
+                result[k].push_back({static_cast<int>(i), direction});
+    return result;
+}
+
+/// What friction can hold over what it resists when it slides, and what must not become negative; 1 where there is
+/// none. Where several have one sliding velocity, the bound is that of all together.
+void add_bounds(Program& p, const Switched& s) {
+    const std::vector<int> bounds = p.nodes_of(Group::stick_bound), sliding = p.nodes_of(Group::friction),
+                           normals = p.nodes_of(Group::normal), determinants = p.nodes_of(Group::determinant);
+    const auto add = [&p](const char* what, std::size_t k, int node) {
+        p.roots.push_back({Group::event, fmt::format("{} {}", what, k + 1), node});
+    };
+    for (std::size_t k = 0; k < s.frictions.size(); ++k) {
+        std::vector<Program::Term> held, slid;
+        for (const Switched::Rubbing& one : s.frictions[k]) {
+            const auto i = static_cast<std::size_t>(one.friction);
+            slid.emplace_back(1, p.product(1, {{sliding[i], 1}, {normals[i], 1}}));
+            held.emplace_back(1, p.product(1, {{bounds[i], 1}, {slid.back().second, 1}}));
+        }
+        add("bound of side", k,
+            held.empty()       ? p.number(1)
+            : held.size() == 1 ? bounds[static_cast<std::size_t>(s.frictions[k][0].friction)]
+                               : p.product(1, {{p.sum(0, held), 1}, {p.sum(0, slid), -1}}));
+    }
+    for (std::size_t k = 0; k < s.frictions.size(); ++k) {
+        std::vector<int> all;
+        for (const Switched::Rubbing& one : s.frictions[k]) {
+            const auto i = static_cast<std::size_t>(one.friction);
+            all.push_back(p[determinants[i]].is_number() ? normals[i] : determinants[i]);
+        }
+        add("limit at side", k, all.empty() ? p.number(1) : all.size() == 1 ? all[0] : p.call(Op::min, all));
+    }
+}
+
 }  // namespace
+
+bool Switched::has_frictions() const {
+    return std::any_of(frictions.begin(), frictions.end(), [](const auto& list) { return !list.empty(); });
+}
 
 std::optional<Switched> switched(const Program& program) {
     if (program.singular) return std::nullopt;
@@ -119,7 +196,10 @@ std::optional<Switched> switched(const Program& program) {
         made.roots.push_back({Group::event, fmt::format("side function {}", k + 1), conditions[k]});
     for (std::size_t k = 0; k < conditions.size(); ++k)
         made.roots.push_back({Group::event, fmt::format("rate of side function {}", k + 1), (*rates)[k]});
-    return Switched{made.canonical(), holding.functions()};
+    Switched result{.program = {}, .functions = holding.functions(), .frictions = frictions_of(made, conditions)};
+    if (result.has_frictions()) add_bounds(made, result);
+    result.program = made.canonical();
+    return result;
 }
 
 }  // namespace alembert

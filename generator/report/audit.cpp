@@ -61,6 +61,8 @@ Json as_json(const Audited& audited) {
         for (const int k : pose.among) one["among"].push_back(m.constraints[k].name);
         json["singular_poses"].push_back(one);
     }
+    for (const Mechanism::Friction& f : m.frictions)
+        json["friction"].push_back({{"name", f.name}, {"modes", {"stick", "slip +", "slip -"}}});
     json["notes"] = audit.notes;
     if (!audit.problem.empty()) json["problem"] = audit.problem;
     return json;
@@ -77,6 +79,8 @@ std::string as_text(const Audited& audited) {
     put(page, "\n");
     if (!m.identities.empty())
         put(page, "Left out, since they hold wherever the bodies are: {}\n", fmt::join(m.identities, ", "));
+    for (const Mechanism::Friction& f : m.frictions)
+        put(page, "friction {} has three modes: it sticks, or slips one way or the other\n", f.name);
     if (audit.constraints.empty()) {
         put(page, "There are no constraints.\n");
         return page;

@@ -23,6 +23,11 @@ std::size_t widest_name(const Evaluation& e) {
     return width;
 }
 
+/// As `audit` calls the modes of a dry friction.
+const char* mode_of(int side) {
+    return side == 0 ? "stick" : side > 0 ? "slip +" : "slip -";
+}
+
 }  // namespace
 
 Json as_json(const Evaluation& e, bool reactions) {
@@ -40,6 +45,7 @@ Json as_json(const Evaluation& e, bool reactions) {
     result["residuals"] = Json::object();
     for (const auto& [name, residual] : e.residuals) result["residuals"][name] = residual;
     if (e.closed) result["closed"] = *e.closed;
+    for (const auto& [name, side] : e.frictions) result["friction"][name] = mode_of(side);
     if (!e.adjusted.empty()) result["adjusted"] = e.adjusted;
     result["outputs"] = object_of(e.outputs);
     if (!reactions) return result;
@@ -62,6 +68,7 @@ std::string as_text(const Evaluation& e) {
         put(page, "{:<{}}{:>24.16g}{:>24.16g}\n", e.speeds[k].first, width, e.speeds[k].second,
             e.speed_rates[k].second);
     for (const auto& [name, value] : e.multipliers) put(page, "{:<{}}{:>24.16g}\n", name, width, value);
+    for (const auto& [name, side] : e.frictions) put(page, "friction {}: {}\n", name, mode_of(side));
     for (const std::string& line : e.adjusted) put(page, "adjusted {}\n", line);
     put(page, "\nT = {:.16g}\nV = {:.16g}\nE = {:.16g}\n", e.kinetic, e.potential, e.energy);
     for (const auto& [name, value] : e.outputs) put(page, "{} = {:.16g}\n", name, value);

@@ -77,6 +77,32 @@ std::string text_of(const std::vector<ContactEvent>& events, const std::vector<s
     return text;
 }
 
+/// Impacts, releases, sticking and slipping in the order of time.
+Json contacts_of(const Run& run) {
+    std::vector<Json> list;
+    for (Json& event : json_of(run.motion.contacts, run.contacts)) list.push_back(std::move(event));
+    for (const Run::FrictionChange& change : run.friction_changes)
+        list.push_back({{"time", change.time},
+                        {"name", run.mechanism.frictions[static_cast<std::size_t>(change.friction)].name},
+                        {"event", change.side == 0 ? "stick" : "slip"},
+                        {"side", change.side}});
+    std::stable_sort(list.begin(), list.end(), [](const Json& a, const Json& b) { return a["time"] < b["time"]; });
+    return list;
+}
+
+std::string text_of(const std::vector<Run::FrictionChange>& changes, const Mechanism& m) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(changes.size(), most_lines); ++k)
+        text += fmt::format("friction {}: {} at t = {:.15g}\n",
+                            m.frictions[static_cast<std::size_t>(changes[k].friction)].name,
+                            changes[k].side == 0  ? "sticks"
+                            : changes[k].side > 0 ? "slips (+)"
+                                                  : "slips (-)",
+                            changes[k].time);
+    if (changes.size() > most_lines) text += fmt::format("… and {} more\n", changes.size() - most_lines);
+    return text;
+}
+
 /// "radau from t = 0.31 on: …", for a person.
 std::string described(const Switch& s) {
     return fmt::format(
@@ -156,6 +182,7 @@ void add_motion(std::string& page, const Run& run) {
         put(page, "the Jacobian is emitted: {} operations\n", *run.solver.jacobian_operations);
     page += text_of(run.motion.events, run.mechanism);
     page += text_of(run.motion.contacts, run.contacts);
+    page += text_of(run.friction_changes, run.mechanism);
     page += text_of(run.side_changes);
     put(page, "\nat t = {:.15g}\n", run.motion.final_time());
     const std::size_t width = column_for(run.speeds, column_for(run.coordinates, 16));
@@ -229,10 +256,8 @@ Json as_json(const Run& run) {
     for (const Run::Side& change : run.side_changes)
         result["switches"].push_back(
             {{"time", change.time}, {"name", change.name}, {"event", event_name(change.kind)}});
-    if (!run.contacts.empty()) {
-        result["contacts"] = json_of(run.motion.contacts, run.contacts);
-        result["impact_loss"] = energy.impact_loss;
-    }
+    if (!run.contacts.empty() || !run.mechanism.frictions.empty()) result["contacts"] = contacts_of(run);
+    if (!run.contacts.empty()) result["impact_loss"] = energy.impact_loss;
     result["seconds"] = {{"derive", run.timings.derive},
                          {"emit", run.timings.emit},
                          {"compile", run.timings.compile},

@@ -11,6 +11,7 @@
 #include "contact/contacts.hpp"
 #include "lower/lower.hpp"
 #include "program/without_rounding.hpp"
+#include "run/held_state.hpp"
 #include "state/assemble.hpp"
 #include "state/diagnose.hpp"
 
@@ -75,7 +76,14 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         e.closed.emplace();
         for (const int k : close_contacts(e, state)) e.closed->push_back(m.unilateral[k].gap.name);
     }
-    const Program program = lowered(e).program;
+    Program program = lowered(e).program;
+    if (const auto jumps = program.nodes_of(Group::slip).empty() ? std::nullopt : switched(program);
+        jumps && jumps->has_frictions()) {
+        HeldState held = held_state(*jumps, std::move(state));
+        program = std::move(held.program);
+        state = std::move(held.state);
+        e.frictions = std::move(held.frictions);
+    }
     state.qddot = accelerations_at(e, program, state);
     const std::vector<double> value = interpret(program, state);  // outputs may hold accelerations
     const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };

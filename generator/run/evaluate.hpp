@@ -33,6 +33,8 @@ struct Evaluation : Derived {
     std::vector<std::pair<std::string, std::array<double, 2>>> residuals =
         {};                                               ///< of each constraint: position, velocity
     std::optional<std::vector<std::string>> closed = {};  ///< unilateral contacts that are closed and stay so
+    /// Of each dry friction: +1 or −1 where it slides along that side, 0 where it sticks.
+    std::vector<std::pair<std::string, int>> frictions = {};
     std::vector<std::string> adjusted = {};  ///< in words, what was moved so that the constraints hold
     Named outputs = {};
     struct Reaction {

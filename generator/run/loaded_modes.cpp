@@ -27,6 +27,29 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
     return result;
 }
 
+/// Why a motion cannot go on with this friction, with the numbers that make it so.
+std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t, const double* y) {
+    std::string numbers;
+    const auto list = [&](const std::vector<Quantity>& of, const auto& value) {
+        for (std::size_t k = 0; k < of.size(); ++k)
+            numbers += fmt::format("{}{} = {:.6g}", numbers.empty() ? "" : ", ", of[k].name, value(k));
+    };
+    list(p.coordinates, [&](std::size_t k) { return y[k]; });
+    list(p.parameters, [&](std::size_t k) { return p.parameters[k].value; });
+    if (!f.multiplier)
+        return fmt::format(
+            "the normal force of friction '{}' becomes negative at t = {:.15g}; give one that is never negative, "
+            "such "
+            "as max(0, …), or abs(…) where it acts on both sides (there {})",
+            f.name, t, numbers);
+    return fmt::format(
+        "at t = {:.15g} no mode of friction '{}' is consistent, or more than one is: the determinant of the "
+        "equation "
+        "for {} is not positive there, so that friction makes the reaction grow faster than the reaction resists "
+        "(Painlevé); a smaller coefficient has a motion there ({})",
+        t, f.name, f.multiplier->get_name(), numbers);
+}
+
 }  // namespace
 
 bool has_jumps(const Mechanism& m) {
@@ -149,11 +172,11 @@ void LoadedMode::measure_sides(const Trajectory& motion) {
     }
 }
 
-void LoadedModes::hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
+void LoadedModes::hold_signs(LoadedMode& mode, const Switched& jumps, std::size_t events,
                              const SeriesModule& series) {
     LoadedMode* const self = &mode;
     Switching system = switching_of(
-        mode.module, start_.parameters, std::move(names), work_,
+        mode.module, start_.parameters, names_of_sides(mode.program, jumps), jumps.has_frictions(), work_,
         [this, self, series](const std::vector<double>& values) {
             Rhs rhs = make_rhs(self->module, values, work_);
             rhs.extra = self->contact.rhs.extra;
@@ -162,9 +185,15 @@ void LoadedModes::hold_signs(LoadedMode& mode, std::vector<std::string> names, s
         });
     mode.side_sizes.assign(system.names.size(), 0);
     system.before_step = [self](const std::vector<double>& sigma) { self->hold(sigma); };
-    system.on_change = [this, self](const SideChange& change) {
-        if (on_side_change)
-            on_side_change(change, self->contact.switching->names[static_cast<std::size_t>(change.index)]);
+    system.on_change = [this, self, frictions = jumps.frictions](const SideChange& change) {
+        const auto k = static_cast<std::size_t>(change.index);
+        if (on_side_change) on_side_change(change, self->contact.switching->names[k], frictions[k]);
+    };
+    system.refusal = [self, frictions = jumps.frictions](int k, double t, const double* y) {
+        return refusal_of(
+            self->derived.mechanism
+                .frictions[static_cast<std::size_t>(frictions[static_cast<std::size_t>(k)][0].friction)],
+            self->program, t, y);
     };
     mode.contact.events = first_events(std::move(mode.contact.events), events);
     mode.contact.switching = std::make_shared<const Switching>(std::move(system));
@@ -225,6 +254,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     seconds_.compile += lap();
 
     const std::size_t sides = jumps ? jumps->functions.size() : 0;
+    const std::size_t watched = jumps && jumps->has_frictions() ? 4 * sides : 2 * sides;
     std::vector<double> values = start_.parameters;
     values.resize(values.size() + sides, 1.0);
     std::vector<bool> stops;
@@ -234,8 +264,8 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
         directions.push_back(event.direction);
     }
     const std::size_t events = stops.size();
-    stops.resize(events + 2 * sides);
-    directions.resize(events + 2 * sides);
+    stops.resize(events + watched);
+    directions.resize(events + watched);
     const bool constrained = !derived.mechanism.constraints.empty();
     auto mode = std::make_unique<LoadedMode>(
         LoadedMode{.derived = std::move(derived),
@@ -256,7 +286,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
     if (!method_.sundials.empty()) mode->contact.by = sundials_integrator(method_.sundials, module, values);
     LoadedMode* const self = mode.get();
-    if (jumps) hold_signs(*self, names_of_sides(self->program, jumps->functions), events, series_module);
+    if (jumps) hold_signs(*self, *jumps, events, series_module);
     if (constrained) {
         mode->contact.project = self->projection.after_steps();
         if (!jumps) mode->contact.rhs = self->projection.guarded(std::move(mode->contact.rhs));

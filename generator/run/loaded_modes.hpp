@@ -20,6 +20,7 @@
 #include "contact/kicks.hpp"
 #include "derive/derived.hpp"
 #include "emit/emit.hpp"
+#include "program/switches.hpp"
 #include "run/method.hpp"
 
 namespace alembert {
@@ -70,8 +71,10 @@ public:
     /// the stages throw.
     LoadedMode& operator()(const std::vector<int>& closed);
 
-    /// Told what happens to the signs that a right-hand side holds, and their names; may be empty.
-    std::function<void(const SideChange&, const std::string& name)> on_side_change = {};
+    /// Told what happens to the signs that a right-hand side holds, their names, and the frictions whose sliding
+    /// velocities have them; may be empty.
+    std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
+        on_side_change = {};
 
     /// Takes the program of the mode {} from one who has it.
     void take_free(Program program);
@@ -89,8 +92,7 @@ public:
 
 private:
     std::unique_ptr<LoadedMode> made(const std::vector<int>& closed);
-    void hold_signs(LoadedMode& mode, std::vector<std::string> names, std::size_t events,
-                    const SeriesModule& series);
+    void hold_signs(LoadedMode& mode, const Switched& jumps, std::size_t events, const SeriesModule& series);
     Rhs with_jacobian(LoadedMode& mode);
     CompileOptions options_of_compiler() const;
 

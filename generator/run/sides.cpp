@@ -83,10 +83,19 @@ std::string text_of(const Program& p, int id, int depth = 0) {
 
 }  // namespace
 
-std::vector<std::string> names_of_sides(const Program& program, const std::vector<int>& functions) {
+std::vector<std::string> names_of_sides(const Program& program, const Switched& s) {
     constexpr std::size_t longest = 60;
+    std::vector<const Root*> frictions;
+    for (const Root& root : program.roots)
+        if (root.group == Group::slip) frictions.push_back(&root);
     std::vector<std::string> names;
-    for (const int id : functions) {
+    for (std::size_t k = 0; k < s.functions.size(); ++k) {
+        if (!s.frictions[k].empty()) {
+            names.push_back(fmt::format("friction '{}'",
+                                        frictions[static_cast<std::size_t>(s.frictions[k][0].friction)]->name));
+            continue;
+        }
+        const int id = s.functions[k];
         const std::string text = text_of(program, id);
         names.push_back(text.size() <= longest ? text : fmt::format("{}(…)", name_of(program[id].op)));
     }
@@ -94,8 +103,8 @@ std::vector<std::string> names_of_sides(const Program& program, const std::vecto
 }
 
 Switching switching_of(const Module& module, const std::vector<double>& values, std::vector<std::string> names,
-                       Work work, std::function<Rhs(const std::vector<double>& values)> smooth) {
-    const auto count = names.size();
+                       bool has_bounds, Work work, std::function<Rhs(const std::vector<double>& values)> smooth) {
+    const std::size_t count = names.size(), more = has_bounds ? 2 * count : 0;
     const auto held = std::make_shared<HeldParameters>(module, values, static_cast<int>(count));
     Switching system;
     system.names = std::move(names);
@@ -108,12 +117,15 @@ Switching switching_of(const Module& module, const std::vector<double>& values, 
         table.energy(t, y, rate, par, energy, &jacobi);
         rate[table.coordinates + table.speeds] = energy[3];
     };
-    system.values = [module, held, count,
-                     all = std::vector<double>(static_cast<std::size_t>(module.table().events))](
-                        double t, const double* y, const double* sigma, const double* rate, double* out) mutable {
-        module.table().events_at(t, y, rate, held->with(sigma), all.data());
-        std::copy(all.end() - static_cast<std::ptrdiff_t>(2 * count), all.end(), out);
+    const auto events_from = [module, held, count](std::size_t before_end) {
+        return [=, all = std::vector<double>(static_cast<std::size_t>(module.table().events))](
+                   double t, const double* y, const double* sigma, const double* rate, double* out) mutable {
+            module.table().events_at(t, y, rate, held->with(sigma), all.data());
+            std::copy_n(all.end() - static_cast<std::ptrdiff_t>(before_end), 2 * count, out);
+        };
     };
+    system.values = events_from(2 * count + more);
+    if (has_bounds) system.bounds = events_from(more);
     system.smooth = [held, smooth = std::move(smooth)](const std::vector<double>& sigma) {
         return smooth(held->values(sigma));
     };

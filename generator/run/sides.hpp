@@ -29,12 +29,14 @@ private:
     std::vector<double> values_, sigma_, par_;
 };
 
-/// Names of the functions whose signs are held, for messages: "sign(x'-v)".
-std::vector<std::string> names_of_sides(const Program& program, const std::vector<int>& functions);
+/// Names of the functions whose signs are held, for messages: "sign(x'-v)", "friction 'floor'". `program` is the
+/// one that `s` was made from.
+std::vector<std::string> names_of_sides(const Program& program, const Switched& s);
 
-/// `smooth` as Switching has it; what is told of steps and changes is for the caller to add.
+/// `smooth` as Switching has it; what is told of steps and changes is for the caller to add. `has_bounds`: the
+/// events end with those of dry friction.
 Switching switching_of(const Module& module, const std::vector<double>& values, std::vector<std::string> names,
-                       Work work, std::function<Rhs(const std::vector<double>& values)> smooth);
+                       bool has_bounds, Work work, std::function<Rhs(const std::vector<double>& values)> smooth);
 
 /// The scene's events, the first `count` of the module's.
 Events first_events(Events all, std::size_t count);

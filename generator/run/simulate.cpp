@@ -74,8 +74,12 @@ public:
                 if (!watch.is_over) look(watch, mode, t, state, rate);
             });
         modes.take_free(std::move(program));
-        modes.on_side_change = [&](const SideChange& change, const std::string& name) {
-            if (!watch.is_over) run_.side_changes.push_back({change.time, name, change.kind});
+        modes.on_side_change = [&](const SideChange& change, const std::string& name,
+                                   const std::vector<Switched::Rubbing>& frictions) {
+            if (watch.is_over) return;
+            if (frictions.empty()) run_.side_changes.push_back({change.time, name, change.kind});
+            for (const Switched::Rubbing& one : frictions)
+                note(run_.friction_changes, {change.time, one.friction, one.direction * change.side});
         };
         const LoadedMode& free = modes({});
         if (wishes_.reactions && !run_.mechanism.joints.empty())
@@ -103,6 +107,13 @@ private:
         contacts_ = contacts_of(run_, start_, *view_, *kicks_);
         if (has_contacts_)
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
+    }
+
+    /// What goes on as before is no news.
+    static void note(std::vector<Run::FrictionChange>& changes, const Run::FrictionChange& change) {
+        const auto last = std::find_if(changes.rbegin(), changes.rend(),
+                                       [&](const auto& known) { return known.friction == change.friction; });
+        if (last == changes.rend() || last->side != change.side) changes.push_back(change);
     }
 
     const JointReactions* reactions() const { return reactions_ ? &*reactions_ : nullptr; }

@@ -51,13 +51,20 @@ struct Run : Derived {
     std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds where the scene has its own
     std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
-    /// What happened to the signs in the right-hand side: of dry friction, |x|, min, max.
+    /// What happened to the signs in the right-hand side: of |x|, min, max, sign.
     struct Side {
         double time;
         std::string name;
         SideChange::Kind kind;
     };
     std::vector<Side> side_changes = {};
+    /// A dry friction begins to stick, or to slip, or slips the other way.
+    struct FrictionChange {
+        double time;
+        int friction;  ///< position in Mechanism::frictions
+        int side;      ///< the sign of the slip, 0 where it sticks
+    };
+    std::vector<FrictionChange> friction_changes = {};
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};

@@ -46,6 +46,7 @@ void need_sundials(const Derived& d, std::string_view method) {
         throw ModelError(fmt::format("method '{}' does not follow {}; take radau (stiff) or dop853", method, why));
     };
     if (!d.mechanism.unilateral.empty()) refuse("contacts ([[unilateral]])");
+    if (!d.mechanism.frictions.empty()) refuse("dry friction ([[friction]])");
     if (!d.mechanism.events.empty()) refuse("events ([[event]])");
     if (method == ida && !d.equations.speeds_are_rates() && !d.mechanism.constraints.empty())
         refuse("constraints in generalized speeds (the formalism 'routh' has them in rates)");

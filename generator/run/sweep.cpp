@@ -173,6 +173,8 @@ SweptMotion member_of(std::size_t k, const Sweep& s, const Program& program, con
 void need_smooth_motion(const Mechanism& m) {
     if (!m.unilateral.empty())
         throw ModelError("sweep does not follow unilateral constraints; simulate does, for one state at a time");
+    if (!m.frictions.empty())
+        throw ModelError("sweep does not follow dry friction; simulate does, for one state at a time");
     if (m.has_kicks())
         throw ModelError("sweep does not follow events with impulses; simulate does, for one state at a time");
 }

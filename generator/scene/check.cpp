@@ -31,6 +31,7 @@ public:
         check_impulses();
         check_energy();
         check_constraints();
+        check_frictions();
         check_runs();
         for (const Claim& claim : scene_.claims) check(claim);
     }
@@ -276,6 +277,23 @@ private:
             quantities_.check(rule.gap, {.subject = "a gap", .order = 0, .input_order = 0, .time = true});
             quantities_.check(rule.restitution, {.subject = "a restitution"});
             check_constraint_name(rule.name, known);
+        }
+    }
+
+    void check_frictions() {
+        std::unordered_map<std::string, Place> known;
+        const Legal rates{.subject = "a sliding velocity", .order = 1, .input_order = 1, .time = true};
+        for (const FrictionRule& rule : scene_.frictions) {
+            for (const auto& [value, subject] : {std::pair{&rule.coefficient, "a coefficient of friction"},
+                                                 std::pair{&rule.resting, "a static coefficient of friction"},
+                                                 std::pair{&rule.normal, "a normal force"}})
+                quantities_.check(*value, {.subject = subject, .order = 1, .input_order = 2, .time = true});
+            quantities_.check(rule.slip, rates);
+            if (rule.name.place.line == 0 || !check_name(rule.name)) continue;
+            const auto [first, is_new] = known.emplace(rule.name.text, rule.name.place);
+            if (!is_new)
+                complain(rule.name.place, fmt::format("the name {} is taken: a friction has it on line {}",
+                                                      in_quotes(rule.name.text), first->second.line));
         }
     }
 

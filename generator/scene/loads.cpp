@@ -128,4 +128,22 @@ void read_unilateral(Table table, Scene& scene) {
     scene.unilateral.push_back(std::move(rule));
 }
 
+void read_friction(Table table, Scene& scene) {
+    table.allow("friction");
+    FrictionRule rule;
+    rule.name = table.needed_name("name");
+    table.entitle(rule.name);
+    rule.coefficient = table.needed_expression("coefficient");
+    rule.resting = table.expression("static");
+    rule.slip = table.needed_expression("slip");
+    if (table.has("on") == table.has("normal"))
+        return table.reading().complain(
+            table.place(), fmt::format("{} needs one of 'on' (the constraint or contact whose reaction is the "
+                                       "normal force) and 'normal' (the normal force)",
+                                       table.title()));
+    rule.on = table.name("on");
+    rule.normal = table.expression("normal");
+    scene.frictions.push_back(std::move(rule));
+}
+
 }  // namespace alembert

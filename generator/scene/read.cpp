@@ -54,6 +54,7 @@ constexpr Section sections[] = {
     {"constraint", each<read_constraint>},
     {"rolling", each<read_rolling>},
     {"unilateral", each<read_unilateral>},
+    {"friction", each<read_friction>},
     {"impulse", each<read_impulse>},
     {"impulses", one<read_impulses>},
     {"energy", one<read_energy>},

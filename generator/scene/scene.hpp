@@ -189,6 +189,16 @@ struct UnilateralRule {
     Expression restitution;  ///< the number 0 when missing
 };
 
+/// Dry friction −coefficient·N·sign(slip).
+struct FrictionRule {
+    Name name;
+    Expression coefficient;
+    Expression resting;      ///< the static coefficient; null where it is the same
+    Expression slip;         ///< the sliding velocity, linear in the rates
+    std::optional<Name> on;  ///< whose multiplier's size is N
+    Expression normal;       ///< N; null where `on` is given
+};
+
 /// The point of `body` at the mass centre + `contact` has the velocity of the point of `on` there.
 struct RollingRule {
     Name name;
@@ -259,6 +269,7 @@ struct Scene {
     std::vector<ConstraintRule> constraints;
     std::vector<RollingRule> rolling;
     std::vector<UnilateralRule> unilateral;
+    std::vector<FrictionRule> frictions;
     std::vector<Output> outputs;
     std::vector<EventRule> events;
     std::optional<PolynomialRule> polynomial;

@@ -41,6 +41,7 @@ void read_damper(Table table, Scene& scene);
 void read_constraint(Table table, Scene& scene);
 void read_rolling(Table table, Scene& scene);
 void read_unilateral(Table table, Scene& scene);
+void read_friction(Table table, Scene& scene);
 
 // runs.cpp: what is to be done
 void read_polynomial(const Table& table, Scene& scene);

@@ -33,6 +33,13 @@ struct Situation {
     Eigen::MatrixXd M;
     Eigen::VectorXd f;
     Rows bilateral, contacts;
+    /// Dry friction at a contact, with the sliding velocity v = slip·q' + drift.
+    struct Rough {
+        int contact;
+        Eigen::RowVectorXd slip;
+        double drift, coefficient, resting;
+    };
+    std::vector<Rough> rough = {};
 };
 
 struct Lasting {

@@ -9,6 +9,7 @@
 
 #include "alembert/dense.hpp"
 #include "alembert/impact.hpp"
+#include "alembert/rough_impact.hpp"
 
 namespace alembert {
 
@@ -81,9 +82,12 @@ private:
     /// drift).
     void jump_to(const VectorXd& after, const Situation::Rows& rows, const VectorXd& impulse,
                  const VectorXd& generalized) {
-        const std::vector<double> before = state_;
         const VectorXd mean = (u() + after) / 2;
-        const double work = impulse.dot(rows.rows * mean) + generalized.dot(mean);
+        jump_to(after, impulse.dot(rows.rows * mean) + generalized.dot(mean));
+    }
+
+    void jump_to(const VectorXd& after, double work) {
+        const std::vector<double> before = state_;
         u() = after;
         look();
         if (contacts_.on_jump) contacts_.on_jump(at_.t, before.data(), state_.data(), work);
@@ -94,6 +98,8 @@ private:
         const bool is_kicked = at_.impulse.size() > 0;
         if (!is_kicked && std::none_of(near_.begin(), near_.end(), [&](int k) { return approaches(k); }))
             return true;
+        for (const Situation::Rough& rough : here_.rough)
+            if (contains(near_, rough.contact)) return strike_with(rough, is_kicked);
         const VectorXd kick = is_kicked ? at_.impulse : VectorXd::Zero(n_);
         const Situation::Rows rows = selected(here_.contacts, near_);
         VectorXd restitution(rows.drift.size());
@@ -120,6 +126,37 @@ private:
         VectorXd impulse(hit.bilateral.size() + hit.contact.size());
         impulse << hit.bilateral, hit.contact;
         jump_to(hit.after, stacked(here_.bilateral, rows), impulse, kick);
+        return true;
+    }
+
+    bool strike_with(const Situation::Rough& rough, bool is_kicked) {
+        const auto others = std::count_if(here_.rough.begin(), here_.rough.end(),
+                                          [&](const auto& r) { return r.contact == rough.contact; });
+        if (near_.size() > 1 || others > 1 || is_kicked)
+            return fail(near_,
+                        "with friction, one contact alone with one friction is followed through an impact, and "
+                        "without impulses of events");
+        const int k = rough.contact;
+        const double before = gap_rates(here_, u())[k];
+        const RoughImpact hit = strike_rough(here_.M, u(), here_.bilateral.rows,
+                                             {.normal = here_.contacts.rows.row(k),
+                                              .slip = rough.slip,
+                                              .normal_drift = here_.contacts.drift[k],
+                                              .slip_drift = rough.drift,
+                                              .coefficient = rough.coefficient,
+                                              .resting = rough.resting},
+                                             contacts_.restitution[k]);
+        if (!hit) return fail(near_, hit.failure);
+        result_.struck = hit.after;
+        bounced_.push_back(k);
+        jump_to(hit.after, hit.work);
+        result_.events.push_back({.kind = ContactEvent::Kind::impact,
+                                  .contact = k,
+                                  .time = at_.t,
+                                  .speed_before = before,
+                                  .speed_after = gap_rates(here_, u())[k],
+                                  .energy_loss = hit.loss,
+                                  .impulse = hit.impulse});
         return true;
     }
 

@@ -20,16 +20,22 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_undecided = 6;      // signs that are undecided together: 3⁶ choices are tried
-constexpr int most_in_one_place = 50;  // changes without the time moving on
-constexpr double slack = 1e-9;         // of a consistent choice, relative to the rates of g on both sides
+constexpr int most_undecided = 6;             // signs that are undecided together: 3⁶ choices are tried
+constexpr int most_in_one_place = 50;       // changes without the time moving on
+constexpr double slack = 1e-9;              // of a consistent choice, relative to the rates of g on both sides
+constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
+constexpr double small_normal = 1e-3;  // below, what is negative where a piece begins may be rounding of the time
 constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
 
 /// f and σ for given sides; σ of those that slide follows from ġ = 0.
 class Sides {
 public:
     Sides(const Switching& system, std::vector<int> sides, int dimension)
-        : system_(system), sides_(std::move(sides)), f_(dimension), g_(2 * system.count()) {
+        : system_(system),
+          sides_(std::move(sides)),
+          f_(dimension),
+          g_(2 * system.count()),
+          bounds_(2 * system.count(), 1.0) {
         for (int k = 0; k < system.count(); ++k)
             if (sides_[k] == 0) sliding_.push_back(k);
         sigma_.assign(sides_.begin(), sides_.end());
@@ -41,6 +47,9 @@ public:
     double value(int k) const { return g_[k]; }
     double slope(int k) const { return g_[system_.count() + k]; }
     const std::vector<double>& rate() const { return f_; }
+    /// How far |α_k| may go, and what must not be negative, after `find_bounds`.
+    double bound(int k) const { return bounds_[k]; }
+    double normal(int k) const { return bounds_[system_.count() + k]; }
     /// ∂ġ_k/∂σ_k by the last evaluation, for one that slides.
     double steepness(std::size_t position) const {
         return B_(static_cast<Index>(position), static_cast<Index>(position));
@@ -59,18 +68,63 @@ public:
             B_.col(j) = slopes() - none;
             sigma_[sliding_[j]] = 0;
         }
-        const Eigen::ColPivHouseholderQR<MatrixXd> solver(B_);
+        const double enough = 1e-13 * B_.cwiseAbs().maxCoeff();
         VectorXd alpha = VectorXd::Zero(s), slope = none;
-        for (int round = 0; round < 10; ++round) {  // once, where σ enters linearly
-            alpha -= solver.solve(slope);
+        const auto go_to = [&](const VectorXd& to) {
+            alpha = to;
             for (Index j = 0; j < s; ++j) sigma_[sliding_[j]] = alpha[j];
             rates(t, y);
             slope = slopes();
-            if (!(slope.cwiseAbs().maxCoeff() > 1e-13 * B_.cwiseAbs().maxCoeff())) break;
+            return !(slope.cwiseAbs().maxCoeff() > enough);
+        };
+        MatrixXd secant = B_;
+        if (go_to(-decomposed(secant).solve(none)) ||
+            (s == 1 && go_to(by_quotient(t, y, none[0], none[0] + B_(0, 0)))))
+            return;
+        for (int round = 0; round < 20; ++round) {  // Broyden's method
+            const VectorXd step = -decomposed(secant).solve(slope);
+            if (go_to(alpha + step)) return;
+            secant += slope * step.transpose() / step.squaredNorm();
         }
+        if (slope.cwiseAbs().maxCoeff() > slack * B_.cwiseAbs().maxCoeff())  // nothing holds it there
+            for (const int k : sliding_) sigma_[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// After `evaluate` at the same state.
+    void find_bounds(double t, const double* y) {
+        if (system_.bounds) system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
+    }
+
+    /// To where the g of those that slide are zero, along what their σ do to the motion.
+    void bring_back(double t, double* y) {
+        const auto s = static_cast<Index>(sliding_.size());
+        evaluate(t, y);
+        VectorXd off(s);
+        for (Index j = 0; j < s; ++j) off[j] = g_[sliding_[j]];
+        if (off.isZero(0)) return;
+        const VectorXd along = -decomposed(B_).solve(off);
+        const std::vector<double> alpha = sigma_, before = f_;
+        for (Index j = 0; j < s; ++j) sigma_[sliding_[j]] += along[j];
+        rates(t, y);
+        for (std::size_t i = 0; i < f_.size(); ++i) y[i] += f_[i] - before[i];
+        sigma_ = alpha;
     }
 
 private:
+    static Eigen::ColPivHouseholderQR<MatrixXd> decomposed(const MatrixXd& matrix) {
+        return Eigen::ColPivHouseholderQR<MatrixXd>(matrix);
+    }
+
+    /// The zero of ġ(α) = (a + b α)/(1 + c α), which goes through the values at 0 and 1: of friction that changes
+    /// the force that presses it.
+    VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
+        sigma_[sliding_[0]] = -1;
+        rates(t, y);
+        const double at_minus = slopes()[0];
+        const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
+        return VectorXd::Constant(1, -at_none / (at_one * (1 + c) - at_none));
+    }
+
     void rates(double t, const double* y) {
         system_.rates(t, y, sigma_.data(), f_.data());
         system_.values(t, y, sigma_.data(), f_.data(), g_.data());
@@ -83,14 +137,15 @@ private:
 
     const Switching& system_;
     std::vector<int> sides_, sliding_;
-    std::vector<double> sigma_, f_, g_;
+    std::vector<double> sigma_, f_, g_, bounds_;
     MatrixXd B_;
 };
 
-/// How one g_k or α_k is watched in a piece.
+/// How one g_k, α_k or normal force is watched in a piece.
 struct Watched {
+    enum class What { side, bound, normal } what = What::side;
     int index;
-    double sign;  ///< the event's value is sign·(g or α) + offset
+    double sign = 1;  ///< the event's value is sign·(g or α) + offset, for α with r·offset
     double offset = 0;
     double open_until = -HUGE_VAL;  ///< before, it counts as positive, whatever rounding says
 };
@@ -105,7 +160,8 @@ public:
           end_(options.start + options.duration),
           t_(options.start),
           state_(initial),
-          sizes_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))) {}
+          sizes_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))),
+          normals_(std::make_shared<std::vector<double>>(static_cast<std::size_t>(system.count()))) {}
 
     Trajectory go() {
         if (begin())
@@ -133,8 +189,6 @@ private:
         }
         result_.dimension = dimension();
         if (is_defined && (options_.duration == 0 || choose(open))) return true;
-        result_.times = {t_};
-        result_.states = state_;
         if (!is_defined) fail_undefined();
         return false;
     }
@@ -160,10 +214,17 @@ private:
         return false;
     }
 
+    bool fail_negative(int k) { return fail(system_.refusal(k, t_, state_.data())); }
+
     /// Integrates until a sign changes; is there more to come?
     bool piece() {
         Sides now(system_, sides_, dimension());
         now.evaluate(t_, state_.data());
+        now.find_bounds(t_, state_.data());
+        for (int k = 0; k < system_.count(); ++k) {
+            (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
+            if (now.normal(k) < -clear_margin * std::max((*normals_)[k], small_normal)) return fail_negative(k);
+        }
         const std::vector<Watched> watched = watches(now);
         const std::size_t scene = events_.list.size();
         Options here = options_;
@@ -174,6 +235,12 @@ private:
         here.budget = std::max(1L, options_.budget - result_.statistics.evaluations);
         here.rhs_when_stiff = {};
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
+        if (!now.sliding().empty())
+            here.project = [base = options_.project,
+                            sides = std::make_shared<Sides>(system_, sides_, dimension())](double t, double* y) {
+                if (base) base(t, y);
+                sides->bring_back(t, y);
+            };
         here.on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             if (system_.before_step) {
                 if (!now.sliding().empty()) now.evaluate(t, y.data());
@@ -221,9 +288,16 @@ private:
     std::vector<Watched> watches(const Sides& now) {
         std::vector<Watched> list;
         for (int k = 0; k < system_.count(); ++k) {
+            if (system_.bounds)
+                list.push_back(
+                    {.what = Watched::What::normal, .index = k, .offset = -2 * std::min(0.0, now.normal(k))});
             if (sides_[k] == 0) {
-                list.push_back({.index = k, .sign = -1, .offset = 1 + 1e-12});
-                list.push_back({.index = k, .sign = 1, .offset = 1 + 1e-12});
+                const bool is_close = std::abs(now.sigma()[k]) > (1 - 1e-12) * now.bound(k);
+                for (const double sign : {-1.0, 1.0})
+                    list.push_back({.what = Watched::What::bound,
+                                    .index = k,
+                                    .sign = sign,
+                                    .offset = is_close ? 1 + 1e-12 : 1 + 16 * tolerance::epsilon});
                 continue;
             }
             (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
@@ -241,22 +315,36 @@ private:
         return list;
     }
 
+    static double value_of(const Watched& w, const Sides& at, const std::vector<double>& normals) {
+        switch (w.what) {
+            case Watched::What::bound:
+                return w.sign * at.sigma()[w.index] + w.offset * at.bound(w.index);
+            case Watched::What::normal:
+                return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
+                       std::numeric_limits<double>::min();
+            default:
+                return w.sign * at.value(w.index) + w.offset;
+        }
+    }
+
     Events with_watches(const std::vector<Watched>& watched) const {
         std::vector<Event> list = events_.list;
         for (const Watched& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
         auto sides = std::make_shared<Sides>(system_, sides_, dimension());
-        const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_](
+        const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_, normals = normals_](
                                 double t, const double* y, const double* rate, double* out) {
             if (!events_.list.empty()) events_(t, y, rate, out);
             sides->evaluate(t, y);
-            for (std::size_t k = 0; k < sizes->size(); ++k)
+            sides->find_bounds(t, y);
+            for (std::size_t k = 0; k < sizes->size(); ++k) {
                 (*sizes)[k] = std::max((*sizes)[k], std::abs(sides->value(static_cast<int>(k))));
+                (*normals)[k] = std::max((*normals)[k], std::abs(sides->normal(static_cast<int>(k))));
+            }
             for (std::size_t i = 0; i < watched.size(); ++i) {
                 const Watched& w = watched[i];
                 double& value = out[events_.list.size() + i];
-                value =
-                    w.sign * (sides_[w.index] == 0 ? sides->sigma()[w.index] : sides->value(w.index)) + w.offset;
+                value = value_of(w, *sides, *normals);
                 if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
                 if (!std::isnan(value)) continue;
                 *undefined = true;  // the run ends where it begins to be so
@@ -276,16 +364,19 @@ private:
             return fail(fmt::format("the sign of {} changes without end at t = {}: no side of it is consistent",
                                     system_.names[watched[hit.front()].index], t_));
         std::vector<int> open;
+        bool gone = false;
         for (const int i : hit) {
             const Watched& w = watched[i];
-            if (sides_[w.index] == 0) {  // α has come to a bound: the motion leaves to that side
+            if (w.what == Watched::What::normal) return fail_negative(w.index);
+            if (w.what == Watched::What::bound) {  // α has come to a bound: the motion leaves to that side
                 sides_[w.index] = w.sign < 0 ? 1 : -1;
                 tell(w.index, SideChange::Kind::leaving);
+                gone = true;
             } else if (std::find(open.begin(), open.end(), w.index) == open.end()) {
                 open.push_back(w.index);
             }
         }
-        if (!open.empty()) {
+        if (!open.empty() || (gone && system_.bounds)) {  // what has gone may press on others less
             for (int k = 0; k < system_.count(); ++k)
                 if (sides_[k] == 0) open.push_back(k);
             if (!choose(open)) return false;
@@ -350,6 +441,7 @@ private:
     Choice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
         Sides at(system_, sides, dimension());
         at.evaluate(t_, state_.data());
+        at.find_bounds(t_, state_.data());
         Choice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
         for (const int k : open) {
             std::vector<int> one = sides, other = sides;
@@ -365,10 +457,21 @@ private:
             else if (!jump || up > down)
                 margin = -HUGE_VAL;  // nothing to slide along, or it repels
             else
-                margin = 1 - std::abs(at.sigma()[k]);
+                margin = 1 - std::abs(at.sigma()[k]) / at.bound(k);
+            if (sides[k] != 0 && jump && up < down && can_stick(sides, k)) margin = -HUGE_VAL;
             choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
         }
         return choice;
+    }
+
+    /// Friction with a static coefficient above the kinetic one begins to slide only where that is overcome.
+    bool can_stick(std::vector<int> sides, int k) const {
+        if (!system_.bounds) return false;
+        sides[k] = 0;
+        Sides at(system_, sides, dimension());
+        at.evaluate(t_, state_.data());
+        at.find_bounds(t_, state_.data());
+        return at.bound(k) > 1 && std::abs(at.sigma()[k]) <= at.bound(k);
     }
 
     double slope_of(const std::vector<int>& sides, int k) const {
@@ -382,6 +485,11 @@ private:
     }
 
     bool fail(const std::string& message) {
+        if (result_.times.empty()) {
+            result_.times = {t_};
+            result_.states = state_;
+            result_.statistics.method = name(options_.method);
+        }
         result_.ending = Ending::failed;
         result_.failure = Failure{.kind = FailureKind::no_side, .message = message, .time = t_, .state = state_};
         return false;
@@ -403,6 +511,7 @@ private:
     std::vector<double> state_;
     std::vector<int> sides_;
     std::shared_ptr<std::vector<double>> sizes_;                       ///< the largest |g_k| so far
+    std::shared_ptr<std::vector<double>> normals_;                     ///< the largest normal forces
     std::shared_ptr<bool> undefined_ = std::make_shared<bool>(false);  ///< some g_k has been NaN
     int in_one_place_ = 0;
     double last_change_ = -HUGE_VAL;
@@ -422,10 +531,11 @@ std::vector<double> consistent_signs(const Switching& system, std::vector<int> s
         again = false;
         Sides at(system, sides, dimension);
         at.evaluate(t, y);
+        at.find_bounds(t, y);
         for (std::size_t i = 0; i < at.sliding().size() && !again; ++i) {
             const int k = at.sliding()[i];
             const double alpha = at.sigma()[static_cast<std::size_t>(k)];
-            if (at.steepness(i) < 0 && std::abs(alpha) <= 1) continue;
+            if (at.steepness(i) < 0 && std::abs(alpha) <= at.bound(k) * (1 + 1e-9)) continue;
             sides[static_cast<std::size_t>(k)] =
                 at.steepness(i) < 0 ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1);
             again = true;

@@ -17,6 +17,9 @@
 ///    1;
 ///  - to either side, where ġ₊ > 0 > ġ₋: that is ambiguous, and a failure that names the function.
 ///
+/// Dry friction with a static coefficient above the kinetic one sticks until |α| comes to their quotient r ≥ 1
+/// (`bounds`), and what is on its zero slides only where sticking would take more.
+///
 /// Several zeros at once: all choices of sides are tried, and the one that is consistent is taken.
 
 #include <functional>
@@ -45,6 +48,12 @@ struct Switching {
     /// K numbers g_k, then K numbers ġ_k for the y' given.
     std::function<void(double t, const double* y, const double* sigma, const double* rate, double* out)> values =
         {};
+    /// K bounds r_k ≥ 1 of |α_k|, then K numbers that must not become negative (normal forces; 1 where there is
+    /// none). May be empty: all are 1.
+    std::function<void(double t, const double* y, const double* sigma, const double* rate, double* out)> bounds =
+        {};
+    /// The message where the latter of k is negative. Needed with `bounds`.
+    std::function<std::string(int k, double t, const double* y)> refusal = {};
     std::function<void(const SideChange&)> on_change = {};  ///< may be empty
     std::function<void(const std::vector<double>& sigma)> before_step =
         {};  ///< told σ before on_step; may be empty

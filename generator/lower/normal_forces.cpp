@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "lower/normal_forces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/partials.hpp"
+#include "program/solve.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// ∂v/∂u for v lowered.
+std::vector<int> row_of(Program& program, int v, int speeds) {
+    std::vector<int> inputs, row(static_cast<std::size_t>(speeds), program.number(0));
+    for (int i = 0; i < speeds; ++i) inputs.push_back(program.variable({Variable::Kind::rate, i}));
+    const std::vector<int> outputs{v};
+    if (const auto found = partials(program, outputs, inputs, Elimination::forward))
+        for (const Partial& one : *found) row[static_cast<std::size_t>(one.input)] = one.node;
+    return row;
+}
+
+/// Solves a small system without exchanging rows, which friction makes dominant in its diagonal; its determinant
+/// goes to `determinant`.
+std::vector<int> eliminated(Program& program, std::vector<std::vector<int>> a, std::vector<int> b,
+                            int& determinant) {
+    const std::size_t n = b.size();
+    std::vector<Program::Factor> pivots;
+    const auto less = [&](int x, int factor, int y) {
+        return program.sum(0, {{1, x}, {-1, program.product(1, {{factor, 1}, {y, 1}})}});
+    };
+    for (std::size_t k = 0; k < n; ++k) {
+        pivots.emplace_back(a[k][k], 1);
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const int factor = program.product(1, {{a[i][k], 1}, {a[k][k], -1}});
+            for (std::size_t j = k + 1; j < n; ++j) a[i][j] = less(a[i][j], factor, a[k][j]);
+            b[i] = less(b[i], factor, b[k]);
+        }
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        for (std::size_t j = k + 1; j < n; ++j) b[k] = less(b[k], a[k][j], b[j]);
+        b[k] = program.product(1, {{b[k], 1}, {a[k][k], -1}});
+    }
+    determinant = program.product(1, pivots);
+    return b;
+}
+
+}  // namespace
+
+NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
+    for (const Mechanism::Friction& f : m.frictions) {
+        if (!f.multiplier) continue;
+        const auto is_it = [&](const GiNaC::symbol& s) { return s.is_equal(*f.multiplier); };
+        const auto row = std::find_if(e.lambda.begin(), e.lambda.end(), is_it);
+        const bool presses = std::any_of(m.unilateral.begin(), m.unilateral.end(),
+                                         [&](const auto& contact) { return is_it(contact.gap.multiplier); });
+        if (row == e.lambda.end() && presses) continue;  // open
+        if (row == e.lambda.end())
+            throw ModelError(
+                fmt::format("friction '{}' needs {}, which the equations do not have: its constraint follows from "
+                            "others, or the "
+                            "speeds leave it out; give the normal force as an expression instead, or leave out "
+                            "what is redundant",
+                            f.name, f.multiplier->get_name()));
+        const auto known =
+            std::find_if(pressed_.begin(), pressed_.end(), [&](const Pressed& p) { return is_it(p.multiplier); });
+        if (known != pressed_.end()) {
+            known->frictions.push_back(&f);
+            continue;
+        }
+        pressed_.push_back({.row = static_cast<std::size_t>(row - e.lambda.begin()),
+                            .multiplier = *f.multiplier,
+                            .may_pull = !presses,
+                            .frictions = {&f}});
+        multipliers_.push_back(*f.multiplier);
+    }
+    const bool pulls = std::any_of(pressed_.begin(), pressed_.end(), [](const Pressed& p) { return p.may_pull; });
+    if (pressed_.size() > 1 && pulls)
+        throw ModelError(
+            "friction is on several constraints, whose reactions may have either sign, and each depends on the "
+            "others; make them unilateral contacts, which only press, or give the normal forces as expressions");
+}
+
+void NormalForces::leave_out(Lowering& lowering, Program& program) const {
+    for (const GiNaC::symbol& lambda : multipliers_) lowering.define(lambda, program.number(0));
+}
+
+std::optional<std::vector<int>> NormalForces::solve(Lowering& lowering, Program& program,
+                                                    const std::vector<int>& matrix,
+                                                    const std::vector<int>& right) const {
+    std::vector<std::vector<int>> sides{right};
+    for (const Pressed& pressed : pressed_) {
+        std::vector<std::vector<Program::Term>> terms(right.size());
+        for (const Mechanism::Friction* f : pressed.frictions) {
+            lowering.lower_definitions({f->slip, f->coefficient});
+            const int slip = lowering(f->slip), mu = lowering(f->coefficient),
+                      side = program.call(Op::sign, {slip});
+            const std::vector<int> row = row_of(program, slip, e_.size());
+            for (std::size_t i = 0; i < row.size(); ++i)
+                terms[i].emplace_back(1, program.product(-1, {{mu, 1}, {side, 1}, {row[i], 1}}));
+        }
+        sides.emplace_back();
+        for (const auto& list : terms) sides.back().push_back(program.sum(0, list));
+    }
+    const auto found = solve_for_sides(program, matrix, sides, e_.size());
+    if (!found) return std::nullopt;
+    std::vector<int> x = (*found)[0];
+    const auto n = static_cast<std::size_t>(e_.size());
+    std::vector<std::vector<int>> a;
+    std::vector<int> b;
+    for (std::size_t k = 0; k < pressed_.size(); ++k) {
+        const int alone = program.sum(0, {{-1, x[n + pressed_[k].row]}});
+        const int s = pressed_[k].may_pull ? program.call(Op::sign, {alone}) : program.number(1);
+        b.push_back(program.product(1, {{s, 1}, {alone, 1}}));
+        a.emplace_back();
+        for (std::size_t j = 0; j < pressed_.size(); ++j)
+            a.back().push_back(program.sum(
+                j == k ? 1 : 0, {{1, program.product(1, {{s, 1}, {(*found)[j + 1][n + pressed_[k].row], 1}})}}));
+    }
+    const std::vector<int> normal = eliminated(program, a, b, determinant_);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        std::vector<Program::Term> terms{{1, x[i]}};
+        for (std::size_t k = 0; k < normal.size(); ++k)
+            terms.emplace_back(1, program.product(1, {{normal[k], 1}, {(*found)[k + 1][i], 1}}));
+        x[i] = program.sum(0, terms);
+    }
+    for (std::size_t k = 0; k < pressed_.size(); ++k)
+        if (pressed_[k].may_pull) lowering.define(pressed_[k].frictions[0]->normal, normal[k]);
+    return x;
+}
+
+int NormalForces::determinant(Program& program, const Mechanism::Friction& f) const {
+    const bool own = f.multiplier && std::any_of(pressed_.begin(), pressed_.end(), [&](const Pressed& p) {
+                         return p.multiplier.is_equal(*f.multiplier);
+                     });
+    return own && determinant_ >= 0 ? determinant_ : program.number(1);
+}
+
+}  // namespace alembert

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/rough_impact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "alembert/dense.hpp"
+
+namespace alembert {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_pieces = 6;     // sliding, sticking or sliding back, in compression and in restitution
+constexpr double nothing = 1e-13;  // of a sliding velocity, relative to its terms
+
+/// M⁻¹ rowᵀ with the bilateral rows at rest.
+VectorXd response(const MatrixXd& mass, const MatrixXd& rows, const VectorXd& row) {
+    const Index n = mass.rows(), m = rows.rows();
+    MatrixXd K = MatrixXd::Zero(n + m, n + m);
+    K.topLeftCorner(n, n) = mass;
+    K.topRightCorner(n, m) = rows.transpose();
+    K.bottomLeftCorner(m, n) = rows;
+    VectorXd right = VectorXd::Zero(n + m);
+    right.head(n) = row;
+    return least_norm(K, right).x.col(0).head(n);
+}
+
+class Striking {
+public:
+    Striking(const MatrixXd& mass, const VectorXd& before, const MatrixXd& rows, const RoughContact& contact)
+        : contact_(contact),
+          u_(before),
+          by_normal_(response(mass, rows, contact.normal.transpose())),
+          by_slip_(response(mass, rows, contact.slip.transpose())) {
+        settle_slip();
+    }
+
+    RoughImpact go(double restitution) {
+        RoughImpact hit;
+        const bool compressed = run_to([&](double rate) { return -gap() / rate; }, hit);
+        if (!compressed || !u_.allFinite()) {
+            hit.failure = "friction makes the contact press without end while it is struck";
+            return hit;
+        }
+        const double all = (1 + restitution) * hit.impulse;
+        run_to([&](double) { return all - hit.impulse; }, hit);
+        hit.after = u_;
+        return hit;
+    }
+
+private:
+    double gap() const { return contact_.normal.dot(u_) + contact_.normal_drift; }
+    double slip() const { return contact_.slip.dot(u_) + contact_.slip_drift; }
+
+    /// Rounding does not count as sliding.
+    void settle_slip() {
+        const double size = contact_.slip.cwiseAbs().dot(u_.cwiseAbs()) + std::abs(contact_.slip_drift);
+        side_ = std::abs(slip()) <= nothing * size ? 0 : slip() > 0 ? 1 : -1;
+        if (side_ != 0) return;
+        const double across = contact_.slip.dot(by_normal_), along = contact_.slip.dot(by_slip_);
+        sticks_ = std::abs(across) <= contact_.resting * along;
+        if (!sticks_) side_ = across > 0 ? 1 : -1;
+    }
+
+    /// Piece by piece until the impulse that is left, by the rate of the gap in the piece, is none. False where
+    /// that never comes.
+    template <typename Left>
+    bool run_to(const Left& left, RoughImpact& hit) {
+        for (int piece = 0; piece < most_pieces; ++piece) {
+            const double along = contact_.slip.dot(by_slip_);
+            const double tau =
+                sticks_ ? (along > 0 ? -contact_.slip.dot(by_normal_) / along : 0) : -contact_.coefficient * side_;
+            const VectorXd direction = by_normal_ + tau * by_slip_;
+            const double rate = contact_.normal.dot(direction), turning = contact_.slip.dot(direction);
+            const double needed = left(rate);
+            const double until_still = sticks_ || !(turning * side_ < 0) ? HUGE_VAL : -slip() / turning;
+            const bool ends = needed >= 0 && needed <= until_still;
+            if (!ends && !std::isfinite(until_still)) return false;
+            const double step = ends ? needed : until_still;
+            const double normal = gap(), sliding = slip();
+            u_ += step * direction;
+            hit.impulse += step;
+            hit.tangential += tau * step;
+            const double mean_normal = (normal + gap()) / 2, mean_slip = (sliding + slip()) / 2;
+            hit.work += step * (mean_normal - contact_.normal_drift + tau * (mean_slip - contact_.slip_drift));
+            hit.loss -= step * (mean_normal + tau * mean_slip);
+            if (ends) return true;
+            u_ -= slip() / along * by_slip_;  // what rounding has left of it
+            settle_slip();
+        }
+        return false;
+    }
+
+    const RoughContact& contact_;
+    VectorXd u_, by_normal_, by_slip_;
+    int side_ = 0;
+    bool sticks_ = false;
+};
+
+}  // namespace
+
+RoughImpact strike_rough(const MatrixXd& mass, const VectorXd& before, const MatrixXd& bilateral_rows,
+                         const RoughContact& contact, double restitution) {
+    return Striking(mass, before, bilateral_rows, contact).go(restitution);
+}
+
+}  // namespace alembert

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Rates after one contact with dry friction has been struck.
+///
+///     const RoughImpact hit = strike_rough(M, u, bilateral, {.normal = g, .slip = w, .coefficient = 0.3}, e);
+///     hit.after;       // the rates
+///
+/// The normal impulse π grows from 0 and the rates with it (Routh, Dynamics of a System of Rigid Bodies,
+/// Elementary Part, ch. 5):
+///
+///     M du/dπ = gᵀ + τ wᵀ + Aᵀ dΛ/dπ,   A du/dπ = 0
+///
+/// with τ = −μ sign v while the contact slides, v = w u + d; where v comes to zero, it sticks if some |τ| ≤ μₛ
+/// keeps v = 0, else it slides the other way. All rates are linear in π between these points. The compression ends
+/// where gap' = 0, at π_c; the whole impulse is (1 + e) π_c (Poisson), with which no energy is gained.
+
+#include <Eigen/Dense>
+#include <string>
+
+namespace alembert {
+
+struct RoughContact {
+    Eigen::RowVectorXd normal, slip;  ///< g and w: gap' = g u + normal_drift, v = w u + slip_drift
+    double normal_drift = 0, slip_drift = 0;
+    double coefficient = 0, resting = 0;  ///< μ and μₛ
+};
+
+struct RoughImpact {
+    std::string failure;  ///< empty, or why there are no rates after; then the rest is empty
+    Eigen::VectorXd after;
+    double impulse = 0;     ///< π at the end
+    double tangential = 0;  ///< ∫ τ dπ
+    double work = 0;        ///< of both along the rates that they act on, drifts left out
+    double loss = 0;        ///< T before − T after, seen from the moving floor; never negative
+    explicit operator bool() const { return failure.empty(); }
+};
+
+/// M: n×n, definite on the rates that the bilateral rows leave free.
+RoughImpact strike_rough(const Eigen::MatrixXd& mass, const Eigen::VectorXd& before,
+                         const Eigen::MatrixXd& bilateral_rows, const RoughContact& contact, double restitution);
+
+}  // namespace alembert
