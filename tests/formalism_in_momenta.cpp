@@ -56,8 +56,48 @@ TEST_CASE("formalisms: the symmetric top's rates in momenta have the book's deno
     const auto result = run({"derive", source_path("scenes/textbook/heavy_top.toml"), "--by", "hamilton"});
     REQUIRE(result.exit == 0);
     CHECK(result.out.find("C*cos(theta)^2") == std::string::npos);
-    CHECK(result.out.find("phi' = p_phi/(A*sin(theta)^2) - p_psi*cos(theta)/(A*sin(theta)^2)") !=
-          std::string::npos);
+    CHECK(result.out.find("phi' = (p_phi-p_psi*cos(theta))/(A*sin(theta)^2)\n") != std::string::npos);
+}
+
+// H and R of a top: Goldstein, Classical Mechanics (1980), (5-63) and §8-3; a planet's R: ibid.
+TEST_CASE("formalisms: Hamilton's function and the Routhian are written as books write them") {
+    const auto shows = [](const std::string& scene, const std::string& by, const std::string& line) {
+        const auto result =
+            run({"derive", source_path("scenes/textbook/" + scene + ".toml"), "--by", by, "--steps"});
+        REQUIRE(result.exit == 0);
+        CAPTURE(result.out);
+        CAPTURE(line);
+        CHECK(result.out.find("  " + line + "\n") != std::string::npos);
+    };
+    shows(
+        "heavy_top", "hamilton",
+        "H = p_theta^2/(2*A) + p_psi^2/(2*C) + (p_phi-p_psi*cos(theta))^2/(2*A*sin(theta)^2) + m*g*l*cos(theta)");
+    shows("heavy_top", "routhian",
+          "R = A*theta'^2/2 - p_psi^2/(2*C) - (p_phi-p_psi*cos(theta))^2/(2*A*sin(theta)^2) - m*g*l*cos(theta)");
+    shows("central_force", "routhian", "m*r'' - p_phi^2/(m*r^3) + k/r^2 = 0");
+    shows("spherical_pendulum", "routhian",
+          "m*l^2*theta'' - p_phi^2*cos(theta)/(m*l^2*sin(theta)^3) + m*g*l*sin(theta) = 0");
+}
+
+// Particle on a torus: R = m r² θ'²/2 − p_φ²/(2 m (R + r cos θ)²) − V, one term and not six.
+TEST_CASE("formalisms: the Routhian of a particle on a torus has one term in the momentum") {
+    const std::string scene = temporary("torus.toml", R"toml(
+title = "torus"
+[parameters]
+m = 1
+R = 2
+r = 0.5
+[coordinates]
+theta = 0.3
+phi = { initial = 0, rate = 1 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["(R+r*cos(theta))*cos(phi)", "(R+r*cos(theta))*sin(phi)", "r*sin(theta)"]
+)toml");
+    const auto result = run({"derive", scene, "--by", "routhian", "--steps"});
+    REQUIRE(result.exit == 0);
+    CHECK(result.out.find("R = m*r^2*theta'^2/2 - p_phi^2/(2*m*(R+r*cos(theta))^2)\n") != std::string::npos);
 }
 
 TEST_CASE(

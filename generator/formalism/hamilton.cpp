@@ -9,6 +9,7 @@
 
 #include "formalism/elements.hpp"
 #include "model/energy.hpp"
+#include "notation/fractions.hpp"
 
 namespace alembert {
 
@@ -151,7 +152,7 @@ OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
         const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);
         if (!f) return {};
         result.equations.push_back(
-            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), readable(*f), {}});
+            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), in_fractions(*f, *m.symbols), {}});
     }
     return result;
 }
