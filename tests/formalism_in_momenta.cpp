@@ -110,6 +110,31 @@ TEST_CASE(
     CHECK(in_momenta == (result.out.find("too long to be shown") == std::string::npos));
 }
 
+// At rest a pendulum in Cartesian coordinates obeys 2 x λ = 0 and 2 y λ = m g.
+TEST_CASE("steps: d'Alembert's principle with constraints balances their forces too, also at rest") {
+    const auto result =
+        run({"derive", source_path("scenes/textbook/cartesian_pendulum.toml"), "--by", "dalembert", "--steps"});
+    REQUIRE(result.exit == 0);
+    CHECK(result.out.find("Q + Q* + A^T lambda = 0:") != std::string::npos);
+    CHECK(result.out.find("  2*x*lambda_rod = 0\n  2*y*lambda_rod - m*g = 0\n") != std::string::npos);
+    CHECK(result.out.find("1 = 0") == std::string::npos);
+}
+
+TEST_CASE("steps: in LaTeX the formulas among the words of every formalism are typeset") {
+    for (const char* const scene : {"heavy_top", "coin", "cartesian_pendulum"})
+        for (const char* const by : {"lagrange", "lagrange1", "routh", "kane", "dalembert", "nielsen", "hamilton",
+                                     "routhian", "appell", "maggi"}) {
+            const auto result = run({"derive", source_path(std::string("scenes/textbook/") + scene + ".toml"),
+                                     "--by", by, "--steps", "--format", "latex"});
+            if (result.exit != 0) continue;  // it does not apply
+            CAPTURE(scene);
+            CAPTURE(by);
+            for (const char* const plain :
+                 {"A^T", "A\\^{}T", "dL/d", "dT/d", "dS/d", "dq'/", "sum of Q", "sum of p", "a\\^{}2"})
+                CHECK(result.out.find(plain) == std::string::npos);
+        }
+}
+
 // A disc that rolls between rails: its constraints say some things twice.
 TEST_CASE("formalisms: agree knows each formalism by which derive works, with redundant constraints too") {
     const std::string scene = temporary("twice.toml", R"toml(
