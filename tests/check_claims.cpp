@@ -489,4 +489,115 @@ TEST_CASE(
     CHECK(refuted.claims[0].likely->kind == "sign");
 }
 
+namespace {
+
+/// Particles joined by n links in a vertical plane, in Cartesian coordinates.
+Scene linked_chain(int n) {
+    std::string coordinates = "[coordinates]\n", rest;
+    for (int k = 1; k <= n; ++k) {
+        coordinates +=
+            fmt::format("x{0} = {{ initial = \"{0}*0.6*l\" }}\ny{0} = {{ initial = \"-{0}*0.8*l\" }}\n", k);
+        rest += fmt::format("[[particle]]\nname = \"P{0}\"\nmass = \"m\"\nposition = [\"x{0}\", \"y{0}\"]\n", k);
+        const std::string x = k > 1 ? fmt::format("x{}-x{}", k, k - 1) : "x1",
+                          y = k > 1 ? fmt::format("y{}-y{}", k, k - 1) : "y1";
+        rest += fmt::format(
+            "[[constraint]]\nname = \"link{0}\"\nholonomic = \"({1})^2 + ({2})^2 = l^2\"\nmultiplier = "
+            "\"lambda{0}\"\n",
+            k, x, y);
+    }
+    return parse_scene("title = \"chain\"\ngravity = [0, \"-g\"]\n[parameters]\nm = 1.0\nl = 0.5\ng = 9.81\n" +
+                           coordinates + rest,
+                       "chain.toml");
+}
+
+/// The equations that `derive` prints, as claims.
+std::string printed_equations(const Scene& scene) {
+    const Mechanism m = build(scene);
+    std::string claims;
+    for (const ReadableEquation& e : derivation_of(m, routh(m)).equations)
+        claims += text(e.lhs) + " = " + text(e.rhs) + "\n";
+    return claims;
+}
+
+}  // namespace
+
+// Newton's law for the last particle is written here by hand.
+TEST_CASE("check: the printed equations of chains of links are proved, and a wrong one of 12 links refuted") {
+    for (const int n : {7, 12}) {
+        CAPTURE(n);
+        const Scene scene = linked_chain(n);
+        const std::string claims =
+            printed_equations(scene) + fmt::format("m*x{0}'' = 2*lambda{0}*(x{0}-x{1})\n", n, n - 1);
+        const Checked result = checked(with_claims(scene, claims, "claims.txt"));
+        check_verdicts(result, std::vector<Verdict>(static_cast<std::size_t>(2 * n + 1), Verdict::proved));
+    }
+}
+
+TEST_CASE("check: a sine of pi/10 is the same whether it is a parameter's or written out") {
+    const Scene scene = parse_scene(R"scene(title = "slope"
+[parameters]
+tilt = "pi/10"
+[coordinates]
+x = 0
+[[particle]]
+name = "P"
+mass = "1"
+position = ["x", 0]
+[forces]
+x = "sin(tilt)"
+)scene",
+                                    "slope.toml");
+    const Checked result =
+        checked(with_claims(scene, "x'' = sin(pi/10)\nx''^2 + cos(pi/10)^2 = 1\nx'' = sin(pi/5)\n", "claims.txt"));
+    check_verdicts(result, {Verdict::proved, Verdict::proved, Verdict::refuted});
+}
+
+// By hand: the tension of each link carries the weight of the particles below it, Σ m g = 2 λ_k (y_k − y_{k−1}).
+TEST_CASE("check: static equations of a chain that cannot be solved one after the other are proved at rest") {
+    const Checked result = checked(with_claims(linked_chain(7), R"(rest
+m*g = 2*lambda7*(y7-y6)
+2*m*g = 2*lambda6*(y6-y5)
+7*m*g = 2*lambda1*y1
+lambda7*(x7-x6) = lambda6*(x6-x5)
+m*g = 2*lambda6*(y6-y5)
+)",
+                                               "claims.txt"));
+    for (std::size_t k = 0; k < 4; ++k) CHECK(result.claims[k].verdict == Verdict::proved);
+    CHECK(result.claims[4].verdict != Verdict::proved);
+}
+
+// Rest of two weights on a rope needs m1 = m2; by a quotient of (m1 − m2)·g everything would follow.
+TEST_CASE("check: what would follow from unequal weights at rest is refuted") {
+    const Scene scene = parse_scene(R"(title = "Atwood's machine with springs"
+gravity = [0, "-g"]
+[parameters]
+m1 = 1.0
+m2 = 1.0
+k = 50.0
+g = 9.81
+L = 3
+[coordinates]
+x1 = 1.0
+x2 = 2.0
+s = 0.2
+[[particle]]
+name = "A"
+mass = "m1"
+position = ["0", "-x1-s"]
+[[particle]]
+name = "B"
+mass = "m2"
+position = ["1", "-x2"]
+[energy]
+potential = "k*s^2/2"
+[[constraint]]
+name = "rope"
+holonomic = "x1 + x2 - L = 0"
+multiplier = "T"
+)",
+                                    "atwood.toml");
+    check_verdicts(checked(with_claims(scene, "rest\nm1*g + T = 0\nk*s = m1*g\nk*s = 2*m1*g\n", "claims.txt")),
+                   {Verdict::proved, Verdict::proved, Verdict::refuted});
+}
+
 }  // namespace check_claims

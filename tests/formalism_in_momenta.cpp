@@ -58,8 +58,48 @@ TEST_CASE("formalisms: the symmetric top's rates in momenta have the book's deno
     const auto result = run({"derive", source_path("scenes/textbook/heavy_top.toml"), "--by", "hamilton"});
     REQUIRE(result.exit == 0);
     CHECK(result.out.find("C*cos(theta)^2") == std::string::npos);
-    CHECK(result.out.find("phi' = p_phi/(A*sin(theta)^2) - p_psi*cos(theta)/(A*sin(theta)^2)") !=
-          std::string::npos);
+    CHECK(result.out.find("phi' = (p_phi-p_psi*cos(theta))/(A*sin(theta)^2)\n") != std::string::npos);
+}
+
+// H and R of a top: Goldstein, Classical Mechanics (1980), (5-63) and §8-3; a planet's R: ibid.
+TEST_CASE("formalisms: Hamilton's function and the Routhian are written as books write them") {
+    const auto shows = [](const std::string& scene, const std::string& by, const std::string& line) {
+        const auto result =
+            run({"derive", source_path("scenes/textbook/" + scene + ".toml"), "--by", by, "--steps"});
+        REQUIRE(result.exit == 0);
+        CAPTURE(result.out);
+        CAPTURE(line);
+        CHECK(result.out.find("  " + line + "\n") != std::string::npos);
+    };
+    shows(
+        "heavy_top", "hamilton",
+        "H = p_theta^2/(2*A) + p_psi^2/(2*C) + (p_phi-p_psi*cos(theta))^2/(2*A*sin(theta)^2) + m*g*l*cos(theta)");
+    shows("heavy_top", "routhian",
+          "R = A*theta'^2/2 - p_psi^2/(2*C) - (p_phi-p_psi*cos(theta))^2/(2*A*sin(theta)^2) - m*g*l*cos(theta)");
+    shows("central_force", "routhian", "m*r'' - p_phi^2/(m*r^3) + k/r^2 = 0");
+    shows("spherical_pendulum", "routhian",
+          "m*l^2*theta'' - p_phi^2*cos(theta)/(m*l^2*sin(theta)^3) + m*g*l*sin(theta) = 0");
+}
+
+// Particle on a torus: R = m r² θ'²/2 − p_φ²/(2 m (R + r cos θ)²) − V, one term and not six.
+TEST_CASE("formalisms: the Routhian of a particle on a torus has one term in the momentum") {
+    const std::string scene = temporary("torus.toml", R"toml(
+title = "torus"
+[parameters]
+m = 1
+R = 2
+r = 0.5
+[coordinates]
+theta = 0.3
+phi = { initial = 0, rate = 1 }
+[[particle]]
+name = "P"
+mass = "m"
+position = ["(R+r*cos(theta))*cos(phi)", "(R+r*cos(theta))*sin(phi)", "r*sin(theta)"]
+)toml");
+    const auto result = run({"derive", scene, "--by", "routhian", "--steps"});
+    REQUIRE(result.exit == 0);
+    CHECK(result.out.find("R = m*r^2*theta'^2/2 - p_phi^2/(2*m*(R+r*cos(theta))^2)\n") != std::string::npos);
 }
 
 TEST_CASE(
@@ -70,6 +110,31 @@ TEST_CASE(
     const bool in_momenta = result.out.find("p_") != std::string::npos;
     CHECK(in_momenta == (result.out.find("Hamilton's canonical equations") != std::string::npos));
     CHECK(in_momenta == (result.out.find("too long to be shown") == std::string::npos));
+}
+
+// At rest a pendulum in Cartesian coordinates obeys 2 x λ = 0 and 2 y λ = m g.
+TEST_CASE("steps: d'Alembert's principle with constraints balances their forces too, also at rest") {
+    const auto result =
+        run({"derive", source_path("scenes/textbook/cartesian_pendulum.toml"), "--by", "dalembert", "--steps"});
+    REQUIRE(result.exit == 0);
+    CHECK(result.out.find("Q + Q* + A^T lambda = 0:") != std::string::npos);
+    CHECK(result.out.find("  2*x*lambda_rod = 0\n  2*y*lambda_rod - m*g = 0\n") != std::string::npos);
+    CHECK(result.out.find("1 = 0") == std::string::npos);
+}
+
+TEST_CASE("steps: in LaTeX the formulas among the words of every formalism are typeset") {
+    for (const char* const scene : {"heavy_top", "coin", "cartesian_pendulum"})
+        for (const char* const by : {"lagrange", "lagrange1", "routh", "kane", "dalembert", "nielsen", "hamilton",
+                                     "routhian", "appell", "maggi"}) {
+            const auto result = run({"derive", source_path(std::string("scenes/textbook/") + scene + ".toml"),
+                                     "--by", by, "--steps", "--format", "latex"});
+            if (result.exit != 0) continue;  // it does not apply
+            CAPTURE(scene);
+            CAPTURE(by);
+            for (const char* const plain :
+                 {"A^T", "A\\^{}T", "dL/d", "dT/d", "dS/d", "dq'/", "sum of Q", "sum of p", "a\\^{}2"})
+                CHECK(result.out.find(plain) == std::string::npos);
+        }
 }
 
 // A disc that rolls between rails: its constraints say some things twice.

@@ -36,13 +36,15 @@ public:
         for (int i = 0; i < m.size(); ++i)
             if (std::any_of(all.begin(), all.end(), [&](const GiNaC::ex& e) { return m.z->depends(e, {m.q[i]}); }))
                 moving_.push_back(i);
+        nodes_ = lower_expressions(program_, m, all);
         searchable_ = rows.size() * moving_.size() <= largest;
+        std::vector<GiNaC::ex> derivatives;
         for (const int i : moving_) {
             if (!searchable_) break;
             const std::vector<GiNaC::ex> slopes = m.z->push_forward(rows, {{m.q[i], 1}});
-            all.insert(all.end(), slopes.begin(), slopes.end());
+            derivatives.insert(derivatives.end(), slopes.begin(), slopes.end());
         }
-        nodes_ = lower_expressions(program_, m, all);
+        slope_nodes_ = lower_expressions(slope_program_, m, derivatives);
         Eigen::VectorXd size = usual_;
         for (const State<double>& s : states) {
             look(s.q);
@@ -102,25 +104,32 @@ public:
     }
 
 private:
-    /// A and f at q, rows in their usual sizes, and the derivatives of A.
+    /// A and f at q, rows in their usual sizes.
     void look(const std::vector<double>& q) {
         State<double> state = state_;
         state.q = q;
-        value_ = interpret(program_, state);
+        const std::vector<double> value = interpret(program_, state);
         const auto m = usual_.size();
         const Eigen::Index n = m_.size();
         A_.resize(m, n);
         f_.resize(m);
         for (Eigen::Index k = 0; k < m; ++k) {
             const double unit = usual_[k] > 0 ? usual_[k] : 1;
-            for (Eigen::Index i = 0; i < n; ++i) A_(k, i) = value_[nodes_[k * n + i]] / unit;
-            f_[k] = value_[nodes_[m * n + k]] / unit;
+            for (Eigen::Index i = 0; i < n; ++i) A_(k, i) = value[nodes_[k * n + i]] / unit;
+            f_[k] = value[nodes_[m * n + k]] / unit;
         }
+    }
+
+    /// The derivatives of A at q.
+    void look_at_slopes(const std::vector<double>& q) {
+        State<double> state = state_;
+        state.q = q;
+        slope_ = interpret(slope_program_, state);
     }
 
     double slope(Eigen::Index j, Eigen::Index k, Eigen::Index i) const {
         const Eigen::Index m = usual_.size(), n = m_.size();
-        return value_[nodes_[m * n + m + j * m * n + k * n + i]] / usual_[k];
+        return slope_[slope_nodes_[j * m * n + k * n + i]] / usual_[k];
     }
 
     std::optional<SingularPose> singular(const std::vector<double>& q) {
@@ -174,6 +183,7 @@ private:
         double damping = 1e-2;
         Eigen::VectorXd r = residual(v);
         const Eigen::Index p = static_cast<Eigen::Index>(moving_.size());
+        look_at_slopes(q);
         for (int round = 0; round < most_rounds; ++round) {
             if (!r.allFinite()) return false;
             if (r.norm() < 1e-14) return true;
@@ -184,6 +194,8 @@ private:
             std::vector<double> next = q;
             for (Eigen::Index j = 0; j < p; ++j) next[moving_[j]] += step[j];
             const Eigen::VectorXd turned = v + step.tail(v.size());
+            const Eigen::MatrixXd A = A_;
+            const Eigen::VectorXd f = f_;
             look(next);
             const Eigen::VectorXd after = residual(turned);
             if (after.norm() < r.norm()) {
@@ -191,9 +203,11 @@ private:
                 v = turned;
                 r = after;
                 damping = std::max(damping / 10, 1e-3 * r.squaredNorm());
+                look_at_slopes(q);
             } else {
                 damping *= 10;
-                look(q);
+                A_ = A;
+                f_ = f;
                 if (damping > 1e8) break;
             }
         }
@@ -216,10 +230,10 @@ private:
 
     const Mechanism& m_;
     State<double> state_;
-    Program program_;
-    std::vector<int> nodes_, moving_;
+    Program program_, slope_program_;
+    std::vector<int> nodes_, slope_nodes_, moving_;
     bool searchable_ = true;
-    std::vector<double> value_;
+    std::vector<double> slope_;
     Eigen::VectorXd usual_, f_;
     Eigen::MatrixXd A_;
 };

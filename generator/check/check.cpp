@@ -19,6 +19,7 @@
 #include "check/open_rows.hpp"
 #include "check/root_form.hpp"
 #include "check/slip.hpp"
+#include "check/static_combination.hpp"
 #include "exact/exact_states.hpp"
 #include "formalism/rest.hpp"
 #include "formalism/routh.hpp"
@@ -105,16 +106,71 @@ private:
         return law;
     }
 
-    void settle(const std::vector<std::size_t>& here, Motions::At at) {
-        // Angles in halves only where they occur: every halving doubles the degrees.
+    /// What is a combination of the equations and constraints needs no state that obeys the constraints, which may
+    /// be hard to find; gives those that are none.
+    std::vector<std::size_t> without_combinations(const std::vector<std::size_t>& here, Motions::At at) {
+        if (!m_.redundant.empty()) return here;  // which share each bears is decided on the constraints only
+        std::vector<std::size_t> left = here;
+        if (at == Motions::At::rest) {
+            std::erase_if(left, [&](std::size_t k) {
+                if (!forms_[k].open.empty()) return false;
+                const std::optional<double> failure = static_combination(claims_, law_, forms_[k].residual);
+                if (failure) prove(k, *failure);
+                return failure.has_value();
+            });
+            return left;
+        }
         std::optional<ExactStates> states;
-        int asked = 0;
+        Program p;
+        std::vector<int> roots;
+        std::vector<std::pair<std::size_t, double>> found;
+        for (const std::size_t k : here) {
+            if (!forms_[k].open.empty()) continue;
+            const int root = claims_.lower(p, {forms_[k].residual})[0];
+            if (p.is_zero(root)) continue;
+            if (!states) states.emplace(m_, law_, at, 0, halvings_in(here), Motions::Positions::free);
+            double failure = 0;
+            bool exact = true;
+            if (vanishes_at(*states, p, root, failure, exact) != std::optional(true)) continue;
+            found.emplace_back(k, failure);
+            roots.push_back(root);
+        }
+        if (found.empty()) return left;
+        const std::vector<bool> holds = hold_in_numbers(states->motions, p, roots);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            if (holds[i]) {
+                prove(found[i].first, found[i].second);
+                std::erase(left, found[i].first);
+            }
+        return left;
+    }
+
+    void prove(std::size_t k, double failure) {
+        CheckedClaim& c = result_.claims[k];
+        c.verdict = Verdict::proved;
+        c.failure = failure;
+        c.normal_form = when_ == "motion" && is_multiple(forms_[k].residual, m_, law_);
+    }
+
+    int halvings_in(const std::vector<std::size_t>& here) const {
+        int result = 0;
         for (const std::size_t k : here) {
             Program p;
-            asked = std::max(asked, halvings(p, claims_.lower(p, {forms_[k].residual})));
+            result = std::max(result, halvings(p, claims_.lower(p, {forms_[k].residual})));
         }
+        return result;
+    }
+
+    void settle(const std::vector<std::size_t>& asked, Motions::At at) {
+        const bool is_bound = std::any_of(m_.constraints.begin(), m_.constraints.end(),
+                                          [](const Mechanism::Constraint& c) { return c.position.has_value(); });
+        const bool may_combine = at == Motions::At::rest || (when_ == "motion" && is_bound);
+        const std::vector<std::size_t> here = may_combine ? without_combinations(asked, at) : asked;
+        if (here.empty()) return;
+        // Angles in halves only where they occur: every halving doubles the degrees.
+        std::optional<ExactStates> states;
         for (const int halves : {0, 1, 2}) {
-            states.emplace(m_, law_, at, halves, asked);
+            states.emplace(m_, law_, at, halves, halvings_in(here));
             const ExactState* const state = states->get(0);
             if (state == nullptr) continue;
             bool all = true;
@@ -204,7 +260,7 @@ private:
             return;
         }
         if (*zero) {
-            if (!states.motions.loose().empty() && !holds_in_numbers(states.motions, p, root)) {
+            if (!states.motions.loose().empty() && !hold_in_numbers(states.motions, p, {root})[0]) {
                 c.reason =
                     "it holds wherever the constraints are constant, and no state was found at which they are "
                     "zero and the equations have one solution";

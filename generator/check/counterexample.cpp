@@ -94,16 +94,20 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     return std::nullopt;
 }
 
-bool holds_in_numbers(const Motions& motions, const Program& p, int root) {
+std::vector<bool> hold_in_numbers(const Motions& motions, const Program& p, const std::vector<int>& roots) {
     int found = 0;
+    std::vector<bool> holds(roots.size(), true);
     for (unsigned seed = first_float_seed; seed < first_float_seed + 60 && found < 3; ++seed) {
-        const auto state = real_state(motions, p, {root}, seed);
+        const auto state = real_state(motions, p, roots, seed);
         if (!state) continue;
-        const auto value = evaluate(p, *state, {root});
-        if (!value || !is_small((*value)[0])) return false;
+        for (std::size_t k = 0; k < roots.size(); ++k) {
+            const auto value = evaluate(p, *state, {roots[k]});
+            if (!value || !is_small((*value)[0])) holds[k] = false;
+        }
         ++found;
     }
-    return found == 3;
+    if (found < 3) holds.assign(roots.size(), false);
+    return holds;
 }
 
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,

@@ -49,8 +49,8 @@ struct OpenClaim {
 std::optional<Counterexample> counterexample(const Told& told, const Motions& motions, const OpenRows& rows,
                                              const OpenClaim& of);
 
-/// What vanishes beside loose conditions (Motions::loose) vanishes on them too if it is continuous there. Is it
-/// zero at states on them where it has a value and the equations have one solution?
-bool holds_in_numbers(const Motions& motions, const Program& program, int root);
+/// What vanishes beside loose conditions (Motions::loose) vanishes on them too if it is continuous there. Which of
+/// the roots are zero at states on them, where they have values and the equations have one solution?
+std::vector<bool> hold_in_numbers(const Motions& motions, const Program& program, const std::vector<int>& roots);
 
 }  // namespace alembert

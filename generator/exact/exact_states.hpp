@@ -8,8 +8,9 @@ namespace alembert {
 /// Exact states one after the other, made when first asked for; null once no more are found.
 class ExactStates {
 public:
-    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings)
-        : motions(m, e, at, halves, halvings) {}
+    ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings,
+                Motions::Positions positions = Motions::Positions::solved)
+        : motions(m, e, at, halves, halvings, positions) {}
 
     const ExactState* get(std::size_t k) {
         while (made_.size() <= k && unusable_ < most_unusable && motions.obstacle().empty()) {

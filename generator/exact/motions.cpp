@@ -87,7 +87,7 @@ std::optional<Prime> value_of(const Program& p, int node, const ExactState& stat
 
 }  // namespace
 
-Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings)
+Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings, Positions positions)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
     for (const Mechanism::Friction& f : m.frictions)
         for (const GiNaC::symbol& lambda : e.lambda)
@@ -158,7 +158,10 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     std::vector<int> all = nodes;
     all.insert(all.end(), conditions.begin(), conditions.end());
     finer_ = std::max(0, std::max(halvings, alembert::halvings(program_, all)) - halves);
-    order(std::move(conditions));
+    if (positions == Positions::free)
+        loose_ = std::move(conditions);
+    else
+        order(std::move(conditions));
     std::set<SquarePoints::Key> solved;
     for (const Step& step : steps_) {
         solved.insert({step.variable.kind, step.variable.index});

@@ -14,7 +14,9 @@
 /// constraints that share two unknowns and leave no other way are solved together (exact/common_zeros.hpp).
 /// Conditions of a motion that have no order of solving of this kind are `loose`: the states are then on f(q, t) =
 /// const with any constants for these. What holds there, and divides by nothing that vanishes with f, holds on f =
-/// 0. Equations of rest without such an order have no states, and `obstacle` says so. Rates obey A q' + b = 0,
+/// 0. With Positions::free no condition is solved and all are loose: a combination of the equations of motion and
+/// the differentiated constraints holds there, and no root has to exist. Equations of rest without such an order
+/// have no states, and `obstacle` says so. Rates obey A q' + b = 0,
 /// accelerations and multipliers M q'' − Aᵀλ = f, A q'' = γ: linear systems.
 ///
 /// `unknown` m + k is the multiplier of constraint k of Mechanism::undetermined(): of a gap random, in equations
@@ -49,11 +51,12 @@ struct ExactState {
 class Motions {
 public:
     enum class At { motion, rest };
+    enum class Positions { solved, free };
 
     /// `halves`: angles that are solved for may occur in parts of 1/2^halves; `halvings`: all others in these
     /// (exact/square_points.hpp), if not in the equations, in what will be asked.
     Motions(const Mechanism& mechanism, const Equations& equations, At at = At::motion, int halves = 0,
-            int halvings = 0);
+            int halvings = 0, Positions positions = Positions::solved);
     Motions(const Motions&) = delete;
     Motions& operator=(const Motions&) = delete;
 

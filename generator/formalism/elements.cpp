@@ -108,14 +108,28 @@ std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, cons
     for (const ex& value : values) mark(value);
     for (std::size_t k = needed.size(); k-- > 0;)
         if (needed[k] != 0) mark(z.entries()[k].definition);
+    // GiNaC walks through the whole map at every sum and product: it is given what the expression holds.
+    const auto substituted = [&](const ex& e) {
+        GiNaC::exmap here;
+        std::vector<ex> stack{e};
+        while (!stack.empty()) {
+            const ex top = stack.back();
+            stack.pop_back();
+            if (const auto found = full.find(top); found != full.end())
+                here.insert(*found);
+            else
+                for (const ex& part : top) stack.push_back(part);
+        }
+        return here.empty() ? e : ex(e.subs(here, options));
+    };
     for (std::size_t k = 0; k < needed.size(); ++k) {
         if (needed[k] == 0) continue;
         const ex symbol = z.entries()[k].symbol, definition = z.entries()[k].definition;
-        const ex replaced = definition.subs(full, options);
+        const ex replaced = substituted(definition);
         if (!replaced.is_equal(definition)) full[symbol] = z.name(replaced);
     }
     std::vector<ex> result;
-    for (const ex& value : values) result.push_back(z.name(value.subs(full, options)));
+    for (const ex& value : values) result.push_back(z.name(substituted(value)));
     return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "formalism/elements.hpp"
 #include "model/energy.hpp"
+#include "notation/fractions.hpp"
 
 namespace alembert {
 
@@ -61,7 +62,19 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, const std::vector<
     return result;
 }
 
-Possible<CanonicalEquations> canonical(const Mechanism& m) {
+namespace {
+
+constexpr int most_inverted = 8;  // coordinates; M⁻¹ of more is longer than anybody reads
+
+/// L = ½ q̇ᵀ M q̇ + bᵀ q̇ + L₀.
+struct SecondDegree {
+    std::vector<ex> momenta;  ///< M q̇ + b
+    GiNaC::matrix M;
+    std::vector<ex> b;
+    ex L0;
+};
+
+Possible<SecondDegree> second_degree(const Mechanism& m) {
     const int n = m.size();
     if (const auto none = no_coordinates(m, "Hamilton's equations")) return Obstacle{*none};
     if (!m.constraints.empty())
@@ -70,13 +83,7 @@ Possible<CanonicalEquations> canonical(const Mechanism& m) {
             "'routh'"};
     Intermediates& z = *m.z;
     const ex L = m.lagrangian();
-    CanonicalEquations c{.p = {},
-                         .momenta = z.pull_back({{L, 1}}, m.qdot),
-                         .M = GiNaC::matrix(n, n),
-                         .H = 0,
-                         .qdot = {},
-                         .pdot = {},
-                         .force = {}};
+    SecondDegree c{.momenta = z.pull_back({{L, 1}}, m.qdot), .M = GiNaC::matrix(n, n), .b = {}, .L0 = 0};
     for (int j = 0; j < n; ++j) {
         const std::vector<ex> column = z.push_forward(c.momenta, {{m.qdot[j], 1}});
         for (int i = 0; i < n; ++i) {
@@ -88,8 +95,39 @@ Possible<CanonicalEquations> canonical(const Mechanism& m) {
                         "is not; use the formalism 'lagrange'"};
         }
     }
-    GiNaC::exmap still, rates;
+    GiNaC::exmap still;
     for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
+    c.b = c.momenta;
+    c.b.push_back(L);
+    c.b = substitute(z, c.b, still);
+    for (ex& value : c.b) value = short_form(value, m);
+    c.L0 = c.b.back();
+    c.b.pop_back();
+    return c;
+}
+
+/// −∂H/∂q at p = ∂L/∂q̇, without M⁻¹: H = ½ wᵀ y − L₀ with M y = w = p − b has the slope
+/// −½ yᵀ ∂M/∂q y − (∂b/∂q)ᵀ y − ∂L₀/∂q, and y is q̇ there.
+std::vector<ex> force_at_rates(const Mechanism& m, const SecondDegree& c) {
+    GiNaC::exvector terms{c.L0};
+    for (int i = 0; i < m.size(); ++i) {
+        terms.push_back(c.b[i] * m.qdot[i]);
+        for (int j = 0; j <= i; ++j) terms.push_back(c.M(i, j) * m.qdot[i] * m.qdot[j] / (i == j ? 2 : 1));
+    }
+    return m.z->pull_back({{m.z->name(GiNaC::add(std::move(terms))), 1}}, m.q);
+}
+
+}  // namespace
+
+Possible<CanonicalEquations> canonical(const Mechanism& m) {
+    const Possible<SecondDegree> possible = second_degree(m);
+    if (const auto obstacle = possible.obstacle()) return Obstacle{*obstacle};
+    const SecondDegree& parts = possible.value();
+    const int n = m.size();
+    Intermediates& z = *m.z;
+    CanonicalEquations c{
+        .p = {}, .momenta = parts.momenta, .M = parts.M, .H = 0, .qdot = {}, .pdot = {}, .force = {}};
+    GiNaC::exmap rates;
     for (int i = 0; i < n; ++i) {
         const std::string name = "p_" + m.q[i].get_name();
         GiNaC::symbol p;
@@ -98,16 +136,12 @@ Possible<CanonicalEquations> canonical(const Mechanism& m) {
         if (p.get_name() != name) p = m.symbols->declare(name, SymbolInfo::Kind::other, i);
         c.p.push_back(p);
     }
-    std::vector<ex> at_rest = c.momenta;
-    at_rest.push_back(L);
-    at_rest = substitute(z, at_rest, still);
-    for (ex& value : at_rest) value = short_form(value, m);
     std::vector<ex> w;
-    for (int i = 0; i < n; ++i) w.push_back(z.name(c.p[i] - at_rest[i]));
+    for (int i = 0; i < n; ++i) w.push_back(z.name(c.p[i] - parts.b[i]));
     const Possible<std::vector<ex>> solution = solve_named(c.M, w, m);
     if (const auto singular = solution.obstacle()) return Obstacle{*singular};
     const std::vector<ex>& y = solution.value();
-    GiNaC::exvector H{-at_rest[n]};
+    GiNaC::exvector H{-parts.L0};
     for (int i = 0; i < n; ++i) H.push_back(w[i] * y[i] / 2);
     c.H = short_form(z.name(GiNaC::add(std::move(H))), m);
 
@@ -121,15 +155,21 @@ Possible<CanonicalEquations> canonical(const Mechanism& m) {
 }
 
 std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) {
-    return canonical(m).obstacle();
+    return m.size() > most_inverted ? second_degree(m).obstacle() : canonical(m).obstacle();
 }
 
 Equations hamilton(const Mechanism& m) {
-    const CanonicalEquations c = canonical(m).value();
+    const SecondDegree c = second_degree(m).value();
     Intermediates& z = *m.z;
-    GiNaC::exmap momenta;
-    for (int i = 0; i < m.size(); ++i) momenta[c.p[i]] = c.momenta[i];
-    const std::vector<ex> force = substitute(z, c.force, momenta);
+    std::vector<ex> force;
+    if (m.size() > most_inverted) {
+        force = force_at_rates(m, c);
+    } else {
+        const CanonicalEquations full = canonical(m).value();
+        GiNaC::exmap momenta;
+        for (int i = 0; i < m.size(); ++i) momenta[full.p[i]] = full.momenta[i];
+        force = substitute(z, full.force, momenta);
+    }
     const std::vector<ex> pdot = m.time_derivative_without_acceleration(c.momenta);
     Equations equations = equations_without_terms("hamilton", m);
     equations.M = c.M;
@@ -142,7 +182,7 @@ Equations hamilton(const Mechanism& m) {
 OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
     const StepWriter write(m);
     const CanonicalEquations c = canonical(m).value();
-    Section section{.words = "Hamilton's function, with p = dL/dq':"};
+    Section section{.words = "Legendre's transform: with p = dL/dq', Hamilton's function is H = sum of p q' - L:"};
     for (int i = 0; i < m.size(); ++i) write.equality(section, write.symbol_of(c.p[i]), c.momenta[i]);
     write.equality(section, StepWriter::letter("H"), c.H);
     OwnSteps result{.sections = {std::move(section)}, .title = "Hamilton's canonical equations"};
@@ -151,7 +191,7 @@ OwnSteps steps_of_hamilton(const Mechanism& m, const Equations&) {
         const auto f = write.normal(i < m.size() ? c.qdot[k] : c.pdot[k]);
         if (!f) return {};
         result.equations.push_back(
-            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), readable(*f), {}});
+            {i < m.size() ? write.symbol_of(m.qdot[k]) : write.rate(c.p[k]), in_fractions(*f, *m.symbols), {}});
     }
     return result;
 }

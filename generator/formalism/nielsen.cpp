@@ -53,6 +53,7 @@ OwnSteps steps_of_nielsen(const Mechanism& m, const Equations&) {
     Section section{
         .words =
             "With L' the time derivative of L along any motion, for Nielsen's equations dL'/dq' - 2 dL/dq = Q:"};
+    write.equality(section, StepWriter::letter("L'"), m.time_derivative({m.lagrangian()})[0]);
     for (int i = 0; i < m.size(); ++i) {
         write.partial(section, "L'", m.qdot[i], rate[i]);
         write.partial(section, "L", m.q[i], force[i]);

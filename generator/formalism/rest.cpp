@@ -96,8 +96,9 @@ struct RestSteps {
             return std::tuple(simple_a, text(a.first), text(a.second)) <
                    std::tuple(simple_b, text(b.first), text(b.second));
         });
-        products.equalities.emplace_back(found.vanishes ? phrases::number(0) : phrases::product(std::move(atoms)),
-                                         phrases::number(0));
+        // Parameters alone: no factor of theirs vanishes, and there is no rest.
+        const Phrase left = found.vanishes ? phrases::number(0) : atoms.empty() ? sum : phrases::product(atoms);
+        products.equalities.emplace_back(left, phrases::number(0));
     }
 
 private:
@@ -158,9 +159,19 @@ OwnSteps steps_of_dalembert(const Mechanism& m, const Equations& e) {
         write.statement(works, "Q", of, work.conservative[i] + work.dissipative[i] + work.applied[i]);
         write.statement(works, "Q*", of, work.inertia[i]);
     }
+    if (!e.A.empty())
+        works.words.replace(works.words.rfind("Q + Q* = 0"), std::string::npos, "Q + Q* + A^T lambda = 0:");
     RestSteps rest(m);
-    for (const ex& condition : rest_conditions(m, e))
-        if (const auto f = write.normal(condition)) rest.add(readable(*f));
+    const std::vector<ex> conditions = rest_conditions(m, e);
+    for (int i = 0; i < m.size(); ++i) {
+        GiNaC::exvector balance{conditions[i]};
+        for (std::size_t k = 0; k < e.A.size(); ++k) balance.push_back(e.A[k][i] * e.lambda[k]);
+        const auto f = write.normal(GiNaC::add(std::move(balance)));
+        if (f && e.A.empty())
+            rest.add(readable(*f));
+        else if (f)
+            rest.products.equalities.emplace_back(readable(*f), phrases::number(0));
+    }
     OwnSteps result{.sections = {std::move(works), std::move(rest.products)}};
     if (!rest.roots.equalities.empty()) result.sections.push_back(std::move(rest.roots));
     return result;

@@ -7,6 +7,7 @@
 #include "formalism/elements.hpp"
 #include "formalism/hamilton.hpp"
 #include "model/energy.hpp"
+#include "notation/fractions.hpp"
 
 namespace alembert {
 
@@ -59,10 +60,9 @@ Possible<Reduction> reduction(const Mechanism& m) {
     Possible<std::vector<ex>> rates_of_cyclic = solve_named(Mcc, right, m);
     if (const auto singular = rates_of_cyclic.obstacle()) return Obstacle{*singular};
     r.rates = std::move(rates_of_cyclic).value();
-    GiNaC::exmap rates;
-    for (int i = 0; i < c; ++i) rates[m.qdot[r.cyclic[i]]] = r.rates[i];
-    GiNaC::exvector R{short_form(substitute(z, {m.lagrangian()}, rates)[0], m)};
-    for (int i = 0; i < c; ++i) R.push_back(-r.p[i] * r.rates[i]);
+    // L is of second degree in the rates, so R = L|_{q̇_c = 0} − ½ (p_c − p_c|_{q̇_c = 0})ᵀ q̇_c.
+    GiNaC::exvector R{short_form(substitute(z, {m.lagrangian()}, still)[0], m)};
+    for (int i = 0; i < c; ++i) R.push_back(-right[i] * r.rates[i] / 2);
     r.R = short_form(z.name(GiNaC::add(std::move(R))), m);
 
     std::vector<GiNaC::symbol> state;
@@ -142,7 +142,7 @@ OwnSteps steps_of_routhian(const Mechanism& m, const Equations& equations) {
         const auto f = write.normal(GiNaC::add(std::move(left))),
                    right = write.normal(equations.applied[r.remaining[i]]);
         if (!f || !right) return {};
-        result.equations.push_back(readable_equation(*f, *right));
+        result.equations.push_back(equation_in_fractions(*f, *right, *m.symbols));
         result.equations.back().divided_by.reset();
     }
     for (const GiNaC::symbol& p : r.p) result.equations.push_back({write.rate(p), phrases::number(0), {}});

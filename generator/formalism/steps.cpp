@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "formalism/steps.hpp"
 
+#include "notation/fractions.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -35,7 +37,7 @@ std::optional<Fourier> StepWriter::normal(const ex& e) const {
 }
 
 void StepWriter::equality(Section& section, const Phrase& left, const ex& value) const {
-    if (const auto f = normal(value)) section.equalities.emplace_back(left, readable(*f));
+    if (const auto f = normal(value)) section.equalities.emplace_back(left, in_fractions(*f, *m_.symbols));
 }
 
 void StepWriter::statement(Section& section, const std::string& letter, const std::string& of,

@@ -7,6 +7,8 @@
 // T and V do not change along e and all formalisms give the same multiplier of e·e = 1, which is 0.
 #include "model/geometry.hpp"
 
+#include "symbolic/functions.hpp"
+
 namespace alembert {
 
 using GiNaC::ex;
@@ -46,7 +48,7 @@ Orientation Orientation::turned(const Vector3& axis, const ex& angle, const ex& 
         result.steps_.pop_back();
     }
     const Step& base = result.steps_.back();
-    const ex c = z.name(cos(whole)), s = z.name(sin(whole));
+    const ex c = z.name(exact_cosine(whole)), s = z.name(exact_sine(whole));
     std::array<Vector3, 3> R;  // R_BC
     const Vector3& a = axis;
     for (int i = 0; i < 3; ++i)

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include <cctype>
 
 #include "notation/latex.hpp"
@@ -55,6 +59,69 @@ std::string escaped(const std::string& words, bool xml) {
     return result;
 }
 
+/// Formulas that the words of steps hold, the longer before those that they begin with.
+struct Spelled {
+    std::string_view plain, latex;
+};
+constexpr std::array<Spelled, 27> spelled{{
+    {"M q'' = F + A^T lambda", "M \\ddot{q} = F + A^{T} \\lambda"},
+    {"m x'' = F + A^T lambda", "m \\ddot{x} = F + A^{T} \\lambda"},
+    {"F + F* + A^T lambda = 0", "F + F^{*} + A^{T} \\lambda = 0"},
+    {"F + F* = 0", "F + F^{*} = 0"},
+    {"F*", "F^{*}"},
+    {"Q + Q* + A^T lambda = 0", "Q + Q^{*} + A^{T} \\lambda = 0"},
+    {"Q + Q* = 0", "Q + Q^{*} = 0"},
+    {"Q = A^T lambda", "Q = A^{T} \\lambda"},
+    {"A^T lambda", "A^{T} \\lambda"},
+    {"dS/du' = Q + A^T lambda", "\\partial S/\\partial \\dot{u} = Q + A^{T} \\lambda"},
+    {"dS/du' = Q", "\\partial S/\\partial \\dot{u} = Q"},
+    {"p = dL/dq'", "p = \\partial L/\\partial \\dot{q}"},
+    {"R = L - sum of p q'", "R = L - \\sum p \\dot{q}"},
+    {"H = sum of p q' - L", "H = \\sum p \\dot{q} - L"},
+    {"E = d/dt dL/dq' - dL/dq - Q",
+     "E = \\frac{d}{dt} \\frac{\\partial L}{\\partial \\dot{q}} - \\frac{\\partial L}{\\partial q} - Q"},
+    {"d/dt dL/dq' - dL/dq = Q",
+     "\\frac{d}{dt} \\frac{\\partial L}{\\partial \\dot{q}} - \\frac{\\partial L}{\\partial q} = Q"},
+    {"d/dt dT/dq' - dT/dq = Q",
+     "\\frac{d}{dt} \\frac{\\partial T}{\\partial \\dot{q}} - \\frac{\\partial T}{\\partial q} = Q"},
+    {"dL'/dq' - 2 dL/dq = Q",
+     "\\frac{\\partial \\dot{L}}{\\partial \\dot{q}} - 2 \\frac{\\partial L}{\\partial q} = Q"},
+    {"L' ", "\\dot{L} "},
+    {"q' = B u + b", "\\dot{q} = B u + b"},
+    {"B = dq'/du", "B = \\partial \\dot{q}/\\partial u"},
+    {"E dq'/du", "E \\, \\partial \\dot{q}/\\partial u"},
+    {"dW* = sum of Q* dq", "dW^{*} = \\sum Q^{*} \\, dq"},
+    {"dW = sum of Q(q) dq", "dW = \\sum Q_{q} \\, dq"},
+    {"dW = sum of Q dq", "dW = \\sum Q \\, dq"},
+    {"S = sum of m a^2/2 + alpha.I alpha/2 + alpha.(w x I w)",
+     "S = \\sum m a^{2}/2 + \\alpha \\cdot I \\alpha/2 + \\alpha \\cdot (\\omega \\times I \\omega)"},
+    {"gap >= 0, lambda >= 0, lambda*gap = 0",
+     "\\mathrm{gap} \\ge 0,\\ \\lambda \\ge 0,\\ \\lambda \\, \\mathrm{gap} = 0"},
+}};
+
+/// Words for LaTeX: formulas among them are typeset.
+std::string typeset(const std::string& words) {
+    std::string result;
+    for (std::size_t i = 0; i < words.size();) {
+        const bool begins = i == 0 || (std::isalnum(static_cast<unsigned char>(words[i - 1])) == 0 &&
+                                       std::string_view("/'^*").find(words[i - 1]) == std::string_view::npos);
+        const auto found = std::find_if(spelled.begin(), spelled.end(), [&](const Spelled& s) {
+            return begins && std::string_view(words).substr(i).starts_with(s.plain);
+        });
+        if (found == spelled.end()) {
+            result += words[i++];
+            continue;
+        }
+        const bool has_space = found->plain.back() == ' ';
+        result += formula_begins;
+        result += found->latex.substr(0, found->latex.size() - (has_space ? 1 : 0));
+        result += formula_ends;
+        if (has_space) result += ' ';
+        i += found->plain.size();
+    }
+    return result;
+}
+
 std::string text_left(const Statement& s) {
     switch (s.kind) {
         case Statement::Kind::partial:
@@ -74,7 +141,7 @@ bool is_angular(const std::string& letter) {
 }
 
 std::string latex_letter(const std::string& letter) {
-    return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter;
+    return is_angular(letter) ? "\\omega_" + letter.substr(2) : letter == "L'" ? "\\dot{L}" : letter;
 }
 
 std::string mathml_letter(const std::string& letter) {
@@ -170,7 +237,7 @@ std::string latex_equality(const std::string& left, const std::string& right) {
 std::string latex_page(const std::vector<Block>& blocks) {
     std::string page;
     for (const Block& block : blocks) {
-        page += (page.empty() ? "" : "\n") + escaped(block.words, false) + "\n";
+        page += (page.empty() ? "" : "\n") + escaped(typeset(block.words), false) + "\n";
         if (block.equalities.empty()) continue;
         page += "\\begin{align*}\n";
         for (std::size_t i = 0; i < block.equalities.size(); ++i)

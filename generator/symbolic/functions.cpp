@@ -21,6 +21,26 @@ REGISTER_FUNCTION(absolute, eval_func(absolute_eval))
 
 namespace {
 
+/// (√5 − 1)/4 and the like for multiples of π/10, π/12 …
+bool would_be_nested_roots(const ex& angle) {
+    const ex turns = angle / GiNaC::Pi;
+    if (!GiNaC::is_a<GiNaC::numeric>(turns)) return false;
+    const GiNaC::numeric c = GiNaC::ex_to<GiNaC::numeric>(turns);
+    return c.is_rational() && !(c * 6).is_integer() && !(c * 4).is_integer();
+}
+
+}  // namespace
+
+ex exact_sine(const ex& angle) {
+    return would_be_nested_roots(angle) ? ex(GiNaC::sin(angle).hold()) : ex(GiNaC::sin(angle));
+}
+
+ex exact_cosine(const ex& angle) {
+    return would_be_nested_roots(angle) ? ex(GiNaC::cos(angle).hold()) : ex(GiNaC::cos(angle));
+}
+
+namespace {
+
 struct Unary {
     const char* name;   // in the scene language
     const char* ginac;  // as GiNaC calls it
@@ -30,8 +50,8 @@ struct Unary {
 
 // GiNaC's own derivatives of csgn are those of complex functions; everything here is real.
 const std::array<Unary, 13> unary{{
-    {"sin", "sin", [](const ex& x) -> ex { return sin(x); }, [](const ex& x, const ex&) -> ex { return cos(x); }},
-    {"cos", "cos", [](const ex& x) -> ex { return cos(x); }, [](const ex& x, const ex&) -> ex { return -sin(x); }},
+    {"sin", "sin", exact_sine, [](const ex& x, const ex&) -> ex { return exact_cosine(x); }},
+    {"cos", "cos", exact_cosine, [](const ex& x, const ex&) -> ex { return -exact_sine(x); }},
     {"tan", "tan", [](const ex& x) -> ex { return tan(x); },
      [](const ex&, const ex& y) -> ex { return 1 + y * y; }},
     {"asin", "asin", [](const ex& x) -> ex { return asin(x); },

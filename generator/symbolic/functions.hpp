@@ -29,4 +29,9 @@ std::string function_name(const GiNaC::ex& call);
 /// ∂call/∂(argument k). `call` itself may be used in the result (tan, exp, sqrt-like forms).
 GiNaC::ex function_derivative(const GiNaC::ex& call, int k);
 
+/// sin and cos. Of multiples of π other than those of π/4 and π/6 they stay as they are: GiNaC would write
+/// (√5 − 1)/4 for sin(π/10), and sin² + cos² = 1 is not seen in that by arithmetic without √5.
+GiNaC::ex exact_sine(const GiNaC::ex& angle);
+GiNaC::ex exact_cosine(const GiNaC::ex& angle);
+
 }  // namespace alembert

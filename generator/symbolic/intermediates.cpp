@@ -74,8 +74,12 @@ ex Intermediates::flatten(const ex& e) {
     if (is_number(e) || is_a<symbol>(e)) return e;
     if (is_a<GiNaC::function>(e)) {
         GiNaC::exvector args;
-        for (const ex& arg : e) args.push_back(name(arg));
-        return name_whole(ex_to<GiNaC::function>(e).thiscontainer(args));
+        bool is_same = true;  // then it stays as it is, unevaluated if it was: sin(π/10)
+        for (const ex& arg : e) {
+            args.push_back(name(arg));
+            is_same = is_same && args.back().is_equal(arg);
+        }
+        return name_whole(is_same ? e : ex(ex_to<GiNaC::function>(e).thiscontainer(args)));
     }
     if (is_a<GiNaC::power>(e)) {
         if (is_whole_power(e)) {

@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_undecided = 6;             // signs that are undecided together: 3⁶ choices are tried
+constexpr int most_undecided = 6;           // signs that are undecided together: 3⁶ choices are tried
 constexpr int most_in_one_place = 50;       // changes without the time moving on
 constexpr double slack = 1e-9;              // of a consistent choice, relative to the rates of g on both sides
 constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
