@@ -14,6 +14,7 @@
 #include "model/energy.hpp"
 #include "notation/text.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 #include "state/redundancy.hpp"
 
 namespace analysis_audit {
@@ -243,8 +244,8 @@ TEST_CASE("variety: its points obey the constraints exactly, parameters and angl
         CHECK((zeros == static_cast<int>(3 * nodes.size())) == variety.on_variety);
         return variety.on_variety;
     };
-    CHECK(look(build(read_scene(test::source_path("scenes/textbook/four_bar.toml")))));
-    CHECK(look(build(read_scene(test::source_path("scenes/textbook/falling_ladder.toml")))));
+    CHECK(look(prepared(read_scene(test::source_path("scenes/textbook/four_bar.toml"))).mechanism));
+    CHECK(look(prepared(read_scene(test::source_path("scenes/textbook/falling_ladder.toml"))).mechanism));
     CHECK(look(with({"x", "y", "z", "w"}, {"x^2 + y^2 - 1", "(x - z)^2 + (y - w)^2 - 4"})));
     CHECK(look(with({"a", "b"}, {"sin(a) + 2*cos(a)*sin(b) - 1"})));
     // The turn of c = 2a − 3b + 1 is the product of theirs.
@@ -348,7 +349,8 @@ TEST_CASE("audit: a velocity constraint without a row, and a pose that is the in
 }
 
 TEST_CASE("audit: what is declared wrongly is said, with the integral") {
-    const Audit disc = audit_of(build(read_scene(test::source_path("scenes/textbook/rolling_disc.toml"))));
+    const Audit disc =
+        audit_of(prepared(read_scene(test::source_path("scenes/textbook/rolling_disc.toml"))).mechanism);
     REQUIRE(disc.constraints.size() == 1);
     CHECK(disc.constraints[0].integrable == true);
     CHECK(text(*disc.constraints[0].integral) == "x - r*phi");
@@ -414,7 +416,7 @@ TEST_CASE("audit: guesses are adjusted to the constraints, and what was adjusted
 TEST_CASE("audit: every constraint of every scene is decided, and exact arithmetic finds the same rank") {
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         const Audit audit = audit_of(m);
         CHECK(audit.problem.empty());
         CHECK(audit.constraints.size() == m.constraints.size());

@@ -13,6 +13,7 @@
 #include "lower/lower.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 #include "state/redundancy.hpp"
 
 namespace analysis_linearize {
@@ -30,7 +31,7 @@ struct Case {
 };
 
 Case linearized(const Scene& scene, const std::string& by, const Overrides& at) {
-    Mechanism m = build(scene);
+    Mechanism m = prepared(scene).mechanism;
     m = without_constraints(m, redundant_constraints(m));
     Case result{.mechanism = m, .equations = formalism(by).derive(m), .start = start_of(m, at), .near = {}};
     assemble(result.start, m, lower_constraints(m), at);

@@ -16,6 +16,7 @@
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 #include "slips.hpp"
+#include "state/prepared.hpp"
 
 namespace check_property {
 
@@ -34,7 +35,7 @@ class Trial {
 public:
     Trial(const std::string& file, unsigned seed)
         : scene_(read_scene(file)),
-          m_(build(scene_)),
+          m_(prepared(scene_).mechanism),
           e_(routh(m_)),
           oracle_(scene_, m_, e_, seed),
           rewritings_(scene_, m_, e_),
@@ -75,7 +76,7 @@ private:
         if (meant_right) CHECK(holds == true);
         if (holds != meant_right) return false;
         const auto start = std::chrono::steady_clock::now();
-        const Mechanism fresh = build(scene_);  // a check leaves its intermediate symbols behind
+        const Mechanism fresh = prepared(scene_).mechanism;  // a check leaves its intermediate symbols behind
         const CheckedClaim result = check(with_claims(scene_, claim + "\n", "random"), fresh).claims[0];
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (seconds > counts.slowest) counts.slowest = seconds, counts.slowest_claim = claim;
@@ -111,7 +112,7 @@ TEST_CASE(
         if (const char* const only = std::getenv("ALEMBERT_SCENE");
             only != nullptr && file.find(only) == std::string::npos)
             continue;
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         if (!m.unilateral.empty()) continue;  // the oracle does not read contacts
         Trial trial(file, seed);
         if (!trial.readable()) continue;

@@ -16,6 +16,7 @@
 #include "scene/claims_file.hpp"
 #include "scenes.hpp"
 #include "slips.hpp"
+#include "state/prepared.hpp"
 
 namespace check_slips {
 
@@ -33,7 +34,7 @@ TEST_CASE(
     for (const std::string& file : scenes_in("scenes/textbook")) {
         CAPTURE(file);
         const Scene scene = read_scene(file);
-        const Mechanism m = build(scene);
+        const Mechanism m = prepared(scene).mechanism;
         const Equations e = routh(m);
         const Oracle oracle(scene, m, e, seed);
         REQUIRE(oracle.states() == 3);

@@ -16,6 +16,7 @@
 #include "formalism/recursive.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace emit_parts {
 
@@ -55,7 +56,7 @@ TEST_CASE("parts: all names of a statement can be carried") {
 }
 
 TEST_CASE("parts: a file whose functions are in parts computes what the whole one does, packs too") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"))).mechanism;
     const Program program = choose(m, recursive(m)).program;
     const auto module_of = [&](std::size_t longest) {
         const std::string text = emit(program, {.batch = true, .longest_function = longest}).text;
@@ -97,7 +98,7 @@ TEST_CASE("parts: of scenes of every kind, in the shortest parts") {
          {"textbook/four_bar.toml", "textbook/heavy_top_quaternion.toml", "textbook/rattleback.toml",
           "benchmark/pleiades.toml", "benchmark/flyball_governor.toml"}) {
         CAPTURE(scene);
-        const Mechanism m = build(read_scene(test::source_path(std::string("scenes/") + scene)));
+        const Mechanism m = prepared(read_scene(test::source_path(std::string("scenes/") + scene))).mechanism;
         const Equations equations = m.speeds.empty() ? formalism("routh").derive(m) : formalism("kane").derive(m);
         const Program program = choose(m, equations).program;
         const Module whole = load(compile(emit(program).text, "whole", {}).object),

@@ -13,6 +13,7 @@
 #include "program/modular.hpp"
 #include "program/prime_polynomial.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace formalism_agree {
 
@@ -137,7 +138,7 @@ void check_in_speeds(const Mechanism& m, const Equations& a, const Equations& b)
 TEST_CASE("formalisms: all that apply give the same accelerations at random states") {
     for (const std::string& file : all_scenes()) {
         CAPTURE(file);
-        const Mechanism mechanism = build(read_scene(file));
+        const Mechanism mechanism = prepared(read_scene(file)).mechanism;
         const Derivations all = derive_all(mechanism);
         REQUIRE(!all.equations.empty());
         for (std::size_t k = 1; k < all.equations.size(); ++k)
@@ -151,7 +152,7 @@ TEST_CASE("formalisms: all that apply give the same accelerations at random stat
 TEST_CASE("agree: every scene is proved") {
     for (const std::string& file : all_scenes()) {
         CAPTURE(file);
-        const Mechanism mechanism = build(read_scene(file));
+        const Mechanism mechanism = prepared(read_scene(file)).mechanism;
         const Derivations all = derive_all(mechanism);
         if (all.equations.size() < 2) continue;
         const Agreement result = agree(all.equations, mechanism);
@@ -167,7 +168,7 @@ TEST_CASE("agree: a root for each pair of bodies, and decimals in angles") {
     for (const char* const name : {"pleiades", "kapitza"}) {
         CAPTURE(name);
         const Mechanism mechanism =
-            build(read_scene(test::source_path(std::string("scenes/benchmark/") + name + ".toml")));
+            prepared(read_scene(test::source_path(std::string("scenes/benchmark/") + name + ".toml"))).mechanism;
         Derivations all = derive_all(mechanism);
         CHECK(agree(all.equations, mechanism).verdict == Agreement::Verdict::proved);
         all.equations.back().own.back() += mechanism.q.back();
@@ -186,7 +187,7 @@ TEST_CASE("agree: all formalisms are proved equal on a chain of sixteen rods, Ha
 TEST_CASE("agree: a formalism with one wrong entry is refuted") {
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         const Derivations all = derive_all(m);
         const Equations& right = all.equations[0];
         for (int kind = 0; kind < 3; ++kind) {
@@ -204,13 +205,13 @@ TEST_CASE("agree: a formalism with one wrong entry is refuted") {
 }
 
 TEST_CASE("kane and dalembert: refuse energies that belong to no body, and say why") {
-    const Mechanism m = build(read_scene(test::source_path("tests/odd/kinetic.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("tests/odd/kinetic.toml"))).mechanism;
     CHECK_THROWS_WITH_AS(kane(m), doctest::Contains("[energy] kinetic"), ModelError);
     CHECK_THROWS_WITH_AS(dalembert(m), doctest::Contains("[energy] kinetic"), ModelError);
 }
 
 TEST_CASE("dalembert: a factor of rest without sines begins with a plus, whatever sign the factoring gave it") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/double_atwood.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/double_atwood.toml"))).mechanism;
     REQUIRE(m.parameters.size() >= 3);
     const ex difference = m.parameters[1].symbol - m.parameters[2].symbol;
     const Phrase one = leading_positive(*fourier(difference, *m.symbols)),
@@ -219,7 +220,7 @@ TEST_CASE("dalembert: a factor of rest without sines begins with a plus, whateve
 }
 
 TEST_CASE("dalembert: the governor's condition of rest is equation (20)") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/watt_governor.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/watt_governor.toml"))).mechanism;
     const ex condition = rest_conditions(m, dalembert(m))[0];
     const auto parameter = [&](const char* name) -> ex {
         for (const Mechanism::Parameter& p : m.parameters)

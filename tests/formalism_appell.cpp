@@ -9,6 +9,7 @@
 #include "notation/text.hpp"
 #include "report/derivation.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace formalism_appell {
 
@@ -17,7 +18,7 @@ using namespace alembert;
 namespace {
 
 Mechanism textbook(const std::string& name) {
-    return build(read_scene(test::source_path("scenes/textbook/" + name + ".toml")));
+    return prepared(read_scene(test::source_path("scenes/textbook/" + name + ".toml"))).mechanism;
 }
 
 std::string equations_of(const Mechanism& m, const Equations& equations) {

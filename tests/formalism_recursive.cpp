@@ -17,6 +17,7 @@
 #include "program/flatten.hpp"
 #include "program/modular.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace formalism_recursive {
 
@@ -300,7 +301,7 @@ TEST_CASE("recursive: chains and trees accelerate as by Lagrange, exactly") {
          {"scenes/gallery/gimballed_gyroscope.toml", "scenes/gallery/universal_double_pendulum.toml",
           "scenes/textbook/double_pendulum_joints.toml"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path(name)));
+        const Mechanism m = prepared(read_scene(test::source_path(name))).mechanism;
         if (m.constraints.empty()) check_exactly(m);
         CHECK(agree({lagrange(m), recursive(m)}, m).verdict == Agreement::Verdict::proved);
     }
@@ -309,7 +310,8 @@ TEST_CASE("recursive: chains and trees accelerate as by Lagrange, exactly") {
 TEST_CASE("recursive: closed loops keep their multipliers") {
     for (const char* name : {"slider_crank_joints", "four_bar_joints"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
+        const Mechanism m =
+            prepared(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name)))).mechanism;
         const Derivations all = derive_all(m);
         CHECK(std::any_of(all.equations.begin(), all.equations.end(),
                           [](const Equations& e) { return e.formalism == "recursive"; }));
@@ -330,7 +332,8 @@ TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhe
         std::vector<double> expected;
         double largest = 0;
         for (double a = 0; words >> a;) expected.push_back(a), largest = std::max(largest, std::abs(a));
-        const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
+        const Mechanism m =
+            prepared(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml"))).mechanism;
         const State<double> state = start_of(m).state();
         for (const Program& program : programs(m, recursive(m), expected.size() <= 16)) {
             CAPTURE(program.formulation);
@@ -438,7 +441,7 @@ TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, wi
 TEST_CASE("recursive: scenes that are no tree of joints are refused with what is missing") {
     const auto reason = [](const char* scene) -> std::string {
         try {
-            recursive(build(read_scene(test::source_path(scene))));
+            recursive(prepared(read_scene(test::source_path(scene))).mechanism);
         } catch (const ModelError& error) {
             return error.what();
         }
@@ -454,7 +457,7 @@ TEST_CASE(
     "arm, both ends of a long chain") {
     const auto chosen = [](const Mechanism& m) { return choose(m, {lagrange(m), recursive(m)}); };
     CHECK(chosen(from_text(chain(2))).program.formulation.find("textbook form") != std::string::npos);
-    CHECK(chosen(build(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"))))
+    CHECK(chosen(prepared(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"))).mechanism)
               .program.formulation.find("composite bodies") != std::string::npos);
     const Choice many = chosen(from_text(chain(24)));
     CHECK(many.program.formulation.find("chain from both ends") != std::string::npos);

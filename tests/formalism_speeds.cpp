@@ -18,6 +18,7 @@
 #include "model/energy.hpp"
 #include "notation/text.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 #include "state/speeds.hpp"
 
 namespace formalism_speeds {
@@ -28,7 +29,7 @@ using GiNaC::ex;
 namespace {
 
 Mechanism textbook(const std::string& name) {
-    return build(read_scene(test::source_path("scenes/textbook/" + name + ".toml")));
+    return prepared(read_scene(test::source_path("scenes/textbook/" + name + ".toml"))).mechanism;
 }
 
 std::string equations_of(const Mechanism& m) {
@@ -106,7 +107,7 @@ TEST_CASE("agree: one wrong entry in equations in speeds is refuted") {
          {"scenes/textbook/chaplygin_sleigh_in_speeds.toml", "scenes/textbook/ball_on_turntable.toml",
           "tests/odd/speeds_oblique.toml", "tests/odd/speeds_with_multipliers.toml"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path(name)));
+        const Mechanism m = prepared(read_scene(test::source_path(name))).mechanism;
         const Equations right = kane(m), reference = derive_all(m).equations[0];
         REQUIRE(reference.formalism != "kane");
         CHECK(agree({reference, right}, m).verdict == Agreement::Verdict::proved);
@@ -157,7 +158,7 @@ TEST_CASE("speeds: a form that is not linear in the rates, and one without any, 
 
 TEST_CASE("kinematics: q' = h(q,u,t) inverts the forms and obeys what was eliminated") {
     for (const std::string& file : test::scenes_in("tests/odd")) {
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         if (m.speeds.empty()) continue;
         CAPTURE(file);
         const Equations e = kane(m);
@@ -191,7 +192,7 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
     for (const char* name : {"scenes/textbook/ball_on_turntable.toml", "tests/odd/speeds_oblique.toml",
                              "tests/odd/speeds_with_multipliers.toml", "tests/odd/speeds_all_eliminated.toml"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path(name)));
+        const Mechanism m = prepared(read_scene(test::source_path(name))).mechanism;
         const Program program = choose(m, kane(m)).program;
         const Module module = load(compile(emit(program).text, program.name, {}).object);
         const Start start = start_of(m);

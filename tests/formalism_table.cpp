@@ -5,6 +5,7 @@
 #include "formalism/formalisms.hpp"
 #include "model/mechanism.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace formalism_table {
 
@@ -25,7 +26,7 @@ TEST_CASE("formalisms: a derivation throws the obstacle, and there is none where
     int applied = 0, refused = 0;
     for (const std::string& file : all_scenes()) {
         CAPTURE(file);
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         for (const Formalism& f : formalisms()) {
             CAPTURE(f.name);
             const std::optional<std::string> obstacle = f.obstacle(m);

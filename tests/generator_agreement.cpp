@@ -9,6 +9,7 @@
 #include "formalism/routh.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_agreement {
 
@@ -119,7 +120,7 @@ void check_energy(const Module& module, const Program& program, State<double> st
 
 void agrees(const std::string& file, bool with_plain_derivatives) {
     CAPTURE(file);
-    const Mechanism mechanism = build(read_scene(file));
+    const Mechanism mechanism = prepared(read_scene(file)).mechanism;
     const Equations equations = routh(mechanism);  // Lagrange's where there are no constraints
     const Choice choice = choose(mechanism, equations);
     const Program& program = choice.program;
@@ -194,7 +195,7 @@ TEST_CASE("generator: emitted function, interpreter and plain derivatives agree 
 TEST_CASE("generator: every node of a program says whose term it is") {
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
-        const Mechanism mechanism = build(read_scene(file));
+        const Mechanism mechanism = prepared(read_scene(file)).mechanism;
         const Program program = choose(mechanism, routh(mechanism)).program;
         for (int id = 0; id < program.size(); ++id) CHECK_FALSE(program[id].sources.empty());
         int named = 0;  // more than "the scene"

@@ -14,6 +14,7 @@
 #include "program/differentiate.hpp"
 #include "program/partials.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 #include "symbolic/symbols.hpp"
 
 namespace generator_derivatives {
@@ -182,7 +183,7 @@ TEST_CASE("derivatives: the emitted Jacobian is the interpreted one, dense and w
     for (const char* name :
          {"double_pendulum", "cartesian_pendulum", "ball_on_turntable", "chaplygin_sleigh_in_speeds"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path("scenes/textbook/") + name + ".toml"));
+        const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/") + name + ".toml")).mechanism;
         const Equations equations = formalism(m.speeds.empty() ? "routh" : "kane").derive(m);
         const Program plain = choose(m, equations).program;
         const auto d = differentiated(plain, {.parameters = true, .power = true});
@@ -231,7 +232,7 @@ TEST_CASE("derivatives: the Jacobians of the scenes are those of dual numbers") 
     int checked = 0;
     for (const char* folder : {"scenes/textbook", "scenes/gallery"})
         for (const std::string& path : test::scenes_in(folder)) {
-            const Mechanism m = build(read_scene(path));
+            const Mechanism m = prepared(read_scene(path)).mechanism;
             for (const Formalism& f : formalisms()) {
                 if (f.name != std::string("routh") && f.name != std::string("kane")) continue;
                 if (f.obstacle(m)) continue;

@@ -10,6 +10,7 @@
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_ensemble {
 
@@ -18,7 +19,7 @@ using namespace alembert;
 namespace {
 
 Module module_of(const std::string& scene, bool batch = true) {
-    const Mechanism mechanism = build(read_scene(test::source_path(scene)));
+    const Mechanism mechanism = prepared(read_scene(test::source_path(scene))).mechanism;
     const Program program =
         choose(mechanism, formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism))
             .program;

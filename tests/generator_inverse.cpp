@@ -11,6 +11,7 @@
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_inverse {
 
@@ -66,7 +67,7 @@ TEST_CASE("inverse: the loads are M q'' - f, with speeds, constraints, quaternio
     int trees = 0, others = 0;
     for (const std::string& file : files) {
         CAPTURE(file);
-        const Mechanism m = build(read_scene(file));
+        const Mechanism m = prepared(read_scene(file)).mechanism;
         State<double> state = test::random_state(start_of(m), random);
         for (int i = 0; i < m.size(); ++i)
             state.qddot.push_back(std::uniform_real_distribution<double>(-3, 3)(random));
@@ -92,7 +93,8 @@ TEST_CASE("inverse: along a tree the operations grow linearly") {
     std::vector<int> operations;
     for (const int n : {8, 16, 32}) {
         const Program program = lower_inverse(
-            build(read_scene(test::source_path("scenes/benchmark/trees/pend" + std::to_string(n) + ".toml"))));
+            prepared(read_scene(test::source_path("scenes/benchmark/trees/pend" + std::to_string(n) + ".toml")))
+                .mechanism);
         operations.push_back(program.count(program.nodes_of(Group::load)).total());
     }
     CHECK(std::abs((operations[2] - operations[1]) - 2 * (operations[1] - operations[0])) < operations[0] / 4);

@@ -14,6 +14,7 @@
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_packs {
 
@@ -68,7 +69,7 @@ constexpr double four_ulp = 4 * std::numeric_limits<double>::epsilon();
 
 void agrees(const std::string& scene, const std::string& by, const std::vector<std::string>& flags) {
     CAPTURE(scene);
-    const Mechanism mechanism = build(read_scene(scene));
+    const Mechanism mechanism = prepared(read_scene(scene)).mechanism;
     const Program program = choose(mechanism, formalism(by).derive(mechanism)).program;
     const Module module = load(compile(emit(program, {.batch = true}).text, program.name,
                                        {.compiler = {}, .extra_flags = flags, .cache = {}})
@@ -151,7 +152,7 @@ TEST_CASE("packs: sines of sums by addition theorems give M and f as sines of th
     for (const char* name : {"double_pendulum", "double_pendulum_joints"}) {
         CAPTURE(name);
         const Mechanism mechanism =
-            build(read_scene(test::source_path(std::string("scenes/textbook/") + name + ".toml")));
+            prepared(read_scene(test::source_path(std::string("scenes/textbook/") + name + ".toml"))).mechanism;
         const Program program = choose(mechanism, formalism("lagrange").derive(mechanism)).program;
         const std::string with = emit(program, {.batch = true}).text, without = emit(program).text;
         CHECK(with.find("sin_phi0 = sin_") != std::string::npos);

@@ -12,6 +12,7 @@
 #include "program/share.hpp"
 #include "program/solve.hpp"
 #include "scenes.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_program {
 
@@ -156,7 +157,7 @@ TEST_CASE("constants: a sum of parameters has no terms that cancel, and a shared
 }
 
 TEST_CASE("emit: M and f are there by name, and functions with nothing to do are not") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml"))).mechanism;
     const std::string text = emit(choose(m, formalism("kane").derive(m)).program).text;
     for (const char* part : {"// M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C",
                              "const Real f0 = ", "const Real f1 = ", "// f2 = 0"})
@@ -166,7 +167,7 @@ TEST_CASE("emit: M and f are there by name, and functions with nothing to do are
 }
 
 TEST_CASE("energy: where the speeds are body rates, T is half the sum of moments of inertia times their squares") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml"))).mechanism;
     const Program p = choose(m, formalism("kane").derive(m)).program;
     State<double> s = start_of(m).state();
     s.q = {0.7, -0.2, 0.4, 0.5};

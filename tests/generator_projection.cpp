@@ -15,6 +15,7 @@
 #include "lower/lower.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_projection {
 
@@ -57,7 +58,7 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
                              "scenes/textbook/crane.toml", "scenes/textbook/coin.toml",
                              "scenes/benchmark/andrews.toml", "scenes/textbook/cartesian_pendulum.toml"}) {
         CAPTURE(file);
-        const Mechanism m = build(read_scene(test::source_path(file)));
+        const Mechanism m = prepared(read_scene(test::source_path(file))).mechanism;
         const Program program = choose(m, routh(m)).program;
         const Module module = load(compile(emit(program).text, program.name, {}).object);
         if (module.projection() == nullptr) continue;
@@ -96,7 +97,8 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
 }
 
 TEST_CASE("projection: a run that went astray is forgotten before the next") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml")));
+    const Mechanism m =
+        prepared(read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"))).mechanism;
     const Program program = choose(m, routh(m)).program;
     const Module module = load(compile(emit(program).text, program.name, {}).object);
     REQUIRE(module.projection() != nullptr);
@@ -121,7 +123,7 @@ TEST_CASE("projection: a run that went astray is forgotten before the next") {
 
 TEST_CASE(
     "projection: gamma is the rate of A q' that keeps it, and the careful accelerations are the emitted ones") {
-    const Mechanism m = build(read_scene(test::source_path("scenes/textbook/four_bar.toml")));
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/four_bar.toml"))).mechanism;
     const Program program = choose(m, routh(m)).program;
     const Module module = load(compile(emit(program).text, program.name, {}).object);
     REQUIRE(module.projection() != nullptr);

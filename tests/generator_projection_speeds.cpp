@@ -19,6 +19,7 @@
 #include "lower/lower.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_projection_speeds {
 
@@ -38,7 +39,7 @@ struct Loaded {
 
 /// `without`: the file does not show its projection.
 Loaded loaded(const Scene& scene, bool without = false) {
-    const Mechanism m = build(scene);
+    const Mechanism m = prepared(scene).mechanism;
     const Equations equations = kane(m);
     Program program = choose(m, equations).program;
     std::string text = emit(program).text;

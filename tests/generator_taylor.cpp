@@ -18,6 +18,7 @@
 #include "program/quad.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_taylor {
 
@@ -50,7 +51,7 @@ struct Emitted {
 };
 
 Emitted emitted(const Scene& scene, bool quad) {
-    Mechanism m = build(scene);
+    Mechanism m = prepared(scene).mechanism;
     Equations e = formalism(m.constraints.empty() ? m.speeds.empty() ? "lagrange" : "kane" : "routh").derive(m);
     Program program = choose(m, e).program;
     std::vector<std::string> flags{"-O1"};

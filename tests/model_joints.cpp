@@ -20,6 +20,7 @@
 #include "scene/joint_moves.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 
 namespace model_joints {
 
@@ -368,7 +369,7 @@ TEST_CASE("joints: a loop's rows lock exactly the other directions, and pull the
 
 TEST_CASE("joints: a four-bar linkage closed by a joint accelerates as the one written with points") {
     const auto accelerations = [](const std::string& file, std::vector<double>& lambda) {
-        const Mechanism m = build(read_scene(test::source_path(file)));
+        const Mechanism m = prepared(read_scene(test::source_path(file))).mechanism;
         REQUIRE(m.constraints.size() == 2);
         Start start = start_of(m);
         assemble(start, m, lower_constraints(m), {});
@@ -512,7 +513,8 @@ TEST_CASE("joints: trees of bodies accelerate as computed elsewhere") {
         CAPTURE(name);
         std::vector<double> expected;
         for (double a = 0; words >> a;) expected.push_back(a);
-        const Mechanism m = build(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml")));
+        const Mechanism m =
+            prepared(read_scene(test::source_path("scenes/benchmark/trees/" + name + ".toml"))).mechanism;
         for (const Equations& equations :
              {lagrange(m), kane(m), dalembert(m), schiehlen(m), roberson_wittenburg(m)}) {
             CAPTURE(equations.formalism);
@@ -561,7 +563,8 @@ TEST_CASE("joints: every formalism that applies gives the same equations of the 
     for (const char* name : {"slider_crank_joints", "four_bar_joints", "gimballed_gyroscope",
                              "universal_double_pendulum", "furuta_joints", "rssr"}) {
         CAPTURE(name);
-        const Mechanism m = build(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name))));
+        const Mechanism m =
+            prepared(read_scene(test::source_path(fmt::format("scenes/gallery/{}.toml", name)))).mechanism;
         const Derivations derivations = derive_all(m);
         CHECK(derivations.equations.size() >= 3);
         CHECK(agree(derivations.equations, m).verdict == Agreement::Verdict::proved);

@@ -43,7 +43,7 @@ void add_slip_rows(Program& program) {
     if (slips.empty()) return;
     std::vector<int> rates;
     for (int i = 0; i < n; ++i) rates.push_back(program.variable({Variable::Kind::rate, i}));
-    const auto found = partials(program, slips, rates, Elimination::forward);
+    const auto found = partials(program, slips, rates, EliminationOrder::forward);
     std::vector<int> rows(slips.size() * rates.size(), program.number(0));
     for (const Partial& one : found.value()) rows[static_cast<std::size_t>(one.output * n + one.input)] = one.node;
     for (const int entry : rows) program.roots.push_back({Group::form_row, "", entry});

@@ -17,7 +17,7 @@ std::vector<int> row_of(Program& program, int v, int speeds) {
     std::vector<int> inputs, row(static_cast<std::size_t>(speeds), program.number(0));
     for (int i = 0; i < speeds; ++i) inputs.push_back(program.variable({Variable::Kind::rate, i}));
     const std::vector<int> outputs{v};
-    if (const auto found = partials(program, outputs, inputs, Elimination::forward))
+    if (const auto found = partials(program, outputs, inputs, EliminationOrder::forward))
         for (const Partial& one : *found) row[static_cast<std::size_t>(one.input)] = one.node;
     return row;
 }

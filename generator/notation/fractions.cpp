@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t most_terms = 40;  // of a numerator
+constexpr std::size_t most_fraction_terms = 40;  // of a numerator
 
 bool is_momentum(const AtomNode& atom) {
     return atom.kind == AtomNode::Kind::symbol && atom.info.kind == SymbolInfo::Kind::other;
@@ -51,8 +51,8 @@ double number(const ex& e) {
 
 /// One quotient, or nothing where the sum of quotients is as short.
 std::optional<Phrase> one_quotient(const Fourier& f, const Symbols& symbols) {
-    if (f.size() < 2 || f.size() > most_terms) return std::nullopt;
-    const auto quotient = readable_quotient(in_single_angles(expression(f)), symbols, most_terms, number);
+    if (f.size() < 2 || f.size() > most_fraction_terms) return std::nullopt;
+    const auto quotient = readable_quotient(in_single_angles(expression(f)), symbols, most_fraction_terms, number);
     return quotient && cost(*quotient) < cost(readable(f)) ? quotient : std::nullopt;
 }
 

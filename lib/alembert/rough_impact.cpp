@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_pieces = 6;     // sliding, sticking or sliding back, in compression and in restitution
-constexpr double nothing = 1e-13;  // of a sliding velocity, relative to its terms
+constexpr double no_slip = 1e-13;  // of a sliding velocity, relative to its terms
 
 /// M⁻¹ rowᵀ with the bilateral rows at rest.
 VectorXd response(const MatrixXd& mass, const MatrixXd& rows, const VectorXd& row) {
@@ -59,7 +59,7 @@ private:
     /// Rounding does not count as sliding.
     void settle_slip() {
         const double size = contact_.slip.cwiseAbs().dot(u_.cwiseAbs()) + std::abs(contact_.slip_drift);
-        side_ = std::abs(slip()) <= nothing * size ? 0 : slip() > 0 ? 1 : -1;
+        side_ = std::abs(slip()) <= no_slip * size ? 0 : slip() > 0 ? 1 : -1;
         if (side_ != 0) return;
         const double across = contact_.slip.dot(by_normal_), along = contact_.slip.dot(by_slip_);
         sticks_ = std::abs(across) <= contact_.resting * along;
