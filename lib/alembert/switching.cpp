@@ -3,22 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "alembert/run.hpp"
+#include "alembert/switch_sides.hpp"
 #include "alembert/tolerances.hpp"
 
 namespace alembert {
 
 namespace {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr int most_undecided = 6;           // signs that are undecided together: 3⁶ choices are tried
 constexpr int most_in_one_place = 50;       // changes without the time moving on
@@ -26,120 +22,6 @@ constexpr double slack = 1e-9;              // of a consistent choice, relative 
 constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
 constexpr double small_normal = 1e-3;  // below, what is negative where a piece begins may be rounding of the time
 constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
-
-/// f and σ for given sides; σ of those that slide follows from ġ = 0.
-class Sides {
-public:
-    Sides(const Switching& system, std::vector<int> sides, int dimension)
-        : system_(system),
-          sides_(std::move(sides)),
-          f_(dimension),
-          g_(2 * system.count()),
-          bounds_(2 * system.count(), 1.0) {
-        for (int k = 0; k < system.count(); ++k)
-            if (sides_[k] == 0) sliding_.push_back(k);
-        sigma_.assign(sides_.begin(), sides_.end());
-    }
-
-    const std::vector<int>& sides() const { return sides_; }
-    const std::vector<int>& sliding() const { return sliding_; }
-    const std::vector<double>& sigma() const { return sigma_; }
-    double value(int k) const { return g_[k]; }
-    double slope(int k) const { return g_[system_.count() + k]; }
-    const std::vector<double>& rate() const { return f_; }
-    /// How far |α_k| may go, and what must not be negative, after `find_bounds`.
-    double bound(int k) const { return bounds_[k]; }
-    double normal(int k) const { return bounds_[system_.count() + k]; }
-    /// ∂ġ_k/∂σ_k by the last evaluation, for one that slides.
-    double steepness(std::size_t position) const {
-        return B_(static_cast<Index>(position), static_cast<Index>(position));
-    }
-
-    void evaluate(double t, const double* y) {
-        const auto s = static_cast<Index>(sliding_.size());
-        for (const int k : sliding_) sigma_[k] = 0;
-        rates(t, y);
-        if (s == 0) return;
-        const VectorXd none = slopes();
-        B_.resize(s, s);
-        for (Index j = 0; j < s; ++j) {
-            sigma_[sliding_[j]] = 1;
-            rates(t, y);
-            B_.col(j) = slopes() - none;
-            sigma_[sliding_[j]] = 0;
-        }
-        const double enough = 1e-13 * B_.cwiseAbs().maxCoeff();
-        VectorXd alpha = VectorXd::Zero(s), slope = none;
-        const auto go_to = [&](const VectorXd& to) {
-            alpha = to;
-            for (Index j = 0; j < s; ++j) sigma_[sliding_[j]] = alpha[j];
-            rates(t, y);
-            slope = slopes();
-            return !(slope.cwiseAbs().maxCoeff() > enough);
-        };
-        MatrixXd secant = B_;
-        if (go_to(-decomposed(secant).solve(none)) ||
-            (s == 1 && go_to(by_quotient(t, y, none[0], none[0] + B_(0, 0)))))
-            return;
-        for (int round = 0; round < 20; ++round) {  // Broyden's method
-            const VectorXd step = -decomposed(secant).solve(slope);
-            if (go_to(alpha + step)) return;
-            secant += slope * step.transpose() / step.squaredNorm();
-        }
-        if (slope.cwiseAbs().maxCoeff() > slack * B_.cwiseAbs().maxCoeff())  // nothing holds it there
-            for (const int k : sliding_) sigma_[k] = std::numeric_limits<double>::quiet_NaN();
-    }
-
-    /// After `evaluate` at the same state.
-    void find_bounds(double t, const double* y) {
-        if (system_.bounds) system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
-    }
-
-    /// To where the g of those that slide are zero, along what their σ do to the motion.
-    void bring_back(double t, double* y) {
-        const auto s = static_cast<Index>(sliding_.size());
-        evaluate(t, y);
-        VectorXd off(s);
-        for (Index j = 0; j < s; ++j) off[j] = g_[sliding_[j]];
-        if (off.isZero(0)) return;
-        const VectorXd along = -decomposed(B_).solve(off);
-        const std::vector<double> alpha = sigma_, before = f_;
-        for (Index j = 0; j < s; ++j) sigma_[sliding_[j]] += along[j];
-        rates(t, y);
-        for (std::size_t i = 0; i < f_.size(); ++i) y[i] += f_[i] - before[i];
-        sigma_ = alpha;
-    }
-
-private:
-    static Eigen::ColPivHouseholderQR<MatrixXd> decomposed(const MatrixXd& matrix) {
-        return Eigen::ColPivHouseholderQR<MatrixXd>(matrix);
-    }
-
-    /// The zero of ġ(α) = (a + b α)/(1 + c α), which goes through the values at 0 and 1: of friction that changes
-    /// the force that presses it.
-    VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
-        sigma_[sliding_[0]] = -1;
-        rates(t, y);
-        const double at_minus = slopes()[0];
-        const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
-        return VectorXd::Constant(1, -at_none / (at_one * (1 + c) - at_none));
-    }
-
-    void rates(double t, const double* y) {
-        system_.rates(t, y, sigma_.data(), f_.data());
-        system_.values(t, y, sigma_.data(), f_.data(), g_.data());
-    }
-    VectorXd slopes() const {
-        VectorXd result(static_cast<Index>(sliding_.size()));
-        for (Index j = 0; j < result.size(); ++j) result[j] = slope(sliding_[j]);
-        return result;
-    }
-
-    const Switching& system_;
-    std::vector<int> sides_, sliding_;
-    std::vector<double> sigma_, f_, g_, bounds_;
-    MatrixXd B_;
-};
 
 /// How one g_k, α_k or normal force is watched in a piece.
 struct Watched {
@@ -194,7 +76,7 @@ private:
     }
 
     double value_of(int k) const {
-        Sides here(system_, sides_, dimension());
+        SwitchSides here(system_, sides_, dimension());
         here.evaluate(t_, state_.data());
         return here.value(k);
     }
@@ -218,7 +100,7 @@ private:
 
     /// Integrates until a sign changes; is there more to come?
     bool piece() {
-        Sides now(system_, sides_, dimension());
+        SwitchSides now(system_, sides_, dimension());
         now.evaluate(t_, state_.data());
         now.find_bounds(t_, state_.data());
         for (int k = 0; k < system_.count(); ++k) {
@@ -236,8 +118,8 @@ private:
         here.rhs_when_stiff = {};
         if (!now.sliding().empty() && needs_series(here.method)) here.method = Method::verner98;
         if (!now.sliding().empty())
-            here.project = [base = options_.project,
-                            sides = std::make_shared<Sides>(system_, sides_, dimension())](double t, double* y) {
+            here.project = [base = options_.project, sides = std::make_shared<SwitchSides>(
+                                                         system_, sides_, dimension())](double t, double* y) {
                 if (base) base(t, y);
                 sides->bring_back(t, y);
             };
@@ -272,7 +154,7 @@ private:
         if (std::find(sides_.begin(), sides_.end(), 0) == sides_.end())
             return system_.smooth({sides_.begin(), sides_.end()});
         const Rhs any = system_.smooth(std::vector<double>(sides_.size(), 1.0));
-        auto sides = std::make_shared<Sides>(system_, sides_, dimension());
+        auto sides = std::make_shared<SwitchSides>(system_, sides_, dimension());
         Rhs rhs = make_rhs(
             dimension(),
             [sides](double t, const double* y, double* rate) {
@@ -285,7 +167,7 @@ private:
     }
 
     /// Each g on its side, and each α between its bounds.
-    std::vector<Watched> watches(const Sides& now) {
+    std::vector<Watched> watches(const SwitchSides& now) {
         std::vector<Watched> list;
         for (int k = 0; k < system_.count(); ++k) {
             if (system_.bounds)
@@ -315,7 +197,7 @@ private:
         return list;
     }
 
-    static double value_of(const Watched& w, const Sides& at, const std::vector<double>& normals) {
+    static double value_of(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
         switch (w.what) {
             case Watched::What::bound:
                 return w.sign * at.sigma()[w.index] + w.offset * at.bound(w.index);
@@ -331,7 +213,7 @@ private:
         std::vector<Event> list = events_.list;
         for (const Watched& w : watched)
             list.push_back({.name = system_.names[w.index], .stop = true, .at_once = true, .direction = -1});
-        auto sides = std::make_shared<Sides>(system_, sides_, dimension());
+        auto sides = std::make_shared<SwitchSides>(system_, sides_, dimension());
         const auto values = [this, watched, sides, undefined = undefined_, sizes = sizes_, normals = normals_](
                                 double t, const double* y, const double* rate, double* out) {
             if (!events_.list.empty()) events_(t, y, rate, out);
@@ -393,7 +275,7 @@ private:
         bool jumps;     ///< f differs on the sides of those that are open
     };
 
-    /// Sides for those that are open, the others as they are.
+    /// SwitchSides for those that are open, the others as they are.
     bool choose(const std::vector<int>& open) {
         if (open.empty()) return true;
         if (open.size() > most_undecided)
@@ -439,7 +321,7 @@ private:
 
     /// How consistent a choice is: every g moves to the side that it has, every α lies between −1 and 1.
     Choice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
-        Sides at(system_, sides, dimension());
+        SwitchSides at(system_, sides, dimension());
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
         Choice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
@@ -468,14 +350,14 @@ private:
     bool can_stick(std::vector<int> sides, int k) const {
         if (!system_.bounds) return false;
         sides[k] = 0;
-        Sides at(system_, sides, dimension());
+        SwitchSides at(system_, sides, dimension());
         at.evaluate(t_, state_.data());
         at.find_bounds(t_, state_.data());
         return at.bound(k) > 1 && std::abs(at.sigma()[k]) <= at.bound(k);
     }
 
     double slope_of(const std::vector<int>& sides, int k) const {
-        Sides at(system_, sides, dimension());
+        SwitchSides at(system_, sides, dimension());
         at.evaluate(t_, state_.data());
         return at.slope(k);
     }
@@ -529,7 +411,7 @@ std::vector<double> consistent_signs(const Switching& system, std::vector<int> s
                                      int dimension) {
     for (bool again = true; again;) {
         again = false;
-        Sides at(system, sides, dimension);
+        SwitchSides at(system, sides, dimension);
         at.evaluate(t, y);
         at.find_bounds(t, y);
         for (std::size_t i = 0; i < at.sliding().size() && !again; ++i) {

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// A system with held signs (switching.hpp) at one state, for given sides of its functions.
+///
+///     SwitchSides at(system, {1, 0}, dimension);      // the first is positive, the second slides along its zero
+///     at.evaluate(t, y);
+///     at.sigma()[1];                                  // α, for which ġ = 0
+///     at.rate();                                      // f
+
+#include <Eigen/Dense>
+#include <limits>
+#include <vector>
+
+#include "alembert/switching.hpp"
+
+namespace alembert {
+
+/// f and σ for given sides; σ of those that slide follows from ġ = 0.
+class SwitchSides {
+public:
+    SwitchSides(const Switching& system, std::vector<int> sides, int dimension)
+        : system_(system),
+          sides_(std::move(sides)),
+          f_(dimension),
+          g_(2 * system.count()),
+          bounds_(2 * system.count(), 1.0) {
+        for (int k = 0; k < system.count(); ++k)
+            if (sides_[k] == 0) sliding_.push_back(k);
+        sigma_.assign(sides_.begin(), sides_.end());
+    }
+
+    const std::vector<int>& sides() const { return sides_; }
+    const std::vector<int>& sliding() const { return sliding_; }
+    const std::vector<double>& sigma() const { return sigma_; }
+    double value(int k) const { return g_[k]; }
+    double slope(int k) const { return g_[system_.count() + k]; }
+    const std::vector<double>& rate() const { return f_; }
+    /// How far |α_k| may go, and what must not be negative, after `find_bounds`.
+    double bound(int k) const { return bounds_[k]; }
+    double normal(int k) const { return bounds_[system_.count() + k]; }
+    /// ∂ġ_k/∂σ_k by the last evaluation, for one that slides.
+    double steepness(std::size_t position) const {
+        return B_(static_cast<Eigen::Index>(position), static_cast<Eigen::Index>(position));
+    }
+
+    /// f, g, ġ at a state, and σ of those that slide; NaN where nothing keeps ġ = 0.
+    void evaluate(double t, const double* y) {
+        const auto s = static_cast<Eigen::Index>(sliding_.size());
+        for (const int k : sliding_) sigma_[k] = 0;
+        rates(t, y);
+        if (s == 0) return;
+        const Eigen::VectorXd none = slopes();
+        B_.resize(s, s);
+        for (Eigen::Index j = 0; j < s; ++j) {
+            sigma_[sliding_[j]] = 1;
+            rates(t, y);
+            B_.col(j) = slopes() - none;
+            sigma_[sliding_[j]] = 0;
+        }
+        const double enough = 1e-13 * B_.cwiseAbs().maxCoeff();
+        Eigen::VectorXd alpha = Eigen::VectorXd::Zero(s), slope = none;
+        const auto go_to = [&](const Eigen::VectorXd& to) {
+            alpha = to;
+            for (Eigen::Index j = 0; j < s; ++j) sigma_[sliding_[j]] = alpha[j];
+            rates(t, y);
+            slope = slopes();
+            return !(slope.cwiseAbs().maxCoeff() > enough);
+        };
+        Eigen::MatrixXd secant = B_;
+        if (go_to(-decomposed(secant).solve(none)) ||
+            (s == 1 && go_to(by_quotient(t, y, none[0], none[0] + B_(0, 0)))))
+            return;
+        for (int round = 0; round < 20; ++round) {  // Broyden's method
+            const Eigen::VectorXd step = -decomposed(secant).solve(slope);
+            if (go_to(alpha + step)) return;
+            secant += slope * step.transpose() / step.squaredNorm();
+        }
+        if (slope.cwiseAbs().maxCoeff() > negligible * B_.cwiseAbs().maxCoeff())  // nothing holds it there
+            for (const int k : sliding_) sigma_[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+
+    /// After `evaluate` at the same state.
+    void find_bounds(double t, const double* y) {
+        if (system_.bounds) system_.bounds(t, y, sigma_.data(), f_.data(), bounds_.data());
+    }
+
+    /// To where the g of those that slide are zero, along what their σ do to the motion.
+    void bring_back(double t, double* y) {
+        const auto s = static_cast<Eigen::Index>(sliding_.size());
+        evaluate(t, y);
+        Eigen::VectorXd off(s);
+        for (Eigen::Index j = 0; j < s; ++j) off[j] = g_[sliding_[j]];
+        if (off.isZero(0)) return;
+        const Eigen::VectorXd along = -decomposed(B_).solve(off);
+        const std::vector<double> alpha = sigma_, before = f_;
+        for (Eigen::Index j = 0; j < s; ++j) sigma_[sliding_[j]] += along[j];
+        rates(t, y);
+        for (std::size_t i = 0; i < f_.size(); ++i) y[i] += f_[i] - before[i];
+        sigma_ = alpha;
+    }
+
+private:
+    static constexpr double negligible = 1e-9;  // a rate of g, relative to what its σ changes
+
+    static Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& matrix) {
+        return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(matrix);
+    }
+
+    /// The zero of ġ(α) = (a + b α)/(1 + c α), which goes through the values at 0 and 1: of friction that changes
+    /// the force that presses it.
+    Eigen::VectorXd by_quotient(double t, const double* y, double at_none, double at_one) {
+        sigma_[sliding_[0]] = -1;
+        rates(t, y);
+        const double at_minus = slopes()[0];
+        const double c = (2 * at_none - at_one - at_minus) / (at_one - at_minus);
+        return Eigen::VectorXd::Constant(1, -at_none / (at_one * (1 + c) - at_none));
+    }
+
+    void rates(double t, const double* y) {
+        system_.rates(t, y, sigma_.data(), f_.data());
+        system_.values(t, y, sigma_.data(), f_.data(), g_.data());
+    }
+    Eigen::VectorXd slopes() const {
+        Eigen::VectorXd result(static_cast<Eigen::Index>(sliding_.size()));
+        for (Eigen::Index j = 0; j < result.size(); ++j) result[j] = slope(sliding_[j]);
+        return result;
+    }
+
+    const Switching& system_;
+    std::vector<int> sides_, sliding_;
+    std::vector<double> sigma_, f_, g_, bounds_;
+    Eigen::MatrixXd B_;
+};
+
+}  // namespace alembert
