@@ -28,7 +28,7 @@ TEST_CASE("parts: what one part makes and a later one takes is carried, once") {
                                           {.names = {"c"}, .uses = {"a", "b"}, .text = "const Real c = a * b;"},
                                           {.uses = {"out", "c", "b"}, .text = "out[0] = c + b;"},
                                           {.uses = {"out", "a"}, .text = "out[1] = a;"}},
-                                         2);
+                                         2, CodeLanguage::cpp);
     REQUIRE(parts.list.size() == 3);
     CHECK(parts.carried == 2);
     CHECK(parts.list[0].lines == std::vector<std::string>{"const Real a = x + 1.5e3;", "const Real b = 2 * a;",
@@ -48,7 +48,7 @@ TEST_CASE("parts: all names of a statement can be carried") {
           .text = "const auto trig0 = sincos(p, q);\nconst Real s0 = trig0.sine[0], c0 = trig0.cosine[0];"},
          {.uses = {"out", "s0"}, .text = "out[0] = s0;"},
          {.uses = {"out", "c0"}, .text = "out[1] = c0;"}},
-        1);
+        1, CodeLanguage::cpp);
     REQUIRE(parts.list.size() == 3);
     CHECK(parts.carried == 2);
     CHECK(parts.list[0].lines.size() == 3);

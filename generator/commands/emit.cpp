@@ -16,24 +16,31 @@ namespace {
 
 struct EmitVerb : SceneOptions {
     std::string folder;
+    std::string language = "cpp";
     EmissionOptions emission;
 };
 
 int run(const EmitVerb& options) {
     EmissionOptions wishes = options.emission;
     wishes.by = options.by;
+    wishes.language = options.language == "c" ? CodeLanguage::c : CodeLanguage::cpp;
     const Emission e = emission(scene_of(options.scene), wishes);
     warn(e.warnings);
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
     if (failed)
         throw CompileError(fmt::format("cannot make the folder '{}': {}", options.folder, failed.message()));
-    const std::string path = (std::filesystem::path(options.folder) / e.source.file).string();
-    write_file(path, e.source.text, {options.scene});
+    std::vector<std::string> paths;
+    const auto write = [&](const std::string& name, const std::string& text) {
+        paths.push_back((std::filesystem::path(options.folder) / name).string());
+        write_file(paths.back(), text, {options.scene});
+    };
+    write(e.source.file, e.source.text);
+    if (e.source.header) write(e.source.header->name, e.source.header->text);
     if (options.json)
-        show(as_json(e, path));
+        show(as_json(e, paths));
     else
-        show(as_text(e, path));
+        show(as_text(e, paths));
     return 0;
 }
 
@@ -43,12 +50,15 @@ void add_emit(CLI::App& app, Chosen& chosen) {
     add_scene_verb<EmitVerb>(
         app, chosen,
         {.name = "emit",
-         .about = "writes the C++ of the system",
+         .about = "writes the C++ of the system, or its C",
          .example = "alembert emit scenes/textbook/double_pendulum.toml -o solver"},
         run, [](Verb& verb, EmitVerb& options) {
             verb.add_option("-o,--output", options.folder, "the folder; the file is named after the scene")
                 .type_name(values::folder)
                 .required();
+            verb.add_option("--language", options.language, "cpp (default), or c: C99 and a header")
+                .type_name(values::language)
+                .one_of({"cpp", "c"});
             verb.add_flag("--fold", options.emission.fold, "parameters as constants");
             verb.add_flag("--jacobian", options.emission.jacobian, "also the derivatives of the right-hand side");
             verb.add_flag("--batch", options.emission.batch, "also the same functions for eight systems at once");

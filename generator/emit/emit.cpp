@@ -49,6 +49,7 @@ mustache::data data_of(const EmittedFunction& function) {
     result.set("about", function.about);
     result.set("arguments", function.arguments);
     result.set("unpack", list_of(function.unpacked));
+    result.set("ignored", list_of(function.ignored));
     result.set("sections", sections);
     return result;
 }
@@ -76,8 +77,18 @@ public:
         set_elementary(file_, elementary_functions(p_));
         file_.set("batch", options_.batch);
         add_elementary(file_);
-        return {.file = ascii_identifier(p_.name) + ".cpp",
-                .text = mustache::mustache{std::string(template_solver)}.render(file_),
+        const std::string name = ascii_identifier(p_.name);
+        const auto rendered = [&](std::string_view shape) {
+            return mustache::mustache{std::string(shape)}.render(file_);
+        };
+        if (options_.language == CodeLanguage::c)
+            return {.file = name + ".c",
+                    .text = rendered(template_solver_c),
+                    .operations = cost,
+                    .formulation = p_.formulation,
+                    .header = SourceFile{name + ".h", rendered(template_solver_h)}};
+        return {.file = name + ".cpp",
+                .text = rendered(template_solver),
                 .operations = cost,
                 .formulation = p_.formulation};
     }
@@ -91,7 +102,7 @@ private:
     void add(const FunctionTask& task) { add(written(p_, words_, task, options_), task.name); }
 
     void add_functions() {
-        add(prepare(p_, words_), "prepare");
+        add(prepare(p_, words_, options_.language), "prepare");
         add(right_hand_side(p_, words_));
         for (const FunctionTask& task :
              {mass_forcing(p_), energy(p_), outputs_at(p_), events_at(p_), constraints_at(p_), multipliers_at(p_)})
@@ -182,6 +193,8 @@ private:
 Source emit(const Program& program, const EmitOptions& options) {
     if (program.singular)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
+    if (options.batch && options.language == CodeLanguage::c)
+        throw ModelError("functions over eight systems at once are written in C++ alone");
     return SolverFile(program, options).source();
 }
 

@@ -14,8 +14,14 @@ namespace alembert {
 
 namespace {
 
+/// Numbers are passed by reference in C++, where Real may be a pack of eight.
+std::string type_in(CodeLanguage language, const std::string& type) {
+    return language == CodeLanguage::c && type == "const Real&" ? "Real" : type;
+}
+
 /// Several in a line; arrays apart.
-std::vector<std::string> unpacked(const std::vector<ArrayInput>& items) {
+std::vector<std::string> unpacked(const std::vector<ArrayInput>& items, CodeLanguage language) {
+    const std::string alias = language == CodeLanguage::cpp ? "&" : "";
     std::vector<std::string> lines;
     std::string line;
     for (std::size_t k = 0; k < items.size(); ++k) {
@@ -25,19 +31,31 @@ std::vector<std::string> unpacked(const std::vector<ArrayInput>& items) {
             lines.push_back(line);
             line.clear();
         }
-        line += (line.empty() ? "&" : ", &") + item;
+        line += (line.empty() ? "" : ", ") + alias + item;
     }
     if (!line.empty()) lines.push_back(line);
     return lines;
 }
 
-/// Arguments that the function does not use stay without a name.
-std::string signature(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used) {
+/// Arguments that the function does not use stay without a name in C++.
+std::string signature(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used,
+                      CodeLanguage language) {
     std::string result;
-    for (const FunctionArgument& a : arguments)
-        result +=
-            fmt::format("{}{}{}", result.empty() ? "" : ", ", a.type, used.contains(a.name) ? " " + a.name : "");
+    for (const FunctionArgument& a : arguments) {
+        const bool is_named = used.contains(a.name) || language == CodeLanguage::c;
+        result += fmt::format("{}{}{}", result.empty() ? "" : ", ", type_in(language, a.type),
+                              is_named ? " " + a.name : "");
+    }
     return result;
+}
+
+/// Those that C has to name and the function does not use.
+std::vector<std::string> ignored(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used,
+                                 CodeLanguage language) {
+    std::vector<std::string> names;
+    for (const FunctionArgument& a : arguments)
+        if (!used.contains(a.name) && language == CodeLanguage::c) names.push_back(a.name);
+    return names;
 }
 
 std::set<std::string> used_in(const std::vector<Passage>& passages, const std::vector<ArrayInput>& items) {
@@ -51,16 +69,19 @@ std::set<std::string> used_in(const std::vector<Passage>& passages, const std::v
 }
 
 std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vector<ArrayInput>& items,
-                                       const std::vector<Passage>& passages, std::size_t longest) {
+                                       const std::vector<Passage>& passages, const EmitOptions& options) {
+    const CodeLanguage language = options.language;
+    const std::string unused = language == CodeLanguage::cpp ? "[[maybe_unused]] " : "";
     std::vector<CodeStatement> statements;
     for (const Passage& passage : passages)
         statements.insert(statements.end(), passage.statements.begin(), passage.statements.end());
-    const FunctionParts parts = in_parts(statements, std::min(processor::part_length, longest));
+    const FunctionParts parts =
+        in_parts(statements, std::min(processor::part_length, options.longest_function), language);
     std::string given, of_parts;
     std::set<std::string> all;
     for (const FunctionArgument& a : task.arguments) {
         given += a.name + ", ";
-        of_parts += fmt::format("[[maybe_unused]] {} {}, ", a.type, a.name);
+        of_parts += fmt::format("{}{} {}, ", unused, type_in(language, a.type), a.name);
         all.insert(a.name);
     }
     std::vector<EmittedFunction> result;
@@ -72,13 +93,22 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
         Passage lines{.title = "Part"};
         for (const std::string& line : part.lines) lines.statements.push_back({.text = line});
         const std::string own = fmt::format("{}_{}", task.name, result.size());
-        result.push_back(
-            {own, "A part.", of_parts + "[[maybe_unused]] Real* carried", unpacked(used), {lines}, true});
+        EmittedFunction piece{.name = own,
+                              .about = "A part.",
+                              .arguments = of_parts + unused + "Real* carried",
+                              .unpacked = unpacked(used, language),
+                              .passages = {lines},
+                              .is_part = true};
+        if (language == CodeLanguage::c) {  // whichever of them it uses
+            for (const FunctionArgument& a : task.arguments) piece.ignored.push_back(a.name);
+            piece.ignored.emplace_back("carried");
+        }
+        result.push_back(std::move(piece));
         calls.statements.push_back({.text = fmt::format("{}({}carried);", own, given)});
     }
     result.push_back({.name = task.name,
                       .about = task.about,
-                      .arguments = signature(task.arguments, all),
+                      .arguments = signature(task.arguments, all, language),
                       .passages = {calls}});
     return result;
 }
@@ -88,26 +118,32 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
 std::vector<EmittedFunction> written(const Program& program, const Vocabulary& words, const FunctionTask& task,
                                      const EmitOptions& options) {
     if (task.results.empty() && task.copies.empty()) return {};
-    Writer writer(program, words.names(), words.leaves(), options.batch);
+    Writer writer(program, words.names(), words.leaves(), options.batch, options.language);
     std::vector<Passage> passages = writer.write(task.goals);
     Passage last{.title = "Result", .statements = task.copies};
     for (const FunctionResult& result : task.results)
         last.statements.push_back(writer.assigned(result.array, result.place, result.node));
     passages.push_back(std::move(last));
-    const std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
+    std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
+    if (options.language == CodeLanguage::c) {  // whose compilers complain of a name that is not used
+        const std::set<std::string> read = used_in(passages, {});
+        std::erase_if(items, [&](const ArrayInput& item) { return !read.contains(item.name); });
+    }
     std::size_t count = 0;
     for (const Passage& passage : passages) count += passage.statements.size();
-    if (count > options.longest_function) return in_pieces(task, items, passages, options.longest_function);
+    if (count > options.longest_function) return in_pieces(task, items, passages, options);
+    const std::set<std::string> used = used_in(passages, items);
     return {{.name = task.name,
              .about = task.about,
-             .arguments = signature(task.arguments, used_in(passages, items)),
-             .unpacked = unpacked(items),
+             .arguments = signature(task.arguments, used, options.language),
+             .unpacked = unpacked(items, options.language),
+             .ignored = ignored(task.arguments, used, options.language),
              .passages = passages}};
 }
 
-std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& words) {
+std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& words, CodeLanguage language) {
     if (words.constants().empty()) return {};
-    Writer writer(program, words.names(), words.variables());
+    Writer writer(program, words.names(), words.variables(), false, language);
     std::vector<Goal> goals;
     for (const int id : words.constants()) goals.push_back({"Constants", words.constant(id), id, true});
     std::vector<Passage> passages = writer.write(goals);
@@ -122,7 +158,7 @@ std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& w
     return {{.name = "prepare",
              .about = "What depends on parameters alone, after the parameters.",
              .arguments = "Real* par",
-             .unpacked = unpacked(words.inputs(uses, false)),
+             .unpacked = unpacked(words.inputs(uses, false), language),
              .passages = passages}};
 }
 

@@ -36,6 +36,7 @@ struct FunctionTask {
 struct EmittedFunction {
     std::string name, about, arguments;
     std::vector<std::string> unpacked = {};  ///< "&theta = state[0], &omega = state[1]": declared as const Real
+    std::vector<std::string> ignored = {};   ///< arguments that C names and the function may not use
     std::vector<Passage> passages = {};
     bool is_part = false;
 };
@@ -45,6 +46,6 @@ std::vector<EmittedFunction> written(const Program& program, const Vocabulary& w
                                      const EmitOptions& options);
 
 /// The function that makes the constants from the parameters; none where there are no constants.
-std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& words);
+std::vector<EmittedFunction> prepare(const Program& program, const Vocabulary& words, CodeLanguage language);
 
 }  // namespace alembert

@@ -30,6 +30,6 @@ struct FunctionParts {
 };
 
 /// Parts of `length` statements; the last may have fewer.
-FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length);
+FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length, CodeLanguage language);
 
 }  // namespace alembert

@@ -13,11 +13,14 @@
 
 namespace alembert {
 
+/// What a file is written in. C is C99 with `Real` for double, so that one text of an expression serves both.
+enum class CodeLanguage { cpp, c };
+
 struct CodeStatement {
     std::vector<std::string> names = {};  ///< that it declares, each a Real
     std::set<std::string> uses = {};      ///< names that its values are made of
     int cost = 0;                         ///< operations
-    std::string text;                     ///< C++; may have several lines
+    std::string text;                     ///< may have several lines
 };
 
 /// Statements under a title, in the order in which a lecturer would write them.

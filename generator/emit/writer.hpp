@@ -31,8 +31,13 @@ public:
     /// `leaves`: nodes that have names already (variables, constants that `prepare` made).
     /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations
     /// instead of 30, as good to an ulp of 1, and further from the book.
-    Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false)
-        : program_(program), names_(std::move(names)), named_(std::move(leaves)), adds_angles_(adds_angles) {}
+    Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false,
+           CodeLanguage language = CodeLanguage::cpp)
+        : program_(program),
+          names_(std::move(names)),
+          named_(std::move(leaves)),
+          adds_angles_(adds_angles),
+          language_(language) {}
 
     /// The statements that lead to the goals, by section: trigonometry, what several sections share, then the
     /// goals' own sections in their order.
@@ -99,6 +104,7 @@ private:
         wanted_negatives_;  // nodes that are written as their negative, and the name of that
     std::map<int, std::string> argument_names_, sine_names_, cosine_names_;  // of an argument
     bool adds_angles_;
+    CodeLanguage language_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed
 
     std::set<std::string> reading_;  // names in the statement at hand

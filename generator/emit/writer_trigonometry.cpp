@@ -35,8 +35,10 @@ std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
         for (std::size_t begin = 0; begin < arguments.size(); begin += processor::widest_sincos) {
             const std::size_t end = std::min(begin + processor::widest_sincos, arguments.size());
             const auto at = [&](std::size_t k) { return arguments.begin() + static_cast<std::ptrdiff_t>(k); };
-            statements.push_back(end - begin == 1 ? statement(first[begin])
-                                                  : sines_together({at(begin), at(end)}, sums));
+            if (end - begin > 1 && language_ == CodeLanguage::cpp)
+                statements.push_back(sines_together({at(begin), at(end)}, sums));
+            else
+                for (std::size_t k = begin; k < end; ++k) statements.push_back(statement(first[k]));
         }
         for (const AngleSum& sum : sums) add_angle_sum(statements, sum);
     }
@@ -94,6 +96,9 @@ CodeStatement Writer::trigonometric_statement(int id) {
     if (sine >= 0) named_[sine] = names_.fresh("sin_" + base);
     if (cosine >= 0) named_[cosine] = names_.fresh("cos_" + base);
     ++operations_;
+    if (sine >= 0 && cosine >= 0 && language_ == CodeLanguage::c)
+        return finished({named_[sine], named_[cosine]}, fmt::format("const Real {} = sin({}), {} = cos({});",
+                                                                    named_[sine], of, named_[cosine], of));
     if (sine >= 0 && cosine >= 0)
         return finished({named_[sine], named_[cosine]},
                         fmt::format("const auto [{}, {}] = sincos({});", named_[sine], named_[cosine], of));

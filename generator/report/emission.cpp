@@ -6,9 +6,9 @@
 
 namespace alembert {
 
-Json as_json(const Emission& e, const std::string& path) {
+Json as_json(const Emission& e, const std::vector<std::string>& paths) {
     Json result;
-    result["files"] = {path};
+    result["files"] = paths;
     result["operations"] = e.source.operations.total();
     result["formulation"] = e.source.formulation;
     result["chain"] = e.choice.cost.chain;
@@ -27,10 +27,11 @@ Json as_json(const Emission& e, const std::string& path) {
     return result;
 }
 
-std::string as_text(const Emission& e, const std::string& path) {
+std::string as_text(const Emission& e, const std::vector<std::string>& paths) {
     const Operations& count = e.source.operations;
     std::string page;
-    put(page, "{}\n{}; {} a right-hand side ({}, {}, {}, {})\n", path, e.source.formulation,
+    for (const std::string& path : paths) put(page, "{}\n", path);
+    put(page, "{}; {} a right-hand side ({}, {}, {}, {})\n", e.source.formulation,
         counted(count.total(), "operation"), counted(count.additions, "addition"),
         counted(count.multiplications, "multiplication"), counted(count.divisions, "division"),
         counted(count.functions, "function"));

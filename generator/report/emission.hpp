@@ -6,8 +6,8 @@
 
 namespace alembert {
 
-/// `path`: where the file was written.
-Json as_json(const Emission& emission, const std::string& path);
-std::string as_text(const Emission& emission, const std::string& path);
+/// `paths`: where the files were written.
+Json as_json(const Emission& emission, const std::vector<std::string>& paths);
+std::string as_text(const Emission& emission, const std::vector<std::string>& paths);
 
 }  // namespace alembert

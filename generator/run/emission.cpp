@@ -12,7 +12,8 @@ Emission emission(Scene scene, const EmissionOptions& options) {
             throw ModelError(
                 "the derivatives of the right-hand side are too long to be written out; leave the Jacobian out");
     }
-    e.source = emit(e.derivatives ? e.derivatives->program : e.choice.program, {.batch = options.batch});
+    e.source = emit(e.derivatives ? e.derivatives->program : e.choice.program,
+                    {.batch = options.batch, .language = options.language});
     return e;
 }
 

@@ -19,6 +19,7 @@ struct EmissionOptions {
     bool fold = false;      ///< parameters become constants
     bool jacobian = false;  ///< with the derivatives of the right-hand side by state and parameters
     bool batch = false;     ///< the same functions for eight systems at once too
+    CodeLanguage language = CodeLanguage::cpp;
 };
 
 struct Emission : Derived {

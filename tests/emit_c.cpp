@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What is emitted in C is compiled as strict C99 and computes what the interpreter of the same program does. Where
+// a compiler for a controller is there, it takes the files too, with floats.
+#include <dlfcn.h>
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "program/differentiate.hpp"
+#include "program/interpret.hpp"
+#include "run/emission.hpp"
+#include "scene/scene.hpp"
+#include "scenes.hpp"
+
+namespace emit_c {
+
+using namespace alembert;
+
+namespace {
+
+const char* const scenes[] = {
+    "textbook/double_pendulum", "textbook/rolling_disc",   "textbook/sled",
+    "textbook/watt_governor",   "textbook/planetary_gear", "textbook/free_body_quaternion",
+    "textbook/heavy_top_joint", "textbook/falling_ladder", "gallery/rssr"};
+
+struct Folder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("alembert-emit-c-{}", getpid());
+    Folder() { std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string file(const std::string& name) const { return (path / name).string(); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+};
+
+bool runs(const std::string& command) {
+    return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+struct Library {
+    explicit Library(const std::string& file) : handle(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {}
+    ~Library() {
+        if (handle != nullptr) dlclose(handle);
+    }
+    template <typename Function>
+    Function* function(const std::string& name) const {
+        return reinterpret_cast<Function*>(dlsym(handle, name.c_str()));
+    }
+    void* handle;
+};
+
+using Defaults = void(double*);
+using Rhs = void(double, const double*, const double*, double*);
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double worst = 0, size = 1e-300;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        worst = std::max(worst, std::abs(a[i] - b[i]));
+        size = std::max(size, std::abs(b[i]));
+    }
+    return worst / size;
+}
+
+/// Rates and derivatives at random states, against the interpreter.
+void compare(const Library& library, const Emission& e) {
+    const Program& p = e.derivatives->program;
+    const std::string name = e.source.file.substr(0, e.source.file.size() - 2);
+    const auto defaults = library.function<Defaults>(name + "_defaults");
+    const auto rhs = library.function<Rhs>(name + "_rhs"), jacobian = library.function<Rhs>(name + "_jacobian");
+    REQUIRE((defaults != nullptr));
+    REQUIRE((rhs != nullptr));
+    REQUIRE((jacobian != nullptr));
+    std::vector<double> par(1000);
+    defaults(par.data());
+    std::mt19937_64 random(99);
+    for (int k = 0; k < 4; ++k) {
+        const State<double> at = test::random_state(start_of(e.mechanism), random);
+        std::vector<double> state = at.q;
+        state.insert(state.end(), at.qdot.begin(), at.qdot.end());
+        const std::vector<double> value = interpret(p, at);
+        std::vector<double> expected, rate(state.size());
+        for (const int node : p.nodes_of(Group::rate)) expected.push_back(value[node]);
+        if (p.speeds.empty()) expected.assign(at.qdot.begin(), at.qdot.end());
+        for (const int node : p.nodes_of(Group::acceleration)) expected.push_back(value[node]);
+        rhs(at.t, state.data(), par.data(), rate.data());
+        CHECK(difference(rate, expected) < 1e-11);
+        std::vector<double> entries, found;
+        for (const Group group : {Group::jacobian, Group::power_gradient})
+            for (const int node : p.nodes_of(group))
+                if (!p.is_zero(node)) entries.push_back(value[node]);
+        found.resize(entries.size());
+        jacobian(at.t, state.data(), par.data(), found.data());
+        CHECK(difference(found, entries) < 1e-11);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("emit: C99 without a warning, whose rates and Jacobian are those of the program") {
+    const Folder folder;
+    std::vector<std::unique_ptr<Emission>> all;
+    std::string files;
+    for (const char* const scene : scenes) {
+        CAPTURE(scene);
+        all.push_back(std::make_unique<Emission>(
+            emission(read_scene(test::source_path(fmt::format("scenes/{}.toml", scene))),
+                     {.jacobian = true, .language = CodeLanguage::c})));
+        const Source& source = all.back()->source;
+        folder.write(source.file, source.text);
+        REQUIRE(source.header.has_value());
+        folder.write(source.header->name, source.header->text);
+        files += " " + folder.file(source.file);
+    }
+    const std::string strict = "-std=c99 -pedantic -Wall -Wextra -Werror";
+    REQUIRE(runs("cc " + strict + " -O1 -ffp-contract=off -shared -fPIC -o " + folder.file("all.so") + files +
+                 " -lm"));
+    const Library library(folder.file("all.so"));
+    REQUIRE(library.handle != nullptr);
+    for (const auto& e : all) {
+        CAPTURE(e->source.file);
+        compare(library, *e);
+    }
+    if (runs("arm-none-eabi-gcc --version"))
+        CHECK(runs("cd " + folder.path.string() +
+                   " && arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -c -O1 "
+                   "-DALEMBERT_REAL=float -std=c99" +
+                   files));
+}
+
+TEST_CASE("emit: long functions in C are written in parts, with the same values") {
+    const Folder folder;
+    Emission e = emission(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml")),
+                          {.jacobian = true, .language = CodeLanguage::c});
+    const Source parted = emit(e.derivatives->program, {.language = CodeLanguage::c, .longest_function = 60});
+    CHECK(parted.text.find("carried[") != std::string::npos);
+    folder.write(parted.file, parted.text);
+    folder.write(parted.header->name, parted.header->text);
+    REQUIRE(runs("cc -std=c99 -pedantic -Wall -Wextra -Werror -O0 -shared -fPIC -o " + folder.file("one.so") +
+                 " " + folder.file(parted.file) + " -lm"));
+    const Library library(folder.file("one.so"));
+    REQUIRE(library.handle != nullptr);
+    compare(library, e);
+}
+
+}  // namespace emit_c
