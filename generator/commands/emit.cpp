@@ -37,6 +37,7 @@ int run(const EmitVerb& options) {
     };
     write(e.source.file, e.source.text);
     if (e.source.header) write(e.source.header->name, e.source.header->text);
+    if (e.main) write(e.main->name, e.main->text);
     if (options.json)
         show(as_json(e, paths));
     else
@@ -59,6 +60,8 @@ void add_emit(CLI::App& app, Chosen& chosen) {
             verb.add_option("--language", options.language, "cpp (default), or c: C99 and a header")
                 .type_name(values::language)
                 .one_of({"cpp", "c"});
+            verb.add_flag("--standalone", options.emission.standalone,
+                          "also a main program that integrates and prints");
             verb.add_flag("--fold", options.emission.fold, "parameters as constants");
             verb.add_flag("--jacobian", options.emission.jacobian, "also the derivatives of the right-hand side");
             verb.add_flag("--batch", options.emission.batch, "also the same functions for eight systems at once");

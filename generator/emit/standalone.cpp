@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/standalone.hpp"
+
+#include <fmt/format.h>
+
+#include <kainjow/mustache.hpp>
+
+#include "emit/numbers.hpp"
+#include "emit/templates.hpp"
+#include "emit/vocabulary.hpp"
+
+namespace alembert {
+
+SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language) {
+    const Vocabulary words(program);
+    const std::string scene = ascii_identifier(program.name), ending = language == CodeLanguage::c ? "c" : "cpp",
+                      name = scene + "_main." + ending;
+    std::string initial, columns;
+    for (const double x : start.state) initial += shortest(x) + ", ";
+    for (const auto* names : {&words.q(), &words.u()})
+        for (const std::string& column : *names) columns += "," + column;
+    kainjow::mustache::data file;
+    file.set("scene", scene);
+    file.set("version", ALEMBERT_VERSION);
+    file.set("c", language == CodeLanguage::c);
+    file.set("compile", language == CodeLanguage::c
+                            ? fmt::format("cc -std=c99 -O2 {} {}.c -lm -o {}", name, scene, scene)
+                            : fmt::format("c++ -std=c++20 -O2 {} -o {}", name, scene));
+    file.set("n", std::to_string(words.q().size()));
+    file.set("s", std::to_string(words.u().size()));
+    file.set("p", std::to_string(words.par().size()));
+    file.set("k", std::to_string(words.constants().size()));
+    file.set("constraints", std::to_string(program.nodes_of(Group::velocity).size()));
+    file.set("has_project", !program.nodes_of(Group::projected).empty());
+    file.set("initial", initial);
+    file.set("columns", columns);
+    file.set("start", shortest(start.t));
+    file.set("duration", shortest(start.duration));
+    file.set("tolerance", shortest(start.tolerance));
+    return {name, kainjow::mustache::mustache{std::string(template_standalone)}.render(file)};
+}
+
+}  // namespace alembert

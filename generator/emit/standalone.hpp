@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// A main program beside an emitted file, which integrates the system and prints its motion.
+///
+///     const SourceFile main = standalone(program, {.state = {0.5, 0, 0, 0}}, CodeLanguage::c);
+///     main.name;    // "double_pendulum_main.c"
+///
+/// Shape in templates/standalone.mustache.
+
+#include "emit/emit.hpp"
+
+namespace alembert {
+
+struct StandaloneStart {
+    double t = 0;               ///< s
+    std::vector<double> state;  ///< q, then u
+    double duration = 10;       ///< s
+    double tolerance = 1e-9;    ///< of a step, relative to max(1, |y|)
+};
+
+SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);
+
+}  // namespace alembert
