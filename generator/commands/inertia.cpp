@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <sstream>
+
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "commands/verb.hpp"
+#include "report/inertia.hpp"
+
+namespace alembert {
+
+namespace {
+
+struct InertiaVerb : SceneOptions {
+    std::string of, about;
+    std::vector<std::string> at;
+};
+
+int run(const InertiaVerb& verb) {
+    InertiaOptions options{.of = {}, .about = verb.about, .at = overrides_of(verb.at)};
+    std::istringstream names(verb.of);
+    for (std::string name; std::getline(names, name, ',');)
+        if (!name.empty()) options.of.push_back(name);
+    const SceneInertia found = inertia(scene_of(verb.scene), options);
+    warn(found.warnings);
+    if (verb.json)
+        show(as_json(found));
+    else
+        show(as_text(found));
+    return 0;
+}
+
+}  // namespace
+
+void add_inertia(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<InertiaVerb>(
+        app, chosen,
+        {.name = "inertia",
+         .about = "gives mass, mass centre, tensor and principal moments",
+         .example = "alembert inertia scenes/textbook/gyrocompass.toml"},
+        run, [](Verb& verb, InertiaVerb& options) {
+            verb.add_option("--of", options.of, "bodies and particles, as in B1,B2; default: all together")
+                .type_name(values::names);
+            verb.add_option("--about", options.about, "a point, particle or body; default: the mass centre")
+                .type_name(values::point);
+            add_at_option(verb, options.at);
+        });
+}
+
+}  // namespace alembert

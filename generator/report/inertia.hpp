@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "report/json.hpp"
+#include "rigid/inertia.hpp"
+
+namespace alembert {
+
+Json as_json(const SceneInertia& found);
+std::string as_text(const SceneInertia& found);
+
+}  // namespace alembert
