@@ -322,6 +322,81 @@ TEST_CASE("import: a quadruped on a floating base accelerates as link by link") 
     compare("quadruped", {}, 18);
 }
 
+// M (q''(τ) − q''(0)) = τ, with M from the loads that the description itself needs for unit accelerations.
+TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the description's own inertia says") {
+    const std::string file = source_path("tests/robots/arm6.urdf"), scene = temporary("driven.toml", "");
+    const auto imported = run({"import", file, "-o", scene, "--drives", "--json"});
+    REQUIRE(imported.exit == 0);
+    CHECK(Json::parse(imported.out)["drives"].size() == 6);
+    const Model model(file);
+    Model::Values q, none;
+    for (const Hinge& h : model.hinges)
+        if (h.type != "fixed") q[h.name] = 0.3 + 0.1 * static_cast<double>(q.size());
+    const auto accelerations = [&](const std::string& text) {
+        std::vector<std::string> eval{"eval", temporary("one.toml", text), "--json"};
+        for (const auto& [name, value] : q) {
+            eval.emplace_back("--at");
+            eval.push_back(fmt::format("{}={}", name, value));
+        }
+        const auto result = run(eval);
+        CAPTURE(result.err);
+        REQUIRE(result.exit == 0);
+        return Json::parse(result.out)["accelerations"];
+    };
+    std::string driven = contents(scene);
+    const Json free = accelerations(driven);
+    Eigen::VectorXd torque(6);
+    Eigen::Index k = 0;
+    for (const auto& [name, value] : q) {
+        torque[k] = 2.0 - static_cast<double>(k);
+        const std::string unset = "drive_" + name + " = { value = 0,";
+        const std::size_t place = driven.find(unset);
+        REQUIRE(place != std::string::npos);
+        driven.replace(place, unset.size(), fmt::format("drive_{} = {{ value = {},", name, torque[k++]));
+    }
+    const Json pushed = accelerations(driven);
+    Eigen::MatrixXd M(6, 6);
+    Eigen::VectorXd change(6);
+    k = 0;
+    for (const auto& [name, value] : q) {
+        const Model::Values loads = model.loads(q, none, {{name, 1.0}}, 0, false);
+        Eigen::Index row = 0;
+        for (const auto& [other, ignored] : q) M(row++, k) = loads.at(other);
+        change[k++] = pushed[name].get<double>() - free[name].get<double>();
+    }
+    CHECK((M * change - torque).norm() < 1e-11 * torque.norm());
+}
+
+TEST_CASE("import: right angles of few digits are counted, and exact where that is asked for") {
+    const auto robot = [](const std::string& rpy) {
+        return robot_of(link_of("base") + link_of("arm", heavy) +
+                        hinge_of("j", "continuous", "base", "arm",
+                                 "<origin xyz=\"0 0 1\" rpy=\"" + rpy + "\"/><axis xyz=\"0 0 1\"/>"));
+    };
+    const std::string scene = temporary("right.toml", "");
+    const auto imported = [&](const std::string& rpy, const std::vector<std::string>& more) {
+        std::vector<std::string> args{"import", temporary("r.urdf", robot(rpy)), "-o", scene, "--json"};
+        args.insert(args.end(), more.begin(), more.end());
+        const auto result = run(args);
+        REQUIRE(result.exit == 0);
+        return std::pair(Json::parse(result.out)["right_angles"]["rounded"].get<int>(), contents(scene));
+    };
+    for (const char* angle : {"1.5708", "-1.5707", "3.14", "1.570796", "-4.712", "6.283185"}) {
+        CAPTURE(angle);
+        const auto [found, text] = imported(std::string(angle) + " 0 0", {});
+        CHECK(found == 1);
+        CHECK(text.find("pi") == std::string::npos);
+        const auto [again, mended] = imported(std::string(angle) + " 0 0", {"--right-angles"});
+        CHECK(again == 1);
+        CHECK(mended.find("pi") != std::string::npos);
+    }
+    for (const char* angle : {"1.58", "1.5", "0.7854", "1.5709", "1.5707963267948966", "0", "1.6"}) {
+        CAPTURE(angle);
+        CHECK(imported(std::string(angle) + " 0 0", {"--right-angles"}).first == 0);
+    }
+    CHECK(imported("1.5708 -1.57 3.1416", {}).first == 3);
+}
+
 TEST_CASE("import: what is left out is told, what is merged too, and the scene keeps limits as remarks") {
     const std::string scene = temporary("told.toml", "");
     const auto result = run({"import", source_path("tests/robots/arm6.urdf"), "-o", scene});

@@ -9,6 +9,7 @@
 #include "lower/choose.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
+#include "state/prepared.hpp"
 
 namespace generator_claims {
 
@@ -33,7 +34,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
         text.insert(table + 10, outputs);
     else
         text += "\n[outputs]\n" + outputs;
-    Mechanism mechanism = build(parse_scene(text, scene.file));
+    Mechanism mechanism = prepared(parse_scene(text, scene.file)).mechanism;
     mechanism.q_is_guess.assign(mechanism.q.size(), true);  // random states move to the constraints
     mechanism.qdot_is_guess.assign(mechanism.q.size(), true);
     for (Mechanism::Speed& speed : mechanism.speeds) speed.start.reset();

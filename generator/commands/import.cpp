@@ -17,14 +17,22 @@ namespace {
 
 struct ImportOptions {
     std::string robot, output;
-    bool floating = false, quaternion = false, json = false;
+    bool floating = false, quaternion = false, drives = false, right_angles = false, json = false;
 };
 
 int run(const ImportOptions& options) {
     const std::string file = std::filesystem::path(options.robot).filename().string();
-    const Robot robot = read_robot(options.robot);
-    const RobotScene scene =
-        robot_scene(robot, {.source = file, .floating = options.floating, .quaternion = options.quaternion});
+    Robot robot = read_robot(options.robot);
+    const int rounded = rounded_right_angles(robot, options.right_angles);
+    RobotScene scene = robot_scene(robot, {.source = file,
+                                           .floating = options.floating,
+                                           .quaternion = options.quaternion,
+                                           .drives = options.drives});
+    if (rounded > 0 && !options.right_angles)
+        scene.notes.push_back(fmt::format(
+            "{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
+            "which leaves terms out of the equations",
+            rounded, rounded == 1 ? " is" : "s are each", rounded == 1 ? "it becomes" : "they become"));
     parse_scene(scene.text, options.output);  // what it refuses is not written
     write_file(options.output, scene.text, {options.robot});
     for (const Diagnostic& remark : robot.remarks)
@@ -41,6 +49,8 @@ int run(const ImportOptions& options) {
         result["file"] = options.output;
         result["bodies"] = scene.bodies;
         result["coordinates"] = scene.coordinates;
+        if (options.drives) result["drives"] = scene.drives;
+        result["right_angles"] = {{"rounded", rounded}, {"made_exact", options.right_angles}};
         result["merged"] = scene.merged;
         result["dropped"] = Json::object();
         for (const Robot::Dropped& dropped : scene.dropped) result["dropped"][dropped.what] = dropped.of;
@@ -67,6 +77,8 @@ void add_import(CLI::App& app, Chosen& chosen) {
     verb.add_option("-o,--output", options->output, "the scene to be written").type_name(values::file).required();
     verb.add_flag("--floating", options->floating, "the root link moves freely; default: it is the ground");
     verb.add_flag("--quaternion", options->quaternion, "what floats turns by a quaternion");
+    verb.add_flag("--drives", options->drives, "an input for the torque or force of each joint");
+    verb.add_flag("--right-angles", options->right_angles, "1.5708 and the like become right angles");
     verb.add_flag("--json", options->json, "print one JSON object");
     verb.callback([options, &chosen] { chosen = {options->robot, [options] { return run(*options); }}; });
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <array>
 #include <cmath>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "urdf/robot.hpp"
 
@@ -28,6 +31,26 @@ Real33 RobotPose::rotation() const {
         return R;
     };
     return about(2, rpy[2]) * about(1, rpy[1]) * about(0, rpy[0]);
+}
+
+int rounded_right_angles(Robot& robot, bool mend) {
+    int count = 0;
+    for (Robot::Joint& joint : robot.joints)
+        for (double& angle : joint.at.rpy) {
+            const double right = std::round(angle / M_PI_2) * M_PI_2;
+            if (right == 0 || twelfths_of_pi(angle)) continue;
+            const std::string text = fmt::format("{}", angle);
+            const std::size_t point = text.find('.');
+            if (point == std::string::npos || text.find('e') != std::string::npos) continue;
+            const int decimals = static_cast<int>(text.size() - point) - 1;
+            const double scale = std::pow(10, decimals), written = std::abs(angle) * scale,
+                         exact = std::abs(right) * scale;
+            if (decimals < 2 || decimals > 14) continue;
+            if (std::round(written) != std::round(exact) && std::round(written) != std::floor(exact)) continue;
+            ++count;
+            if (mend) angle = right;
+        }
+    return count;
 }
 
 }  // namespace alembert

@@ -73,6 +73,10 @@ struct Robot {
     std::vector<Diagnostic> remarks;  ///< what was completed or is odd, with its place
 };
 
+/// Angles of joints that are right angles written with few digits, as 1.5708 or 3.1415: a multiple of π/2, rounded
+/// or cut off to at least two decimals. Gives how many there are, and makes them exact where `mend` is true.
+int rounded_right_angles(Robot& robot, bool mend);
+
 /// Throws SceneError for what is no URDF, for links and joints that are no tree, and for values that no body has.
 Robot read_robot(const std::string& file);
 /// `file` stands in messages alone.

@@ -112,6 +112,7 @@ public:
                 "this robot has no joint that moves a mass; expected a revolute, continuous, prismatic, planar or "
                 "floating one, or a root that floats");
         result_.text += joints_ + dampers_;
+        if (!result_.drives.empty()) result_.text += fmt::format("\n[inputs]\n{}\n[forces]\n{}", inputs_, forces_);
         result_.dropped.insert(result_.dropped.begin(), robot_.dropped.begin(), robot_.dropped.end());
         return std::move(result_);
     }
@@ -361,6 +362,15 @@ private:
                     fmt::format("{}axis = {}\ncoordinates = {{ {} }}\n", rotate, axis(joint.axis),
                                 coordinate(q, slides ? "m" : "rad", about)));
         damper(joint, q);
+        if (options_.drives) drive(joint, q, slides);
+    }
+
+    /// An input, zero until somebody gives it a value, along the joint's coordinate.
+    void drive(const Robot::Joint& joint, const std::string& q, bool slides) {
+        const std::string name = values_.given("drive_" + joint.name);
+        inputs_ += fmt::format("{} = {{ value = 0, unit = \"{}\" }}\n", key(name), slides ? "N" : "N*m");
+        forces_ += fmt::format("{} = \"{}\"\n", key(q), name);
+        result_.drives.push_back(name);
     }
 
     /// Turned so that z is the normal.
@@ -451,7 +461,7 @@ private:
     std::vector<Seat> seats_;
     Names places_, values_, joints_taken_;
     std::vector<std::string> joint_names_, values_of_;  // by joint of the robot
-    std::string joints_, dampers_;
+    std::string joints_, dampers_, inputs_, forces_;
     RobotScene result_;
 };
 

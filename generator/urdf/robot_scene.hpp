@@ -22,12 +22,14 @@ struct RobotSceneOptions {
     std::string source;       ///< file name for the scene's `source`
     bool floating = false;    ///< the root moves freely in space
     bool quaternion = false;  ///< floating joints turn by quaternions
+    bool drives = false;      ///< an input for each joint that turns or slides by itself: its torque or force
 };
 
 struct RobotScene {
     std::string text;
     int bodies = 0;
     std::vector<std::string> coordinates;
+    std::vector<std::string> drives;  ///< names of the inputs, one for each driven joint
     std::vector<std::string> merged;  ///< "tool is fixed to wrist", a sentence each
     std::vector<std::string> notes;   ///< names that had to be changed, limits that do not hold at the start
     std::vector<Robot::Dropped> dropped;

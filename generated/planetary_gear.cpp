@@ -1,0 +1,232 @@
+// Equations of motion of 'planetary_gear': routh, textbook form.
+// Written by alembert 0.1.0 from a scene; may be used, changed and passed on freely (MIT).
+//
+//   state  phi [rad], psi [rad], then their rates
+//   par    m1 [kg], m2 [kg], R [m], r [m], M [N m]
+//   cost   0 operations a right-hand side: 0 additions, 0 multiplications, 0 divisions, 0 functions
+//
+// M(q) q'' = f(q, q', t) + A^T lambda with A q'' = gamma. This file includes nothing and allocates nothing.
+
+namespace {  // seen in this file alone
+
+/// What depends on parameters alone, after the parameters.
+template <typename Real>
+void prepare(Real* par) {
+    const Real &m1 = par[0], &m2 = par[1], &R = par[2], &r = par[3], &M = par[4];
+
+    // Constants
+    const Real k0 = R + r;
+    const Real z0 = (m1 + Real(3) * m2) * k0 * k0;
+    const Real M00 = (Real(1) / Real(3)) * z0;
+    const Real z1 = m2 * r * r;
+    const Real M11 = Real(0.5) * z1;
+    const Real z2 = Real(1) / z0;
+    const Real z3 = z2 * k0;
+    const Real z4 = r / z1;
+    const Real k1 = Real(3) * z3 * k0 + Real(2) * r * z4;
+    const Real k2 = Real(1) / k1;
+    const Real z5 = M * z3 * k2;
+    const Real k3 = Real(3) * M * z2 - Real(9) * z3 * z5;
+    const Real k4 = Real(6) * z5 * z4;
+    const Real k5 = Real(3) * z3;
+    const Real k6 = Real(2) * z4;
+    const Real k7 = -Real(3) * z5;
+    const Real k8 = (Real(1) / Real(6)) * z0;
+    const Real k9 = Real(0.25) * z1;
+
+    // Result
+    par[5] = k0;
+    par[6] = M00;
+    par[7] = M11;
+    par[8] = k1;
+    par[9] = k2;
+    par[10] = k3;
+    par[11] = k4;
+    par[12] = k5;
+    par[13] = k6;
+    par[14] = k7;
+    par[15] = k8;
+    par[16] = k9;
+}
+
+/// rate = (q', q'') at t and state = (q, q').
+template <typename Real>
+void rhs(const Real&, const Real* state, const Real* par, Real* rate) {
+    const Real &phi_dot = state[2], &psi_dot = state[3];
+    const Real &k0 = par[5], &k3 = par[10], &k4 = par[11];
+
+    // Mass matrix M(q), lower triangle
+    // M10 = 0
+
+    // Forcing f
+    // f0 = M, f1 = 0
+
+    // Result
+    rate[0] = phi_dot;
+    rate[1] = psi_dot;
+    rate[2] = k3;
+    rate[3] = k4;
+}
+
+/// M (n by n, row-major) and f of M q'' = f.
+template <typename Real>
+void mass_forcing(const Real&, const Real*, const Real* par, Real* mass, Real* forcing) {
+    const Real &M = par[4], &M00 = par[6], &M11 = par[7];
+
+    // Result
+    mass[0] = M00;
+    mass[1] = mass[2] = Real(0);
+    mass[3] = M11;
+    forcing[0] = M;
+    forcing[1] = Real(0);
+}
+
+/// T, V, E and the power dE/dt of loads and prescribed motions; Jacobi's integral.
+template <typename Real>
+void energy(const Real&, const Real* state, const Real*, const Real* par, Real* energy, Real* jacobi) {
+    const Real &phi_dot = state[2], &psi_dot = state[3];
+    const Real &M = par[4], &k8 = par[15], &k9 = par[16];
+
+    // Energy
+    const Real T = k8 * phi_dot * phi_dot + k9 * psi_dot * psi_dot;
+    const Real P = M * phi_dot;
+
+    // Result
+    energy[0] = T;
+    energy[1] = Real(0);
+    energy[2] = T;
+    energy[3] = P;
+    jacobi[0] = T;
+}
+
+/// f(q,t) of holonomic constraints, A q' + b of all, and A.
+template <typename Real>
+void constraints_at(const Real&, const Real* state, const Real* par, Real* position, Real* velocity, Real* rows) {
+    const Real &phi_dot = state[2], &psi_dot = state[3];
+    const Real &r = par[3], &k0 = par[5];
+
+    // Result
+    position[0] = Real(0);
+    velocity[0] = k0 * phi_dot - r * psi_dot;
+    rows[0] = k0;
+    rows[1] = -r;
+}
+
+/// The multipliers lambda of M q'' = f + A^T lambda.
+template <typename Real>
+void multipliers_at(const Real&, const Real*, const Real* par, Real* lambda) {
+    const Real &k7 = par[14];
+
+    // Result
+    lambda[0] = k7;
+}
+
+/// One step of Newton's method to the constraints; f(q, t) before it, and what the eliminations divide by.
+template <typename Real>
+void project(const Real&, const Real* state, const Real* par, Real* out, Real* position, Real* pivots) {
+    const Real &phi = state[0], &psi = state[1], &phi_dot = state[2], &psi_dot = state[3];
+    const Real &r = par[3], &k0 = par[5], &k1 = par[8], &k2 = par[9], &k5 = par[12], &k6 = par[13];
+
+    // Projection
+    const Real z0 = k2 * (k0 * phi_dot - r * psi_dot);
+
+    // Result
+    out[0] = phi;
+    out[1] = psi;
+    out[2] = phi_dot - k5 * z0;
+    out[3] = psi_dot + k6 * z0;
+    position[0] = Real(0);
+    pivots[0] = k1;
+}
+
+/// gamma of A q'' = gamma.
+template <typename Real>
+void gamma_at(const Real&, const Real*, const Real*, Real* out) {
+
+
+    // Result
+    out[0] = Real(0);
+}
+
+// What the runtime loads (alembert/abi.hpp).
+
+struct alembert_solver_table {
+    int abi;
+    int coordinates;
+    int speeds;
+    int parameters;
+    int constants;
+    int outputs;
+    int events;
+    int constraints;
+    const char* scene;
+    const char* formulation;
+    const char* const* coordinate_names;
+    const char* const* speed_names;
+    const char* const* parameter_names;
+    const char* const* output_names;
+    const char* const* event_names;
+    const double* parameter_values;
+    void (*prepare)(double* par);
+    void (*rhs)(double t, const double* state, const double* par, double* rate);
+    void (*mass_forcing)(double t, const double* state, const double* par, double* mass, double* forcing);
+    void (*energy)(double t, const double* state, const double* rate, const double* par, double* energy,
+                   double* jacobi);
+    void (*outputs_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*events_at)(double t, const double* state, const double* rate, const double* par, double* out);
+    void (*constraints_at)(double t, const double* state, const double* par, double* position, double* velocity,
+                           double* rows);
+    void (*multipliers_at)(double t, const double* state, const double* par, double* lambda);
+};
+
+constexpr const char* coordinate_names[] = { "phi", "psi", nullptr};
+constexpr const char* const* speed_names = nullptr;
+constexpr const char* parameter_names[] = { "m1", "m2", "R", "r", "M", nullptr};
+constexpr const char* output_names[] = { nullptr};
+constexpr const char* event_names[] = { nullptr};
+constexpr double parameter_values[] = { 2, 1.5, 0.4, 0.15, 3, 0};
+
+constexpr alembert_solver_table table{
+    4, 2, 2, 5, 12, 0, 0, 1, "planetary_gear", "routh, textbook form",
+    coordinate_names, speed_names, parameter_names, output_names, event_names, parameter_values,
+    [](double* par) { prepare(par); },
+    [](double t, const double* state, const double* par, double* rate) { rhs(t, state, par, rate); },
+    [](double t, const double* state, const double* par, double* mass, double* forcing) {
+        mass_forcing(t, state, par, mass, forcing);
+    },
+    [](double t, const double* state, const double* rate, const double* par, double* e, double* jacobi) {
+        energy(t, state, rate, par, e, jacobi);
+    },
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double, const double*, const double*, const double*, double*) {},
+    [](double t, const double* state, const double* par, double* position, double* velocity, double* rows) {
+        constraints_at(t, state, par, position, velocity, rows);
+    },
+    [](double t, const double* state, const double* par, double* lambda) { multipliers_at(t, state, par, lambda); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_solver() { return &table; }
+
+namespace {
+
+struct alembert_projection_table {
+    int abi;
+    void (*project)(double t, const double* state, const double* par, double* moved, double* position,
+                    double* pivots);
+    void (*gamma_at)(double t, const double* state, const double* par, double* gamma);
+};
+
+constexpr alembert_projection_table projection{
+    4,
+    [](double t, const double* state, const double* par, double* moved, double* position, double* pivots) {
+        project(t, state, par, moved, position, pivots);
+    },
+    [](double t, const double* state, const double* par, double* gamma) { gamma_at(t, state, par, gamma); },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const void* alembert_projection() { return &projection; }
+
