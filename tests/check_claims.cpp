@@ -147,6 +147,117 @@ TEST_CASE("check: the slips of students are named") {
                "m2*g*sin(theta2) + (m1+m2)*g*sin(theta1) = F*cos(theta2)") == "wrong_row");
 }
 
+TEST_CASE("check: the slips in claims about rest and about impacts are named too") {
+    const auto slip = [](const std::string& scene, const std::string& claim) {
+        CAPTURE(claim);
+        const Checked result = checked(scene, claim + "\n");
+        REQUIRE(result.claims[0].verdict == Verdict::refuted);
+        REQUIRE(result.claims[0].likely);
+        return result.claims[0].likely->kind + ": " + result.claims[0].likely->term;
+    };
+    const std::string condition = "sin(alpha)*(m*l*Omega^2*cos(alpha) ";
+    CHECK(slip("watt_governor", "rest\n" + condition + "+ (m+M)*g) = 0").rfind("sign: ", 0) == 0);
+    CHECK(slip("watt_governor", "rest\n" + condition + "- (m+m)*g) = 0").rfind("factor: ", 0) == 0);
+    CHECK(slip("watt_governor", "rest\n" + condition + "- 2*(m+M)*g) = 0").rfind("factor: ", 0) == 0);
+    CHECK(slip("watt_governor", "rest\n" + condition + ") = 0").rfind("missing_term: ", 0) == 0);
+    CHECK(slip("watt_governor", "rest\nsin(alpha)*(m*l*Omega^2*sin(alpha) - (m+M)*g) = 0") ==
+          "swapped_trig: sin(alpha)*(m*l*Omega^2*sin(alpha) - (m+M)*g)");
+    const std::string momentum =
+        "m*l^2*(4/3*(theta1'-theta1'(-)) + 1/2*(theta2'-theta2'(-))*cos(theta1-theta2)) = ";
+    CHECK(slip("struck_rods", "impact\n" + momentum + "0").rfind("missing_term: ", 0) == 0);
+    CHECK(slip("struck_rods", "impact\n" + momentum + "2*S*l*cos(theta1)") == "factor: 2*S*l*cos(theta1)");
+    CHECK(slip("struck_rods", "impact\ntheta2' = 7/2*theta1'") == "factor: 7/2*theta1'");
+}
+
+// 2·ω' J and the like divided by (e·e)², as the rotation is for every e, would be the quotients.
+TEST_CASE("check: equations printed of a body turned by a quaternion use e.e = 1, and are proved") {
+    const Scene scene = parse_scene(R"(title = "Free body"
+[parameters]
+A = 1.0
+B = 2.0
+C = 2.5
+[coordinates]
+e0 = 1
+e1 = { initial = 0, rate = 0.3 }
+e2 = { initial = 0, rate = -0.2 }
+e3 = 0
+[[frame]]
+name = "F"
+quaternion = ["e0", "e1", "e2", "e3"]
+[[body]]
+name = "body"
+frame = "F"
+mass = 1
+inertia = ["A", "B", "C"]
+position = [0, 0, 0]
+)",
+                                    "quaternion.toml");
+    const Mechanism m = prepared(scene).mechanism;
+    const Derivation shown = derivation_of(m, routh(m));
+    REQUIRE(shown.definitions.empty());
+    CHECK(shown.has_unit_quaternions);
+    std::string claims;
+    for (const ReadableEquation& e : shown.equations) claims += text(e.lhs) + " = " + text(e.rhs) + "\n";
+    CHECK(claims.find('/') == std::string::npos);
+    const Checked result = checked(with_claims(scene, claims, "claims.txt"));
+    check_verdicts(result, std::vector<Verdict>(4, Verdict::proved));
+}
+
+TEST_CASE("check: the printed equations of springs and of a blade with powers and quotients are proved") {
+    const Scene springs = parse_scene(R"toml(title = "Springs"
+[parameters]
+m = 1.0
+k = 2.0
+b = 0.5
+l0 = 0.3
+[coordinates]
+x1 = 0.1
+y1 = 0.2
+x2 = 0.7
+y2 = 0
+[[particle]]
+name = "P1"
+mass = "m"
+position = ["x1", "y1"]
+[[particle]]
+name = "P2"
+mass = "m"
+position = ["x2", "y2"]
+[[spring]]
+between = ["P1", "P2"]
+stiffness = "k"
+length = "l0"
+[energy]
+potential = "b/4*((x2-x1)^4 + x1^4)"
+)toml",
+                                      "springs.toml");
+    const Scene sled = read_scene(test::source_path("scenes/textbook/sled.toml"));
+    for (const Scene& scene : {springs, sled}) {
+        const Mechanism m = prepared(scene).mechanism;
+        const Derivation shown = derivation_of(m, formalism("kane").derive(m));
+        std::string claims;
+        for (const ReadableEquation& e : shown.equations) claims += text(e.lhs) + " = " + text(e.rhs) + "\n";
+        CAPTURE(claims);
+        CHECK(claims.find(m.constraints.empty() ? "(x1-x2)^3" : "xC'' + xC'*phi'*tan(phi) = 0") !=
+              std::string::npos);
+        const Checked result = checked(with_claims(scene, claims, "claims.txt"));
+        check_verdicts(result, std::vector<Verdict>(shown.equations.size(), Verdict::proved));
+    }
+}
+
+// theta2' l2 cos has the dimension of a velocity among accelerations, and no single change sets the claim right.
+TEST_CASE("check: a term of another dimension than the others is named where no single change helps") {
+    const Checked result = checked("double_pendulum", R"(
+(m1+m2)*l1*theta1'' - 3*m2*l2*theta2'*sin(theta1-theta2) + 2*(m1+m2)*g*cos(theta1) = 5*F*sin(theta1)
+(m1+m2)*l1*theta1'' - 3*m2*l2*theta2'^2*theta1*sin(theta2) + 2*(m1+m2)*g*cos(theta1) = 5*F*sin(theta1)
+)");
+    check_verdicts(result, {Verdict::refuted, Verdict::refuted});
+    REQUIRE(result.claims[0].likely);
+    CHECK(result.claims[0].likely->kind == "wrong_unit");
+    CHECK(result.claims[0].likely->term == "3*m2*l2*theta2'*sin(theta1-theta2)");
+    CHECK_FALSE(result.claims[1].likely);
+}
+
 TEST_CASE("check: the difference from the nearest right equation is shown after matching the row's scale") {
     const Checked result = checked("double_pendulum",
                                    "theta1'' + m2*l2/((m1+m2)*l1)*theta2''*cos(theta1-theta2) + "

@@ -119,6 +119,20 @@ TEST_CASE("fourier: a product of many angles exceeds the budget at once") {
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
 }
 
+TEST_CASE_FIXTURE(Plane, "fourier: a budget that ends inside a quotient gives nothing, and no division by zero") {
+    const ex inner = a + b / (a + cos(x) + sin(y)), e = pow(x + y, 3) / (n * inner + 1 / (b + inner)) + 1 / inner;
+    const Fourier whole = form(e);
+    bool refused = false, given = false;
+    for (std::size_t budget = 1; budget < 20000; budget += 1 + budget / 20) {
+        CAPTURE(budget);
+        const auto f = fourier(e, symbols, budget);
+        (f ? given : refused) = true;
+        if (f) CHECK((*f - whole).size() == 0);
+    }
+    CHECK(refused);
+    CHECK(given);
+}
+
 TEST_CASE("fourier: a deeply shared expression is walked once") {
     Symbols symbols;
     const symbol x = symbols.declare("x", SymbolInfo::Kind::coordinate);

@@ -84,7 +84,9 @@ TEST_CASE_FIXTURE(Sheet, "text: angles are undone where that is shorter, and nev
     CHECK(printed(mass / (a + b * pow(sin(theta), 2))) == "m/(a+b*sin(theta)^2)");
 }
 
-TEST_CASE_FIXTURE(Sheet, "readable: nothing that depends on state, time or inputs is divided out") {
+TEST_CASE_FIXTURE(
+    Sheet,
+    "readable: of what depends on state, time or inputs nothing is divided out but what is positive everywhere") {
     const auto divided = [&](const ex& lhs, const ex& rhs) {
         const ReadableEquation e =
             readable_equation(fourier(lhs, m.symbols).value(), fourier(rhs, m.symbols).value());
@@ -97,8 +99,23 @@ TEST_CASE_FIXTURE(Sheet, "readable: nothing that depends on state, time or input
     CHECK(divided((a + b) * l * xdd + (a + b) * l * l * x, 0) == "x'' + l*x = 0 by (a+b)*l");
     CHECK(divided(xdd / 3 + x / 2, F / 6) == "2*x'' + 3*x = F by 1/6");
     CHECK(divided(mass * xdd / l, mass * g / (l * l)) == "l*x'' = g by m/l^2");
+    CHECK(divided((a * a + x * x) * xdd, (a * a + x * x) * F) == "x'' = F by a^2 + x^2");
+    CHECK(divided((a + x * x) * xdd, (a + x * x) * F) == "(a+x^2)*x'' = (a+x^2)*F");
+    const ex turns = 1 + pow(GiNaC::tan(theta), 2);
+    CHECK(divided(mass * turns * xdd + mass * turns * GiNaC::tan(theta) * x, 0) ==
+          "x'' + x*tan(theta) = 0 by m*(1+tan(theta)^2)");
     CHECK(divided(0, 0) == "0 = 0");
     CHECK(divided(0, l * F) == "0 = F by l");
+}
+
+TEST_CASE_FIXTURE(Sheet, "text: powers of differences stay powers where they are shorter") {
+    const ex& y = theta;  // another coordinate
+    CHECK(printed((pow(x - y, 2) - l * l).expand()) == "(x-theta)^2 - l^2");
+    CHECK(printed((pow(x - y, 2) + pow(y - a, 2) - l * l).expand()) == "(x-theta)^2 + (theta-a)^2 - l^2");
+    CHECK(printed((mass * pow(y - x, 3) - mass * pow(a - y, 3)).expand()) == "m*(theta-x)^3 + m*(theta-a)^3");
+    CHECK(printed(sqrt((pow(x - a, 2) + pow(y - b, 2)).expand())) == "sqrt((x-a)^2+(theta-b)^2)");
+    CHECK(printed(x * x + 2 * x * y + a) == "x^2 + 2*x*theta + a");
+    CHECK(printed((pow(x + 2 * y, 3) + pow(y, 4) - a).expand()) == "(x+2*theta)^3 + theta^4 - a");
 }
 
 TEST_CASE_FIXTURE(Sheet, "latex: dots, indices, fractions and functions") {

@@ -229,7 +229,8 @@ std::vector<Absent> absent_terms(const Program& program, int residual, const std
     for (const Steady& s : steady) roots.push_back(s.node);
     std::vector<ModularValues> at;
     for (const ModularPoint& point : points) {
-        if (auto values = evaluate_mod(program, point, roots)) at.push_back(std::move(*values));
+        auto values = evaluate_mod(program, point, roots);
+        if (values && !values->value[residual].is_zero()) at.push_back(std::move(*values));
         if (at.size() == needed) break;
     }
     if (at.size() < needed) return {};

@@ -14,6 +14,7 @@
 #include "check/absent.hpp"
 #include "check/claims.hpp"
 #include "check/counterexample.hpp"
+#include "check/dimensions.hpp"
 #include "check/multiple.hpp"
 #include "check/nearest.hpp"
 #include "check/open_rows.hpp"
@@ -348,7 +349,6 @@ private:
         } else if (holds_at_scene_values(k, states)) {
             c.reason = "it holds at the scene's values of the parameters only";
         }
-        if (states.motions.where() != Motions::At::motion) return;
         if (forms_[k].open.empty() && when_ == "motion")
             if (const auto nearest = nearest_equation(forms_[k].residual, m_, law_)) {
                 c.nearest = nearest->equation;
@@ -374,6 +374,9 @@ private:
                                 .absent = [&](const Claim& claim, std::vector<std::string> terms) {
                                     return absent(claim, std::move(terms), states);
                                 }});
+        if (!c.likely)
+            if (const auto term = term_of_wrong_unit(scene_.claims[k], m_))
+                c.likely = Slip{.kind = "wrong_unit", .term = *term, .repair = {}};
     }
 
     /// Nothing where it cannot be read, or holds open names.
@@ -413,7 +416,8 @@ private:
                 steady.push_back({text, *node});
         }
         std::vector<ModularPoint> points;
-        for (std::size_t s = 0; s < 12 && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
+        const std::size_t most = states.motions.where() == Motions::At::rest ? states_of_rest : 12;
+        for (std::size_t s = 0; s < most && states.get(s) != nullptr; ++s) points.push_back(states.get(s)->point);
         std::vector<std::pair<std::string, std::string>> result;
         for (const Absent& term : absent_terms(p, residual, nodes, steady, points))
             result.emplace_back(term.coefficient, texts[term.term]);
@@ -441,8 +445,10 @@ private:
         return is_zero_at_two(p, root[0], states);
     }
 
+    /// At rest, and where constraints have branches, two states may lie on one of them.
     static bool is_zero_at_two(const Program& p, int root, ExactStates& states) {
-        for (std::size_t s = 0, usable = 0, wanted = 2; usable < wanted; ++s) {
+        std::size_t wanted = states.motions.where() == Motions::At::rest ? 8 : 2;
+        for (std::size_t s = 0, usable = 0; usable < wanted; ++s) {
             const ExactState* const state = states.get(s);
             if (state == nullptr || s > 30) return false;
             if (state->branches > 1) wanted = 8;

@@ -58,10 +58,12 @@ public:
         signs();
         if (!found_) trigonometry();
         if (!found_) arguments();
-        if (!found_) dots();
+        // In rest a rate is zero, whatever it stands before; the rates after an impact have no derivatives.
+        if (!found_ && claim_.at == "motion") dots();
         if (!found_) parameters(true);
         if (!found_) numbers();
         if (!found_) parameters(false);
+        if (!found_ && claim_.at == "impact") dots();
         if (!found_) powers();
         if (!found_) missing_own();
         if (!found_) wrong_row();
@@ -122,7 +124,7 @@ private:
         if (asked_ > most_asked) return std::nullopt;
         std::vector<Diagnostic> mistakes;
         Claim repaired = claim_;
-        repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes);
+        repaired.equation = parse_equality(lhs + " = " + rhs, {}, mistakes, claim_.at == "impact");
         if (!mistakes.empty() || !repaired.equation.lhs || !repaired.equation.rhs || !judge_.is_right(repaired))
             return std::nullopt;
         return text_of(repaired.equation);
@@ -146,7 +148,7 @@ private:
         std::vector<Diagnostic> mistakes;
         const bool alone =
             trimmed({leaf.term.left, 0, static_cast<int>(side(leaf.term.left).size())}) == trimmed(leaf.term);
-        if (const Expression changed = parse_expression(term, {}, mistakes);
+        if (const Expression changed = parse_equality(term + " = 0", {}, mistakes, claim_.at == "impact").lhs;
             !alone && changed.tree && judge_.vanishes(changed))
             found_.reset();
         return found_.has_value();
@@ -319,6 +321,15 @@ private:
                     return;
     }
 
+    /// Is it all that the claim says is zero? "0 = 0" sets nothing right.
+    bool is_only_one(const Summand& s) const {
+        return s.whole.offset == s.at.offset && s.whole.length == s.at.length &&
+               std::none_of(summands_.begin(), summands_.end(), [&](const Summand& other) {
+                   return other.at.left != s.at.left || other.at.offset < s.at.offset ||
+                          other.at.offset >= s.at.offset + s.at.length;
+               });
+    }
+
     bool sides_are_single(const Summand& s) const {
         return std::count_if(summands_.begin(), summands_.end(), [&](const Summand& other) {
                    return other.whole.left == s.whole.left && other.whole.offset == other.at.offset;
@@ -390,7 +401,7 @@ private:
 
     void extra() {
         for (const Summand& s : summands_) {
-            if (s.in_angle) continue;
+            if (s.in_angle || is_only_one(s)) continue;
             Stretch gone = s.at;
             if (!s.first && !s.negated) {
                 const auto sign = operator_before(s);
@@ -422,7 +433,10 @@ private:
             const auto terms = judge_.absent(claim_, there ? own : std::vector<std::string>());
             for (std::size_t k = 0; k < std::min(most_tried, terms.size()) && !found_; ++k) {
                 const auto& [by, term] = terms[k];
-                const std::string more = by == "1" ? term : by == "-1" ? "-" + term : by + "*" + term;
+                const std::string more = term == "1"  ? by
+                                         : by == "1"  ? term
+                                         : by == "-1" ? "-" + term
+                                                      : by + "*" + term;
                 if (const auto right =
                         ask(sides_[0] + (more[0] == '-' ? " - " + more.substr(1) : " + " + more), sides_[1]))
                     found_ = there ? Slip{"factor", term, *right} : Slip{"missing_term", more, *right};

@@ -23,7 +23,7 @@
 namespace alembert {
 
 /// `kind` as in commands.md: sign factor lost_dot missing_term extra_term swapped_trig wrong_argument wrong_arm
-/// wrong_row unknown.
+/// wrong_row wrong_unit unknown.
 struct Slip {
     std::string kind = "unknown";
     std::string term;    ///< as the claim has it; of a missing one, as it should be

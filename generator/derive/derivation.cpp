@@ -6,6 +6,7 @@
 #include "derive/euler_form.hpp"
 #include "derive/intermediate_form.hpp"
 #include "derive/shares.hpp"
+#include "derive/unit_quaternions.hpp"
 #include "formalism/lagrange.hpp"
 #include "lower/lower.hpp"
 
@@ -20,10 +21,11 @@ constexpr std::size_t most_terms = 150;  // of one equation in normal form; beyo
 
 class Making {
 public:
-    Making(const Mechanism& m, const Equations& e) : m_(m), e_(e) {}
+    Making(const Mechanism& m, const Equations& e) : m_(m), unit_(m), given_(e), e_(unit_(e)) {}
 
     Derivation make() {
         result_.formalism = e_.formalism;
+        result_.has_unit_quaternions = unit_.any();
         result_.degrees_of_freedom = m_.size();
         for (const Mechanism::Constraint& c : m_.constraints) result_.degrees_of_freedom -= is_gap(c) ? 0 : 1;
         gaps();
@@ -48,7 +50,8 @@ public:
 private:
     Phrase symbol_of(const GiNaC::symbol& s) const { return phrases::symbol(s, m_.symbols->info(s)); }
 
-    std::optional<Fourier> normal(const ex& e) const {
+    std::optional<Fourier> normal(const ex& given) const {
+        const ex e = unit_(given);
         if (m_.z->tree_size(e) > largest_tree) return std::nullopt;
         std::optional<Fourier> f = fourier(m_.z->expand(e), *m_.symbols, 20 * most_terms);
         if (f && f->size() > most_terms) return std::nullopt;
@@ -217,7 +220,17 @@ private:
     }
 
     Derivation with_definitions() {
-        IntermediateForm form = intermediate_form(lower(m_, e_, energy_of(m_)), m_, e_);
+        Energy energy = energy_of(m_);
+        energy.kinetic = unit_(energy.kinetic);
+        energy.potential = unit_(energy.potential);
+        IntermediateForm form = intermediate_form(lower(m_, e_, energy), m_, e_);
+        if (unit_.any()) {
+            IntermediateForm other = intermediate_form(lower(m_, given_, energy_of(m_)), m_, given_);
+            if (other.definitions.size() < form.definitions.size()) {
+                form = std::move(other);
+                result_.has_unit_quaternions = false;
+            }
+        }
         result_.definitions = std::move(form.definitions);
         result_.equations = std::move(form.equations);
         result_.kinematics = std::move(form.kinematics);
@@ -228,7 +241,9 @@ private:
     }
 
     const Mechanism& m_;
-    const Equations& e_;
+    const UnitQuaternions unit_;
+    const Equations& given_;
+    const Equations e_;  ///< with unit quaternions
     Derivation result_;
 };
 

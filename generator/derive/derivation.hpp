@@ -50,6 +50,7 @@ struct Derivation {
         Phrase slip, sliding, sticking;
     };
     std::vector<Rubs> frictions;
+    bool has_unit_quaternions = false;  ///< e·e = 1 of each quaternion has been used in all terms
 };
 
 /// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.

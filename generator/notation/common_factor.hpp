@@ -19,4 +19,8 @@ CommonFactor common_factor(const Fourier& lhs, const Fourier& rhs, Factorizer& f
 Fourier divide(const Fourier& f, const CommonFactor& factor, Factorizer& factorizer);
 Polynomial polynomial(const CommonFactor& factor);
 
+/// Divides both sides by the sums of even powers, of the state too, that all coefficients of rates, accelerations
+/// and forces share and that are positive everywhere: 1 + tan²φ, l² + x². Gives their product, or 1.
+Polynomial divide_by_positive(Fourier& lhs, Fourier& rhs, Factorizer& factorizer);
+
 }  // namespace alembert

@@ -8,6 +8,7 @@
 #include <cln/integer.h>
 
 #include "notation/angles.hpp"
+#include "notation/differences.hpp"
 
 namespace alembert {
 
@@ -271,7 +272,7 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
     if (polynomial.size() < 3 || polynomial.size() > 60 || is_exhausted()) return best;
     int least = alembert::cost(best);
     const auto offer = [&](const std::vector<Polynomial>& parts) {
-        if (parts.size() == 1 || parts.size() == polynomial.size()) return;
+        if (parts.size() < 2 || parts.size() == polynomial.size()) return;
         Phrase candidate = flat(parts);
         const int offered = alembert::cost(candidate);
         if (offered >= least) return;
@@ -285,6 +286,7 @@ Phrase Composer::compose_sum(const Polynomial& polynomial) {
     offer(partition(polynomial, [](const AtomNode& atom) { return atom.is_circular(); }));
     offer(partition(polynomial, [&](const AtomNode& atom) { return !is_mass(atom); }));
     offer(partition(polynomial, is_mass));
+    offer(powers_of_differences(polynomial));
     if (polynomial.size() > 12) return best;
     const auto less = [](const Atom& a, const Atom& b) { return compare(a, b) < 0; };
     std::map<Atom, int, decltype(less)> occurrences(less);

@@ -10,6 +10,7 @@
 #include "notation/angles.hpp"
 #include "notation/common_factor.hpp"
 #include "notation/compose.hpp"
+#include "notation/differences.hpp"
 
 namespace alembert {
 
@@ -162,6 +163,7 @@ private:
             offer(partition(group, is_circular));
             options.push_back(by_state(group));
             offer(partition(group, [](const AtomNode& atom) { return atom.steady; }));
+            if (Lines powers = powers_of_differences(group); !powers.empty()) options.push_back(std::move(powers));
         } else {
             options.push_back(partition(group, is_circular));
             options.push_back({group});
@@ -323,15 +325,16 @@ ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
     Writer writer(decimals);
     Factorizer& factorizer = writer.composer().factorizer();
     const CommonFactor common = common_factor(lhs, rhs, factorizer);
-    Lines left = writer.lines(divide(lhs, common, factorizer));
-    Lines right = writer.lines(divide(rhs, common, factorizer));
+    Fourier first_side = divide(lhs, common, factorizer), second_side = divide(rhs, common, factorizer);
+    const Polynomial positive = divide_by_positive(first_side, second_side, factorizer);
+    Lines left = writer.lines(first_side), right = writer.lines(second_side);
     Rational scale = decimals ? Rational(1) : common_number(left, right);
     const Lines& first = left.empty() ? right : left;
     if (!first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
     for (Lines* side : {&left, &right})
         for (Polynomial& line : *side) line = (1 / scale) * line;
     ReadableEquation result{writer.write(left), writer.write(right), {}};
-    const Polynomial divisor = scale * polynomial(common);
+    const Polynomial divisor = scale * polynomial(common) * positive;
     if (!divisor.is_one()) result.divided_by = writer.composer()(divisor);
     return result;
 }

@@ -21,6 +21,7 @@ std::string words_of(const Slip& slip) {
     if (slip.kind == "wrong_argument") return "another angle: in the term " + slip.term;
     if (slip.kind == "wrong_arm") return "another length or arm: in the term " + slip.term;
     if (slip.kind == "wrong_row") return "a force that belongs into another equation: " + slip.term;
+    if (slip.kind == "wrong_unit") return "a term of another dimension than the others: " + slip.term;
     return "unknown";
 }
 

@@ -154,6 +154,8 @@ std::vector<Block> blocks_of(const DerivedScene& d, const Notation& n, bool with
                       {}});
     for (const ReadableEquation& e : shown.equations)
         blocks.back().equalities.emplace_back(n.phrase(e.lhs), n.phrase(e.rhs));
+    if (shown.has_unit_quaternions)
+        blocks.push_back({"e.e = 1 of each quaternion e has been used in all terms, after differentiation.", {}});
     for (const Phrase& positive : shown.positive)
         blocks.push_back({fmt::format("on the sheet of roots where {} > 0", n.inline_phrase(positive)), {}});
     if (!shown.kinematics.empty()) {

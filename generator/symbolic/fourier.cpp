@@ -297,6 +297,7 @@ Fourier cosine(const Fourier& arg) {
 }
 
 Fourier power(const Fourier& base, const Rational& exponent, Budget& budget) {
+    if (budget.spent) return {};  // and `base` may be a product that was given up, which looks like zero
     if (is_integer(exponent) && exponent >= 0) return raise(base, to_int(exponent), budget);
     if (base.size() == 0) {
         if (exponent > 0) return {};

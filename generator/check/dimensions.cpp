@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A dimension is a product of powers of base units; the terms of a sum have one dimension (Bridgman, Dimensional
+// Analysis (1922), chapter 2).
+#include "check/dimensions.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace alembert {
+
+namespace {
+
+using Dimension = std::map<std::string, double>;  ///< base unit → exponent, none of them 0
+using Known = std::optional<Dimension>;           ///< nothing: may be any
+
+Dimension multiplied(Dimension a, const Dimension& b, double exponent = 1) {
+    for (const auto& [base, power] : b)
+        if ((a[base] += exponent * power) == 0) a.erase(base);
+    return a;
+}
+
+/// "kg m^2/s": words with whole exponents, joined by spaces, points, * and /, which goes for the next word alone.
+class UnitText {
+public:
+    explicit UnitText(const std::string& text) : text_(text) {}
+
+    Known dimension() {
+        Dimension result = product();
+        return bad_ || at_ < text_.size() ? Known() : Known(std::move(result));
+    }
+
+private:
+    bool take(char c) {
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+
+    Dimension product() {
+        Dimension result;
+        bool divides = false;
+        while (at_ < text_.size() && text_[at_] != ')' && !bad_) {
+            if (take(' ') || take('*') || take('.')) continue;
+            if (take('/')) {
+                divides = true;
+                continue;
+            }
+            const bool in_brackets = take('(');
+            const Dimension factor = in_brackets ? product() : word();
+            bad_ = bad_ || (in_brackets && !take(')'));
+            result = multiplied(std::move(result), factor, (divides ? -1 : 1) * exponent());
+            divides = false;
+        }
+        return result;
+    }
+
+    double exponent() {
+        if (!take('^')) return 1;
+        const bool minus = take('-');
+        int value = 0;
+        const std::size_t start = at_;
+        while (at_ < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at_])) != 0)
+            value = 10 * value + (text_[at_++] - '0');
+        bad_ = bad_ || at_ == start || value > 99;
+        return minus ? -value : value;
+    }
+
+    Dimension word() {
+        static const std::map<std::string, Dimension> derived{
+            {"1", {}},
+            {"rad", {}},
+            {"deg", {}},
+            {"N", {{"kg", 1}, {"m", 1}, {"s", -2}}},
+            {"J", {{"kg", 1}, {"m", 2}, {"s", -2}}},
+            {"W", {{"kg", 1}, {"m", 2}, {"s", -3}}},
+            {"Pa", {{"kg", 1}, {"m", -1}, {"s", -2}}},
+            {"Hz", {{"s", -1}}},
+            {"C", {{"A", 1}, {"s", 1}}},
+            {"V", {{"kg", 1}, {"m", 2}, {"s", -3}, {"A", -1}}},
+            {"T", {{"kg", 1}, {"s", -2}, {"A", -1}}},
+        };
+        const std::size_t start = at_;
+        while (at_ < text_.size() && std::string(" *./^()").find(text_[at_]) == std::string::npos) ++at_;
+        const std::string name = text_.substr(start, at_ - start);
+        bad_ = bad_ || name.empty();
+        const auto found = derived.find(name);
+        return found != derived.end() ? found->second : Dimension{{name, 1}};
+    }
+
+    const std::string& text_;
+    std::size_t at_ = 0;
+    bool bad_ = false;
+};
+
+class Dimensions {
+public:
+    explicit Dimensions(const Mechanism& m) {
+        const auto know = [this](const std::string& name, const std::string& unit) {
+            if (!unit.empty())
+                if (const Known dimension = UnitText(unit).dimension()) names_[name] = *dimension;
+        };
+        for (const Mechanism::Parameter& p : m.parameters) know(p.symbol.get_name(), p.unit);
+        for (std::size_t i = 0; i < m.units.size(); ++i) know(m.q[i].get_name(), m.units[i]);
+        for (const Mechanism::Speed& speed : m.speeds) know(speed.u.get_name(), speed.unit);
+        for (const Mechanism::Input& input : m.inputs) know(input.derivative[0].get_name(), input.unit);
+        names_.emplace(m.t.get_name(), Dimension{{"s", 1}});
+        names_.emplace("pi", Dimension{});
+        is_useful_ = std::any_of(names_.begin(), names_.end(), [](const auto& entry) {
+            return entry.second != Dimension{} && entry.second != Dimension{{"s", 1}};
+        });
+    }
+
+    std::optional<std::string> wrong_term(const Claim& claim) {
+        if (!is_useful_) return std::nullopt;
+        Terms terms;
+        for (const Expression* side : {&claim.equation.lhs, &claim.equation.rhs}) {
+            text_ = &side->text;
+            if (side->tree->kind == Tree::Kind::sum)
+                for (const TreePtr& arg : side->tree->args) add(terms, *arg);
+            else
+                add(terms, *side->tree);
+        }
+        common(terms);
+        return wrong_;
+    }
+
+private:
+    using Terms = std::vector<std::pair<std::string, Known>>;
+
+    void add(Terms& terms, const Tree& tree) {
+        const Tree& inner = tree.kind == Tree::Kind::negate ? *tree.args[0] : tree;
+        std::string text =
+            text_->substr(static_cast<std::size_t>(inner.offset), static_cast<std::size_t>(inner.length));
+        while (!text.empty() && text.back() == ' ') text.pop_back();
+        Known dimension = of(tree);
+        const bool zero = tree.kind == Tree::Kind::number && text.find_first_not_of("0.") == std::string::npos;
+        terms.emplace_back(std::move(text), zero ? Known() : std::move(dimension));
+    }
+
+    /// The dimension of most terms; another one's term is wrong.
+    Known common(const Terms& terms) {
+        std::map<Dimension, int> votes;
+        for (const auto& [text, dimension] : terms)
+            if (dimension) ++votes[*dimension];
+        const Dimension* most = nullptr;
+        for (const auto& [text, dimension] : terms)
+            if (dimension && (most == nullptr || votes[*dimension] > votes[*most])) most = &*dimension;
+        for (const auto& [text, dimension] : terms)
+            if (dimension && *dimension != *most && !wrong_) wrong_ = text;
+        return most == nullptr ? Known() : Known(*most);
+    }
+
+    Known of(const Tree& tree) {
+        using Kind = Tree::Kind;
+        switch (tree.kind) {
+            case Kind::number:
+                return Dimension{};
+            case Kind::name: {
+                const auto found = names_.find(tree.text);
+                return found == names_.end() ? Known() : Known(over_time(found->second, tree.primes));
+            }
+            case Kind::negate:
+                return of(*tree.args[0]);
+            case Kind::derivative: {
+                const Known inner = of(*tree.args[0]);
+                return inner ? Known(over_time(*inner, tree.primes)) : Known();
+            }
+            case Kind::reciprocal: {
+                const Known inner = of(*tree.args[0]);
+                return inner ? Known(multiplied({}, *inner, -1)) : Known();
+            }
+            case Kind::product:
+                return of_product(tree);
+            case Kind::sum: {
+                Terms terms;
+                for (const TreePtr& arg : tree.args) add(terms, *arg);
+                return common(terms);
+            }
+            case Kind::power:
+                return of_power(tree);
+            case Kind::call:
+                return of_call(tree);
+        }
+        return {};
+    }
+
+    Known of_product(const Tree& tree) {
+        Known result = Dimension{};
+        for (const TreePtr& arg : tree.args) {
+            const Known factor = of(*arg);
+            result = result && factor ? Known(multiplied(*std::move(result), *factor)) : Known();
+        }
+        return result;
+    }
+
+    Known of_power(const Tree& tree) {
+        const Known base = of(*tree.args[0]);
+        of(*tree.args[1]);
+        if (base && base->empty()) return base;
+        if (!base || tree.args[1]->kind != Tree::Kind::number) return {};
+        return multiplied({}, *base, std::stod(tree.args[1]->text));
+    }
+
+    Known of_call(const Tree& tree) {
+        static const std::set<std::string> numbers{"sin",  "cos",  "tan",  "asin", "acos", "atan",
+                                                   "sinh", "cosh", "tanh", "exp",  "log",  "sign"};
+        std::vector<Known> args;
+        for (const TreePtr& arg : tree.args) args.push_back(of(*arg));
+        if (numbers.contains(tree.text)) return Dimension{};
+        if (tree.text == "abs" && args.size() == 1) return args[0];
+        if (tree.text == "sqrt" && args.size() == 1 && args[0]) return multiplied({}, *args[0], 0.5);
+        return {};
+    }
+
+    static Dimension over_time(Dimension dimension, int times) {
+        return multiplied(std::move(dimension), {{"s", 1}}, -times);
+    }
+
+    std::map<std::string, Dimension> names_;
+    const std::string* text_ = nullptr;
+    std::optional<std::string> wrong_;
+    bool is_useful_ = false;
+};
+
+}  // namespace
+
+std::optional<std::string> term_of_wrong_unit(const Claim& claim, const Mechanism& m) {
+    return Dimensions(m).wrong_term(claim);
+}
+
+}  // namespace alembert

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// c·(x + s·y)ⁿ has the coefficients c·binom(n, k)·sᵏ. Those of the mixed products give c and s, for x and y alone
+// may stand in other powers too; with n = 2 there is one mixed product, and s is 1 or −1.
+#include "notation/differences.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace alembert {
+
+namespace {
+
+constexpr std::size_t longest_searched = 30;
+constexpr int highest_power = 6;
+
+bool is_whole_symbol(const Factor& factor) {
+    return factor.atom->kind == AtomNode::Kind::symbol && factor.exponent >= 1 && is_integer(factor.exponent);
+}
+
+/// Two symbols of a product, and what else stands in it.
+struct Pair {
+    Factor x, y;
+    Monomial rest;
+
+    Monomial product(int power_of_x, int power_of_y) const {
+        return rest * power({{x.atom, 1}}, power_of_x) * power({{y.atom, 1}}, power_of_y);
+    }
+};
+
+std::vector<Pair> pairs_in(const Monomial& monomial) {
+    std::vector<Pair> result;
+    for (std::size_t i = 0; i < monomial.size(); ++i)
+        for (std::size_t j = i + 1; j < monomial.size(); ++j) {
+            const Factor &x = monomial[i], &y = monomial[j];
+            if (!is_whole_symbol(x) || !is_whole_symbol(y) || (x.atom->steady && y.atom->steady)) continue;
+            Monomial rest;
+            for (std::size_t k = 0; k < monomial.size(); ++k)
+                if (k != i && k != j) rest.push_back(monomial[k]);
+            result.push_back({x, y, std::move(rest)});
+        }
+    return result;
+}
+
+Rational coefficient_of(const Polynomial& polynomial, const Monomial& monomial) {
+    for (const Term& term : polynomial.terms())
+        if (compare(term.monomial, monomial) == 0) return term.coefficient;
+    return 0;
+}
+
+/// rest·c·(x + s·y)ⁿ
+Polynomial power_of_sum(const Pair& pair, int n, const Rational& c, const Rational& s) {
+    std::vector<Term> terms;
+    Rational factor = c;
+    for (int k = 0; k <= n; ++k) {
+        terms.push_back({pair.product(n - k, k), factor});
+        factor = factor * s * Rational(n - k) / Rational(k + 1);
+    }
+    return Polynomial::collect(std::move(terms));
+}
+
+/// The powers that the term mixed·xⁿ⁻¹·y may come from.
+std::vector<Polynomial> candidates(const Polynomial& of, const Pair& pair, int n, const Rational& mixed) {
+    if (n == 2) {
+        const bool squares = !cln::zerop(coefficient_of(of, pair.product(2, 0))) &&
+                             !cln::zerop(coefficient_of(of, pair.product(0, 2)));
+        if (!squares) return {};
+        return {power_of_sum(pair, 2, -mixed / 2, -1), power_of_sum(pair, 2, mixed / 2, 1)};
+    }
+    const Rational next = coefficient_of(of, pair.product(n - 2, 2));
+    if (cln::zerop(next)) return {};
+    const Rational s = 2 * next / (Rational(n - 1) * mixed);  // of n·c·s and n·(n−1)/2·c·s²
+    return {power_of_sum(pair, n, mixed / (Rational(n) * s), s)};
+}
+
+std::optional<Polynomial> best_power(const Polynomial& polynomial) {
+    std::optional<Polynomial> best;
+    std::size_t least = polynomial.size();  // to be beaten, the power itself counted
+    for (const Term& term : polynomial.terms())
+        for (const Pair& pair : pairs_in(term.monomial)) {
+            const int n = to_int(pair.x.exponent + pair.y.exponent);
+            if (pair.y.exponent != 1 || n > highest_power) continue;
+            for (Polynomial& power : candidates(polynomial, pair, n, term.coefficient))
+                if (const std::size_t left = (polynomial - power).size() + 1; left < least) {
+                    least = left;
+                    best = std::move(power);
+                }
+        }
+    return best;
+}
+
+}  // namespace
+
+std::vector<Polynomial> powers_of_differences(const Polynomial& polynomial) {
+    std::vector<Polynomial> result;
+    if (polynomial.size() > longest_searched) return result;
+    Polynomial rest = polynomial;
+    while (const auto power = best_power(rest)) {
+        result.push_back(*power);
+        rest = rest - *power;
+    }
+    if (!result.empty())
+        for (const Term& term : rest.terms()) result.push_back(Polynomial::collect({term}));
+    return result;
+}
+
+}  // namespace alembert
