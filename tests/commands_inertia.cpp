@@ -83,7 +83,7 @@ TEST_CASE("inertia: the tensor of bodies together gives the energy with which th
         const std::string scene = temporary("line.toml", two_bodies(n));
         const auto eval = run({"eval", scene, "--json"});
         REQUIRE(eval.exit == 0);
-        const double T = Json::parse(eval.out)["energy"]["kinetic"].get<double>();
+        const double T = Json::parse(eval.out)["kinetic"].get<double>();
         const Json found = inertia(scene, {"--about", "O"});
         CHECK(found["mass"].get<double>() == doctest::Approx(4.55).epsilon(1e-14));
         CHECK(1.7 * 1.7 / 2 * n.dot(tensor_of(found) * n) == doctest::Approx(T).epsilon(1e-12));

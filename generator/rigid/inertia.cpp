@@ -52,6 +52,18 @@ std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<
     return result;
 }
 
+void check_point(const Scene& scene, const std::string& point) {
+    std::vector<std::string> known{"O"};
+    for (const Point& p : scene.points) known.push_back(p.name.text);
+    for (const Particle& p : scene.particles) known.push_back(p.name.text);
+    for (const Body& b : scene.bodies) known.push_back(b.name.text);
+    if (std::find(known.begin(), known.end(), point) != known.end()) return;
+    const std::string meant = nearest(point, known);
+    throw ModelError(fmt::format("there is no point {}{}; expected one of: {}", in_quotes(point),
+                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
+                                 fmt::join(known, ", ")));
+}
+
 /// plain + over/m, with m the whole mass: what is divided by a sum stays apart, so that it can be read.
 struct Entry {
     ex plain = 0, over = 0;
@@ -172,6 +184,7 @@ SceneInertia inertia(Scene scene, const InertiaOptions& options) {
     const std::vector<const MassElement*> elements = chosen(result, options.of);
     for (const MassElement* e : elements) result.of.push_back(name_of(result.scene, e->origin));
     result.about = options.about;
+    if (!options.about.empty()) check_point(result.scene, options.about);
     Adding adding(result, elements);
     if (!options.about.empty()) adding.about(options.about);
     const std::vector<Entry> entries = adding.entries();
