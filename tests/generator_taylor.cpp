@@ -16,6 +16,7 @@
 #include "formalism/formalisms.hpp"
 #include "lower/choose.hpp"
 #include "program/quad.hpp"
+#include "program/recurrence.hpp"
 #include "scenes.hpp"
 #include "state/assemble.hpp"
 #include "state/prepared.hpp"
@@ -163,6 +164,9 @@ TEST_CASE("taylor: functions with a kink are refused by name") {
             "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = \"-" + function + "\"\n",
             "k.toml"));
         const Program program = choose(m, formalism("lagrange").derive(m)).program;
+        const std::optional<std::string> obstacle = obstacle_to_recurrences(program);
+        REQUIRE(obstacle);
+        CHECK_THROWS_WITH_AS(recurrences(program), obstacle->c_str(), ModelError);
         try {
             emit_taylor(program);
             FAIL(function);

@@ -5,7 +5,6 @@
 
 #include <kainjow/mustache.hpp>
 
-#include "alembert/error.hpp"
 #include "alembert/series.hpp"
 #include "emit/elementary.hpp"
 #include "emit/numbers.hpp"
@@ -100,8 +99,6 @@ void describe(mustache::data& file, const Recurrences& r, std::size_t width) {
 }  // namespace
 
 Source emit_taylor(const Program& program, bool with_work) {
-    if (program.singular)
-        throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
     const Recurrences recurred = recurrences(program, with_work);
     const SeriesLanes lanes(recurred);
     SeriesWriter writer(recurred, lanes);

@@ -4,14 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
-#include <tuple>
 
 #include "alembert/error.hpp"
-#include "exact/angle_sum.hpp"
-#include "exact/common_zeros.hpp"
 #include "exact/least_shares.hpp"
+#include "exact/solve_condition.hpp"
 #include "lower/lower.hpp"
 #include "program/reduce_rows.hpp"
 
@@ -19,76 +16,10 @@ namespace alembert {
 
 using GiNaC::ex;
 
-namespace {
-
-/// How a variable occurs in an expression.
-struct Occurrence {
-    bool plain = false, turned = false;  // outside sines and cosines; in them
-    bool rooted = false;                 // under a root: no polynomial in it goes to zero where the condition does
-};
-using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
-
-Occurrences occurrences(const Program& p, int root) {
-    Occurrences result;
-    std::set<std::tuple<int, bool, bool>> seen;
-    std::vector<std::tuple<int, bool, bool>> stack{{root, false, false}};
-    while (!stack.empty()) {
-        const auto [id, turned, rooted] = stack.back();
-        stack.pop_back();
-        if (!seen.emplace(id, turned, rooted).second) continue;
-        const Node& node = p[id];
-        if (node.op == Op::variable) {
-            Occurrence& o = result[{node.variable.kind, node.variable.index}];
-            (turned ? o.turned : o.plain) = true;
-            o.rooted = o.rooted || rooted;
-        }
-        const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
-        const bool under = rooted || node.op == Op::sqrt;
-        for (const int arg : node.args) stack.emplace_back(arg, inside, under);
-    }
-    return result;
-}
-
-/// Two conditions that alone hold two variables, both of them.
-struct Coupled {
-    std::size_t first, second;
-    Motions::Step step;
-};
-
-std::optional<Coupled> coupled(const std::vector<Occurrences>& held,
-                               const std::set<std::pair<Variable::Kind, int>>& taken) {
-    const auto usable = [&](const auto& variable, std::size_t a, std::size_t b) {
-        if (taken.contains(variable) || !held[b].contains(variable)) return false;
-        for (std::size_t c = 0; c < held.size(); ++c) {
-            const auto found = held[c].find(variable);
-            if (found != held[c].end() && ((c != a && c != b) || (found->second.plain && found->second.turned)))
-                return false;
-        }
-        return held[a].at(variable).turned == held[b].at(variable).turned &&
-               variable.first != Variable::Kind::time;
-    };
-    for (std::size_t a = 0; a < held.size(); ++a)
-        for (std::size_t b = a + 1; b < held.size(); ++b) {
-            std::vector<Motions::Unknown> found;
-            for (const auto& [variable, how] : held[a])
-                if (usable(variable, a, b)) found.push_back({0, {variable.first, variable.second}, how.turned});
-            // The last declared: drivers come first.
-            if (found.size() >= 2) return Coupled{a, b, {{found[found.size() - 2]}, found.back()}};
-        }
-    return std::nullopt;
-}
-
-std::optional<Prime> value_of(const Program& p, int node, const ExactState& state) {
-    const std::array<int, 1> root{node};
-    const auto at = evaluate_mod(p, state.point, root);
-    if (!at) return std::nullopt;
-    return at->value[node];
-}
-
-}  // namespace
-
-Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings, Positions positions)
+Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
+                 Positions positions)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+    const Mechanism m = in_terms_of(e, mechanism);
     for (const Mechanism::Friction& f : m.frictions)
         for (const GiNaC::symbol& lambda : e.lambda)
             if (f.multiplier && f.multiplier->is_equal(lambda))
@@ -163,7 +94,7 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     else
         order(std::move(conditions));
     std::set<SquarePoints::Key> solved;
-    for (const Step& step : steps_) {
+    for (const SolvingStep& step : steps_) {
         solved.insert({step.variable.kind, step.variable.index});
         if (step.second) solved.insert({step.second->variable.kind, step.second->variable.index});
     }
@@ -171,154 +102,14 @@ Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int 
     find_branches();
 }
 
-// From the last step to the first: a variable that no other condition contains can be found when all else is
-// known.
 void Motions::order(std::vector<int> conditions) {
-    std::sort(conditions.begin(), conditions.end());
-    conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
-    std::vector<Occurrences> held;
-    for (const int node : conditions) held.push_back(occurrences(program_, node));
-    std::set<std::pair<Variable::Kind, int>> taken;
-    while (!conditions.empty()) {
-        // Multipliers, then coordinates, then parameters; of a sum of angles first what can be had from the turns
-        // of the others.
-        constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
-        std::optional<std::pair<std::size_t, Step>> chosen;
-        constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
-        for (std::size_t choice = 0; choice < 2 * orders.size();
-             ++choice) {  // under a root only where nothing else is left
-            const bool roots = choice >= orders.size();
-            const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
-            const bool any_multiple = orders[choice % orders.size()].second;
-            for (std::size_t c = 0; c < conditions.size() && !chosen; ++c)
-                for (const auto& entry : held[c]) {
-                    const auto& variable = entry.first;
-                    const auto& how = entry.second;
-                    if (variable.first != kind || taken.contains(variable)) continue;
-                    const bool elsewhere = std::any_of(held.begin(), held.end(), [&](const Occurrences& other) {
-                        return &other != &held[c] && other.contains(variable);
-                    });
-                    const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
-                        return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
-                    });
-                    if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned))
-                        continue;
-                    const Variable unknown{variable.first, variable.second};
-                    if (!any_multiple && is_sum_of_variables(program_, conditions[c]) &&
-                        !angle_sum(program_, conditions[c], unknown))
-                        continue;
-                    chosen.emplace(c, Step{{conditions[c], unknown, how.turned}, std::nullopt});
-                    break;
-                }
-            if (chosen) break;
-        }
-        std::optional<std::size_t> partner;
-        if (!chosen) {
-            if (auto pair = coupled(held, taken)) {
-                partner = pair->second;
-                chosen = {pair->first, pair->step};
-                chosen->second.node = conditions[pair->first];
-                chosen->second.second->node = conditions[pair->second];
-            }
-        }
-        if (!chosen) {
-            if (at_ == At::rest)
-                obstacle_ = "the equations of rest cannot be solved one after the other";
-            else
-                loose_ = conditions;
-            return;
-        }
-        const Step& step = chosen->second;
-        taken.insert({step.variable.kind, step.variable.index});
-        if (step.second) taken.insert({step.second->variable.kind, step.second->variable.index});
-        steps_.insert(steps_.begin(), step);
-        const auto drop = [&](std::size_t c) {
-            conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
-            held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
-        };
-        if (partner) drop(*partner);  // the later one
-        drop(chosen->first);
-    }
-}
-
-Motions::Outcome Motions::solve_two(const Step& step, ExactState& state) const {
-    const std::array<Unknown, 2> both{step, *step.second};
-    std::array<Prime, 2> plain;
-    for (std::size_t k = 0; k < 2; ++k) {
-        plain[k] = state.point.variable(both[k].variable);
-        state.point.given[{both[k].variable.kind, both[k].variable.index}] = plain[k];
-    }
-    const auto put = [&](std::size_t k, Prime x) {
-        if (both[k].turned)
-            state.point.given_angles[plain[k]] = PrimeTurn::rational(x);
-        else
-            state.point.given[{both[k].variable.kind, both[k].variable.index}] = x;
-    };
-    const CommonZeros zeros = common_zeros(
-        [&](Prime x, Prime y) -> std::optional<std::array<Prime, 2>> {
-            put(0, x), put(1, y);
-            const std::array<int, 2> nodes{both[0].node, both[1].node};
-            const auto at = evaluate_mod(program_, state.point, nodes);
-            if (!at) return std::nullopt;
-            return std::array{at->value[nodes[0]], at->value[nodes[1]]};
-        },
-        {.turned = {both[0].turned, both[1].turned}, .seed = state.point.seed});
-    if (zeros.list.empty()) return {false, zeros.degree};
-    const auto& zero =
-        zeros.list[state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % zeros.list.size()];
-    put(0, zero[0]), put(1, zero[1]);
-    state.degree *= static_cast<double>(zeros.degree + 1);
-    return {true, zeros.degree};
-}
-
-Motions::Outcome Motions::solve(const Step& step, ExactState& state) const {
-    if (step.second) return solve_two(step, state);
-    const std::pair key{step.variable.kind, step.variable.index};
-    const Prime plain = state.point.variable(step.variable);
-    state.point.given[key] = plain;
-    const auto put = [&](Prime x) {
-        if (step.turned)
-            state.point.given_angles[plain] = PrimeTurn::rational(x);
-        else
-            state.point.given[key] = x;
-    };
-    // Polynomials of growing degree, until one goes through more points than it needs.
-    for (const std::size_t degree : {2UL, 4UL, 8UL, 16UL, 24UL}) {
-        std::vector<Prime> x, y;
-        for (std::size_t k = 0; k < degree + 3; ++k) {
-            x.push_back(state.point.random(600 + k, static_cast<std::uint64_t>(step.node)));
-            put(x.back());
-            const std::optional<Prime> value = value_of(program_, step.node, state);
-            if (!value) return {};
-            y.push_back(step.turned ? *value * (x.back() * x.back() + 1).power(degree / 2) : *value);
-        }
-        const PrimePolynomial f = interpolate(x, y);
-        if (f.size() > degree + 1) continue;
-        if (f.empty()) {
-            put(x.back());  // holds for every value
-            return {true, 1};
-        }
-        std::vector<Prime> found = roots(f, state.point.seed);
-        std::vector<std::optional<Prime>> all(found.begin(), found.end());
-        if (step.turned) {  // half a turn is the root at infinity
-            state.point.given_angles[plain] = PrimeTurn{-1, 0};
-            if (value_of(program_, step.node, state) == Prime(0)) all.emplace_back();
-        }
-        const std::size_t count = f.size() - 1 + (all.size() > found.size() ? 1 : 0);
-        if (all.empty()) return {false, count};
-        const std::size_t pick =
-            state.point.random(700, static_cast<std::uint64_t>(step.node)).bits() % all.size();
-        if (all[pick])
-            put(*all[pick]);
-        else
-            state.point.given_angles[plain] = PrimeTurn{-1, 0};
-        if (!step.turned)
-            if (const auto sum = angle_sum(program_, step.node, step.variable))
-                set_angle(state.point, *sum, *all[pick]);
-        state.degree *= static_cast<double>(f.size() - 1);
-        return {value_of(program_, step.node, state) == Prime(0), count};
-    }
-    return {};
+    SolvingOrder found = solving_order(program_, std::move(conditions));
+    steps_ = std::move(found.steps);
+    if (found.left.empty()) return;
+    if (at_ == At::rest)
+        obstacle_ = "the equations of rest cannot be solved one after the other";
+    else
+        loose_ = std::move(found.left);
 }
 
 void Motions::find_branches() {
@@ -330,7 +121,7 @@ void Motions::find_branches() {
          ++seed) {
         ExactState state{.point = {.seed = other_seeds + seed, .given = {}, .halves = halves_, .finer = finer_}};
         for (std::size_t k = 0; k < steps_.size(); ++k) {
-            const Outcome outcome = solve(steps_[k], state);
+            const Solved outcome = solve_condition(program_, steps_[k], state);
             if (outcome.found) {
                 known[k] = known[k] || outcome.degree == 1;
                 continue;
@@ -353,7 +144,7 @@ std::optional<ExactState> Motions::at(std::uint64_t seed,
     if (!point) return std::nullopt;
     state.point = std::move(*point);
     for (std::size_t k = 0; k < steps_.size(); ++k) {
-        const Outcome outcome = solve(steps_[k], state);
+        const Solved outcome = solve_condition(program_, steps_[k], state);
         if (!outcome.found) return std::nullopt;
         if (!irreducible_[k]) state.branches *= static_cast<double>(std::max<std::size_t>(outcome.degree, 1));
     }

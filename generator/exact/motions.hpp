@@ -31,22 +31,12 @@
 /// States of rest instead: q' = q'' = 0, q and λ such that f + Aᵀλ = 0 (Zhang & Qin, §1.2: equilibrium from the
 /// general equation of dynamics). Every root is taken in turn by some seed, so that all branches are met.
 
+#include "exact/exact_state.hpp"
+#include "exact/solving_order.hpp"
 #include "exact/square_points.hpp"
 #include "formalism/equations.hpp"
-#include "program/modular.hpp"
 
 namespace alembert {
-
-struct ExactState {
-    ModularPoint point;  ///< coordinates, rates, accelerations; `unknown` k is the multiplier of constraint k
-    double degree = 1;   ///< of the accelerations in the random values, at most: for Schwartz's bound
-    double branches =
-        1;  ///< roots that the conditions have, each perhaps on a branch of its own: this one was drawn from them
-    std::optional<ModularPoint> other_shares =
-        {};                 ///< with other multipliers of the same forces, where there are any
-    double conditions = 0;  ///< doublings of the chance of a failure (ModularValues)
-    bool exact = true;      ///< no function was met whose identities are unknown
-};
 
 class Motions {
 public:
@@ -74,16 +64,8 @@ public:
     const std::string& obstacle() const { return obstacle_; }
     At where() const { return at_; }
 
-    /// A condition and the variable that it is solved for, and how; or two of each. In the order of solving.
-    struct Unknown {
-        int node = 0;  ///< the condition, in program()
-        Variable variable{};
-        bool turned = false;  ///< as an angle in sines and cosines
-    };
-    struct Step : Unknown {
-        std::optional<Unknown> second = {};
-    };
-    const std::vector<Step>& steps() const { return steps_; }
+    /// In the order of solving.
+    const std::vector<SolvingStep>& steps() const { return steps_; }
 
     /// The system's entries as nodes: what other arithmetic can evaluate too.
     struct System {
@@ -102,19 +84,13 @@ public:
 
 private:
     void order(std::vector<int> conditions);
-    struct Outcome {
-        bool found = false;
-        std::size_t degree = 0;  ///< of the polynomial
-    };
-    Outcome solve(const Step& step, ExactState& state) const;
-    Outcome solve_two(const Step& step, ExactState& state) const;
     void find_branches();
     bool move(ExactState& state) const;
     bool share_out(ExactState& state) const;
 
     Program program_;
     System system_;
-    std::vector<Step> steps_;
+    std::vector<SolvingStep> steps_;
     std::vector<int> loose_, implied_;
     std::vector<bool> irreducible_;  ///< by step
     std::string obstacle_;

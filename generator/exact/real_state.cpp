@@ -149,7 +149,7 @@ bool solve_together(const Motions& motions, RealState& state, const std::vector<
     return false;
 }
 
-bool solve_two(const Motions& motions, RealState& state, const Motions::Step& step, unsigned seed) {
+bool solve_two(const Motions& motions, RealState& state, const SolvingStep& step, unsigned seed) {
     return solve_together(
         motions, state, {step.node, step.second->node},
         {{step.variable.kind, step.variable.index}, {step.second->variable.kind, step.second->variable.index}},
@@ -173,7 +173,7 @@ bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
 
 bool solve_positions(const Motions& motions, RealState& state, bool floats, unsigned seed) {
     if (!motions.loose().empty() && (!floats || !solve_loose(motions, state, seed))) return false;
-    for (const Motions::Step& step : motions.steps()) {
+    for (const SolvingStep& step : motions.steps()) {
         if (step.second) {
             if (!floats || !solve_two(motions, state, step, seed)) return false;
             continue;
@@ -298,7 +298,7 @@ std::optional<RealState> real_state(const Motions& motions, const Program& claim
     std::vector<int> entries = s.M;
     for (const auto* part : {&s.f, &s.A, &s.drift, &s.gamma, &s.redundant})
         entries.insert(entries.end(), part->begin(), part->end());
-    for (const Motions::Step& step : motions.steps()) entries.push_back(step.node);
+    for (const SolvingStep& step : motions.steps()) entries.push_back(step.node);
     entries.insert(entries.end(), motions.loose().begin(), motions.loose().end());
     entries.insert(entries.end(), motions.implied().begin(), motions.implied().end());
     find_variables(motions.program(), entries, angles, plain);

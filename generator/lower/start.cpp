@@ -75,14 +75,14 @@ double& Starts::place(const Spot& spot, Start& start) {
     }
 }
 
-Start Starts::at(const std::vector<double>& values) const {
+Possible<Start> Starts::possible(const std::vector<double>& values) const {
+    for (std::size_t k = 0; k < spots_.size(); ++k)
+        if (!std::isfinite(values[k]))
+            return Obstacle{fmt::format("{}={}: expected a finite number", spots_[k].name, values[k])};
     Start start = plain_;
     const auto replace = [&](bool parameters) {
-        for (std::size_t k = 0; k < spots_.size(); ++k) {
-            if (!std::isfinite(values[k]))
-                throw ModelError(fmt::format("{}={}: expected a finite number", spots_[k].name, values[k]));
+        for (std::size_t k = 0; k < spots_.size(); ++k)
             if ((spots_[k].part == Part::parameter) == parameters) place(spots_[k], start) = values[k];
-        }
     };
     replace(true);
     const std::vector<double> value =
@@ -99,12 +99,12 @@ Start Starts::at(const std::vector<double>& values) const {
     replace(false);
     for (int i = 0; i < m_.size(); ++i)
         if (!std::isfinite(start.q[i]) || !std::isfinite(start.qdot[i]))
-            throw ModelError(
-                fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name()));
+            return Obstacle{
+                fmt::format("the initial value of '{}' is not finite at these parameters", m_.q[i].get_name())};
     for (std::size_t k = 0; k < start.speeds.size(); ++k)
         if (!std::isfinite(start.speeds[k]))
-            throw ModelError(fmt::format("the initial value of '{}' is not finite at these parameters",
-                                         m_.speeds[k].u.get_name()));
+            return Obstacle{fmt::format("the initial value of '{}' is not finite at these parameters",
+                                        m_.speeds[k].u.get_name())};
     return start;
 }
 
@@ -126,8 +126,7 @@ State<double> state_of(const Start& start, const Mechanism& m, const Equations& 
         return state;
     }
     Program program;
-    std::vector<int> nodes;
-    for (const GiNaC::ex& form : equations.form) nodes.push_back(lower_expression(program, m, form));
+    const std::vector<int> nodes = lower_expressions(program, in_terms_of(equations, m), equations.form);
     const std::vector<double> value = interpret(program, state);
     state.qdot.clear();
     for (const int id : nodes) state.qdot.push_back(value[id]);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "formalism/equations.hpp"
+#include "formalism/obstacle.hpp"
 #include "program/interpret.hpp"
 
 namespace alembert {
@@ -40,8 +41,10 @@ public:
     /// Throws as start_of, for names.
     Starts(const Mechanism& mechanism, const std::vector<std::string>& names);
 
-    /// A value for each name. Throws as start_of, for values.
-    Start at(const std::vector<double>& values) const;
+    /// A value for each name. An obstacle is a value that is not finite, given or following from the given ones.
+    Possible<Start> possible(const std::vector<double>& values) const;
+    /// The same; throws as start_of, for values.
+    Start at(const std::vector<double>& values) const { return possible(values).value(); }
 
 private:
     enum class Part { t, parameter, q, qdot, speed };

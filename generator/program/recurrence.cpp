@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "program/recurrence.hpp"
 
+#include <fmt/format.h>
+
+#include "alembert/error.hpp"
 #include "program/series_building.hpp"
 
 namespace alembert {
@@ -131,7 +134,28 @@ double Recurrences::products() const {
     return count;
 }
 
+std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work) {
+    if (program.singular) return "the mass matrix is singular at every state: there are no accelerations to emit";
+    std::vector<int> roots = program.right_hand_side();
+    const std::vector<int> power = with_work ? program.nodes_of(Group::power) : std::vector<int>();
+    roots.insert(roots.end(), power.begin(), power.end());
+    for (const int id : program.needed(roots)) {
+        const Node& node = program[id];
+        if (node.is_constant()) continue;
+        if (node.op == Op::abs || node.op == Op::sign || node.op == Op::min || node.op == Op::max)
+            return fmt::format(
+                "method 'taylor' needs functions that have a power series everywhere, and {}(...) has a kink; "
+                "take "
+                "dop853",
+                name_of(node.op));
+        if (node.op == Op::variable && node.variable.kind == Variable::Kind::unknown)
+            return "method 'taylor': the equations name something that no state gives; take dop853";
+    }
+    return std::nullopt;
+}
+
 Recurrences recurrences(const Program& program, bool with_work) {
+    if (const auto obstacle = obstacle_to_recurrences(program, with_work)) throw ModelError(*obstacle);
     Recurrences direct = SeriesBuilding(program, with_work).direct();
     if (program.nodes_of(Group::mass).empty() || program.nodes_of(Group::forcing).empty()) return direct;
     Recurrences implicit = SeriesBuilding(program, with_work).implicit();

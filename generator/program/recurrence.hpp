@@ -26,7 +26,10 @@
 ///
 ///     M_0 u'_k = f_k − Σ_{j≥1} M_j u'_{k−j}
 ///
-/// `recurrences` throws ModelError for functions with a kink: abs, sign, min and max have no series there.
+/// Functions with a kink are an obstacle: abs, sign, min and max have no series there.
+
+#include <optional>
+#include <string>
 
 #include "program/program.hpp"
 
@@ -101,8 +104,11 @@ struct Recurrences {
     double products() const;
 };
 
-/// With `with_work` the power of loads is integrated beside the state. Throws ModelError for a function without a
-/// series.
+/// Why a motion has no such series: it has no accelerations, or holds a function without a series. `with_work`:
+/// the power of loads is integrated beside the state.
+std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work = false);
+
+/// Throws ModelError with the obstacle where there is one.
 Recurrences recurrences(const Program& program, bool with_work = false);
 
 }  // namespace alembert

@@ -2,12 +2,9 @@
 // Powers and functions of series, by the differential equation that each satisfies.
 #include "program/series_building.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
-
-#include "alembert/error.hpp"
+#include <stdexcept>
 
 namespace alembert {
 
@@ -79,10 +76,7 @@ SeriesForm SeriesBuilding::function(const Node& node) {
             return of(add({.kind = Kind::turn, .a = y, .b = x, .w = w}));
         }
         default:
-            throw ModelError(fmt::format(
-                "method 'taylor' needs functions that have a power series everywhere, and {}(...) has a "
-                "kink; take dop853",
-                name_of(node.op)));
+            throw std::logic_error("recurrences: a function without a power series is an obstacle");
     }
 }
 

@@ -2,12 +2,8 @@
 // Sums, products and quotients of series.
 #include "program/series_building.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <set>
-
-#include "alembert/error.hpp"
 
 namespace alembert {
 
@@ -119,10 +115,7 @@ int SeriesBuilding::variable(const Variable& v) {
         if (time_ < 0) time_ = add({.kind = Kind::time});
         return time_;
     }
-    const auto found = given_.find({v.kind, v.index});
-    if (found == given_.end())
-        throw ModelError("method 'taylor': the equations name something that no state gives; take dop853");
-    return found->second;
+    return given_.at({v.kind, v.index});
 }
 
 SeriesForm SeriesBuilding::product(const Node& node) {

@@ -13,6 +13,7 @@
 #include "emit/taylor.hpp"
 #include "lower/lower.hpp"
 #include "lower/quick_times.hpp"
+#include "program/recurrence.hpp"
 #include "program/switches.hpp"
 #include "run/bounces.hpp"
 #include "run/canonical.hpp"
@@ -85,13 +86,10 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
 /// Null where the motion has no power series, or its method is not asked for.
 SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
     if (!wishes.method.empty() && wishes.method != name(Method::taylor)) return nullptr;
-    try {
-        return load_series(compile(emit_taylor(program, with_work).text, program.name + "_taylor",
-                                   {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
-                               .object);
-    } catch (const ModelError&) {
-        return nullptr;
-    }
+    if (obstacle_to_recurrences(program, with_work)) return nullptr;
+    return load_series(compile(emit_taylor(program, with_work).text, program.name + "_taylor",
+                               {.compiler = {}, .extra_flags = {}, .fast_math = wishes.fast_math, .cache = {}})
+                           .object);
 }
 
 /// Null where the scene has no such form, or no method that needs it is asked for.

@@ -20,11 +20,8 @@ constexpr double most_products = 300;  // of a series that compiles in about a s
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
     if (!d.mechanism.unilateral.empty()) return std::nullopt;
     if (program.count(program.right_hand_side()).total() > 20 * most_products) return std::nullopt;
-    try {
-        return recurrences(program).products();
-    } catch (const ModelError&) {
-        return std::nullopt;
-    }
+    if (obstacle_to_recurrences(program)) return std::nullopt;
+    return recurrences(program).products();
 }
 
 MethodChoice automatic(const RunOptions& request, const Derived& d, const Program& program, const Start& start) {

@@ -78,13 +78,9 @@ void check_bodies_along(Sweep& s) {
     std::set<Place> told;
     for (std::size_t k = 0; k < s.grid.size(); ++k) {
         const std::vector<double> values = s.grid.point(k);
-        std::vector<Diagnostic> found;
-        try {
-            found = check.findings(starts.at(values).state());
-        } catch (const ModelError&) {
-            continue;  // no start there, which its row tells
-        }
-        for (Diagnostic& one : found) {
+        const Possible<Start> start = starts.possible(values);
+        if (!start.exists()) continue;  // its row says why
+        for (Diagnostic& one : check.findings(start.value().state())) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
             if (one.severity == Severity::error) fail(s.scene, {one});

@@ -30,6 +30,8 @@ public:
         sigma_.assign(sides_.begin(), sides_.end());
     }
 
+    int count() const { return system_.count(); }
+    bool has_bounds() const { return static_cast<bool>(system_.bounds); }
     const std::vector<int>& sides() const { return sides_; }
     const std::vector<int>& sliding() const { return sliding_; }
     const std::vector<double>& sigma() const { return sigma_; }

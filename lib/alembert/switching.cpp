@@ -9,28 +9,20 @@
 #include <memory>
 
 #include "alembert/run.hpp"
+#include "alembert/switch_choice.hpp"
 #include "alembert/switch_sides.hpp"
+#include "alembert/switch_watch.hpp"
 #include "alembert/tolerances.hpp"
 
 namespace alembert {
 
 namespace {
 
-constexpr int most_undecided = 6;           // signs that are undecided together: 3⁶ choices are tried
-constexpr int most_in_one_place = 50;       // changes without the time moving on
-constexpr double slack = 1e-9;              // of a consistent choice, relative to the rates of g on both sides
-constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
+constexpr int most_undecided = 6;      // signs that are undecided together: 3⁶ choices are tried
+constexpr int most_in_one_place = 50;  // changes without the time moving on
+constexpr double slack = 1e-9;         // of a consistent choice, relative to the rates of g on both sides
 constexpr double small_normal = 1e-3;  // below, what is negative where a piece begins may be rounding of the time
 constexpr double clear_margin = 1e-6;  // from here a second consistent choice makes the motion ambiguous
-
-/// How one g_k, α_k or normal force is watched in a piece.
-struct Watched {
-    enum class What { side, bound, normal } what = What::side;
-    int index;
-    double sign = 1;  ///< the event's value is sign·(g or α) + offset, for α with r·offset
-    double offset = 0;
-    double open_until = -HUGE_VAL;  ///< before, it counts as positive, whatever rounding says
-};
 
 class SwitchedRun {
 public:
@@ -106,8 +98,9 @@ private:
         for (int k = 0; k < system_.count(); ++k) {
             (*normals_)[k] = std::max((*normals_)[k], std::abs(now.normal(k)));
             if (now.normal(k) < -clear_margin * std::max((*normals_)[k], small_normal)) return fail_negative(k);
+            if (sides_[k] != 0) (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
         }
-        const std::vector<Watched> watched = watches(now);
+        const std::vector<Watched> watched = watches(now, {t_, end_}, *sizes_);
         const std::size_t scene = events_.list.size();
         Options here = options_;
         here.start = t_;
@@ -166,49 +159,6 @@ private:
         return rhs;
     }
 
-    /// Each g on its side, and each α between its bounds.
-    std::vector<Watched> watches(const SwitchSides& now) {
-        std::vector<Watched> list;
-        for (int k = 0; k < system_.count(); ++k) {
-            if (system_.bounds)
-                list.push_back(
-                    {.what = Watched::What::normal, .index = k, .offset = -2 * std::min(0.0, now.normal(k))});
-            if (sides_[k] == 0) {
-                const bool is_close = std::abs(now.sigma()[k]) > (1 - 1e-12) * now.bound(k);
-                for (const double sign : {-1.0, 1.0})
-                    list.push_back({.what = Watched::What::bound,
-                                    .index = k,
-                                    .sign = sign,
-                                    .offset = is_close ? 1 + 1e-12 : 1 + 16 * tolerance::epsilon});
-                continue;
-            }
-            (*sizes_)[k] = std::max((*sizes_)[k], std::abs(now.value(k)));
-            Watched one{.index = k, .sign = static_cast<double>(sides_[k])};
-            const double off = std::abs(now.value(k)), speed = one.sign * now.slope(k);
-            const double rounding = 2 * off + 64 * tolerance::epsilon * (*sizes_)[k];
-            if (one.sign * now.value(k) <= 64 * tolerance::epsilon * (*sizes_)[k]) {
-                if (speed * (end_ - t_) > 1e6 * rounding)
-                    one.open_until = t_ + rounding / speed;
-                else
-                    one.offset = rounding + 1e-13 * (*sizes_)[k] + std::numeric_limits<double>::min();
-            }
-            list.push_back(one);
-        }
-        return list;
-    }
-
-    static double value_of(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
-        switch (w.what) {
-            case Watched::What::bound:
-                return w.sign * at.sigma()[w.index] + w.offset * at.bound(w.index);
-            case Watched::What::normal:
-                return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
-                       std::numeric_limits<double>::min();
-            default:
-                return w.sign * at.value(w.index) + w.offset;
-        }
-    }
-
     Events with_watches(const std::vector<Watched>& watched) const {
         std::vector<Event> list = events_.list;
         for (const Watched& w : watched)
@@ -226,7 +176,7 @@ private:
             for (std::size_t i = 0; i < watched.size(); ++i) {
                 const Watched& w = watched[i];
                 double& value = out[events_.list.size() + i];
-                value = value_of(w, *sides, *normals);
+                value = watched_value(w, *sides, *normals);
                 if (t <= w.open_until) value = std::max(value, std::numeric_limits<double>::min());
                 if (!std::isnan(value)) continue;
                 *undefined = true;  // the run ends where it begins to be so
@@ -269,12 +219,6 @@ private:
         return true;
     }
 
-    struct Choice {
-        std::vector<int> sides;
-        double margin;  ///< above 0: consistent
-        bool jumps;     ///< f differs on the sides of those that are open
-    };
-
     /// SwitchSides for those that are open, the others as they are.
     bool choose(const std::vector<int>& open) {
         if (open.empty()) return true;
@@ -282,20 +226,7 @@ private:
             return fail(
                 fmt::format("the signs of {} and {} others change together at t = {}, more than {} at once",
                             system_.names[open.front()], open.size() - 1, t_, most_undecided));
-        std::vector<Choice> found;
-        std::vector<int> sides = sides_;
-        std::size_t count = 1;
-        for (std::size_t i = 0; i < open.size(); ++i) count *= 3;
-        for (std::size_t code = 0; code < count; ++code) {
-            std::size_t rest = code;
-            for (const int k : open) {
-                sides[k] = static_cast<int>(rest % 3) - 1;
-                rest /= 3;
-            }
-            found.push_back(judged(sides, open));
-        }
-        std::stable_sort(found.begin(), found.end(),
-                         [](const Choice& a, const Choice& b) { return a.margin > b.margin; });
+        const std::vector<SideChoice> found = side_choices(system_, sides_, open, t_, state_);
         std::string names;
         for (const int k : open) names += (names.empty() ? "" : ", ") + system_.names[k];
         if (!(found[0].margin > -slack))
@@ -317,49 +248,6 @@ private:
                         : before[k] == 0 ? SideChange::Kind::leaving
                                          : SideChange::Kind::crossing);
         return true;
-    }
-
-    /// How consistent a choice is: every g moves to the side that it has, every α lies between −1 and 1.
-    Choice judged(const std::vector<int>& sides, const std::vector<int>& open) const {
-        SwitchSides at(system_, sides, dimension());
-        at.evaluate(t_, state_.data());
-        at.find_bounds(t_, state_.data());
-        Choice choice{.sides = sides, .margin = HUGE_VAL, .jumps = false};
-        for (const int k : open) {
-            std::vector<int> one = sides, other = sides;
-            one[k] = 1;
-            other[k] = -1;
-            const double up = slope_of(one, k), down = slope_of(other, k);
-            const double size = std::abs(up) + std::abs(down);
-            const bool jump = std::abs(up - down) > 1e-9 * size;
-            choice.jumps = choice.jumps || jump;
-            double margin;
-            if (sides[k] != 0)
-                margin = size > 0 ? sides[k] * at.slope(k) / size : 0;
-            else if (!jump || up > down)
-                margin = -HUGE_VAL;  // nothing to slide along, or it repels
-            else
-                margin = 1 - std::abs(at.sigma()[k]) / at.bound(k);
-            if (sides[k] != 0 && jump && up < down && can_stick(sides, k)) margin = -HUGE_VAL;
-            choice.margin = std::min(choice.margin, std::isfinite(margin) ? margin : -HUGE_VAL);
-        }
-        return choice;
-    }
-
-    /// Friction with a static coefficient above the kinetic one begins to slide only where that is overcome.
-    bool can_stick(std::vector<int> sides, int k) const {
-        if (!system_.bounds) return false;
-        sides[k] = 0;
-        SwitchSides at(system_, sides, dimension());
-        at.evaluate(t_, state_.data());
-        at.find_bounds(t_, state_.data());
-        return at.bound(k) > 1 && std::abs(at.sigma()[k]) <= at.bound(k);
-    }
-
-    double slope_of(const std::vector<int>& sides, int k) const {
-        SwitchSides at(system_, sides, dimension());
-        at.evaluate(t_, state_.data());
-        return at.slope(k);
     }
 
     void tell(int k, SideChange::Kind kind) const {
@@ -405,26 +293,6 @@ private:
 Trajectory integrate(const Switching& system, const std::vector<double>& initial, const Options& options,
                      const Events& events) {
     return SwitchedRun(system, initial, options, events).go();
-}
-
-std::vector<double> consistent_signs(const Switching& system, std::vector<int> sides, double t, const double* y,
-                                     int dimension) {
-    for (bool again = true; again;) {
-        again = false;
-        SwitchSides at(system, sides, dimension);
-        at.evaluate(t, y);
-        at.find_bounds(t, y);
-        for (std::size_t i = 0; i < at.sliding().size() && !again; ++i) {
-            const int k = at.sliding()[i];
-            const double alpha = at.sigma()[static_cast<std::size_t>(k)];
-            if (at.steepness(i) < 0 && std::abs(alpha) <= at.bound(k) * (1 + 1e-9)) continue;
-            sides[static_cast<std::size_t>(k)] =
-                at.steepness(i) < 0 ? (alpha > 0 ? 1 : -1) : (at.slope(k) < 0 ? -1 : 1);
-            again = true;
-        }
-        if (!again) return at.sigma();
-    }
-    return {};
 }
 
 }  // namespace alembert

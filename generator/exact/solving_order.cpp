@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "exact/solving_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "exact/angle_sum.hpp"
+
+namespace alembert {
+
+namespace {
+
+/// How a variable occurs in an expression.
+struct Occurrence {
+    bool plain = false, turned = false;  // outside sines and cosines; in them
+    bool rooted = false;                 // under a root: no polynomial in it goes to zero where the condition does
+};
+using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
+using TakenVariables = std::set<std::pair<Variable::Kind, int>>;
+
+Occurrences occurrences(const Program& p, int root) {
+    Occurrences result;
+    std::set<std::tuple<int, bool, bool>> seen;
+    std::vector<std::tuple<int, bool, bool>> stack{{root, false, false}};
+    while (!stack.empty()) {
+        const auto [id, turned, rooted] = stack.back();
+        stack.pop_back();
+        if (!seen.emplace(id, turned, rooted).second) continue;
+        const Node& node = p[id];
+        if (node.op == Op::variable) {
+            Occurrence& o = result[{node.variable.kind, node.variable.index}];
+            (turned ? o.turned : o.plain) = true;
+            o.rooted = o.rooted || rooted;
+        }
+        const bool inside = turned || node.op == Op::sin || node.op == Op::cos || node.op == Op::tan;
+        const bool under = rooted || node.op == Op::sqrt;
+        for (const int arg : node.args) stack.emplace_back(arg, inside, under);
+    }
+    return result;
+}
+
+/// Two conditions that alone hold two variables, both of them.
+struct Coupled {
+    std::size_t first, second;
+    SolvingStep step;
+};
+
+std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const TakenVariables& taken) {
+    const auto usable = [&](const auto& variable, std::size_t a, std::size_t b) {
+        if (taken.contains(variable) || !held[b].contains(variable)) return false;
+        for (std::size_t c = 0; c < held.size(); ++c) {
+            const auto found = held[c].find(variable);
+            if (found != held[c].end() && ((c != a && c != b) || (found->second.plain && found->second.turned)))
+                return false;
+        }
+        return held[a].at(variable).turned == held[b].at(variable).turned &&
+               variable.first != Variable::Kind::time;
+    };
+    for (std::size_t a = 0; a < held.size(); ++a)
+        for (std::size_t b = a + 1; b < held.size(); ++b) {
+            std::vector<SolvedUnknown> found;
+            for (const auto& [variable, how] : held[a])
+                if (usable(variable, a, b)) found.push_back({0, {variable.first, variable.second}, how.turned});
+            // The last declared: drivers come first.
+            if (found.size() >= 2) return Coupled{a, b, {{found[found.size() - 2]}, found.back()}};
+        }
+    return std::nullopt;
+}
+
+/// The position of a condition that is solved next to last, and how.
+using ChosenStep = std::pair<std::size_t, SolvingStep>;
+
+/// A condition with a variable that no other holds; of a sum of angles first what can be had from the turns of the
+/// others, under a root only where nothing else is left.
+std::optional<ChosenStep> with_own_variable(const Program& program, const std::vector<int>& conditions,
+                                            const std::vector<Occurrences>& held, const TakenVariables& taken) {
+    constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
+    constexpr std::array<std::pair<int, bool>, 4> orders{{{0, false}, {1, false}, {1, true}, {2, true}}};
+    for (std::size_t choice = 0; choice < 2 * orders.size(); ++choice) {
+        const bool roots = choice >= orders.size();
+        const Variable::Kind kind = kinds[orders[choice % orders.size()].first];
+        const bool any_multiple = orders[choice % orders.size()].second;
+        for (std::size_t c = 0; c < conditions.size(); ++c)
+            for (const auto& [variable, how] : held[c]) {
+                if (variable.first != kind || taken.contains(variable)) continue;
+                const auto holds_it = [&](const Occurrences& other) {
+                    return &other != &held[c] && other.contains({kind, variable.second});
+                };
+                const bool elsewhere = std::any_of(held.begin(), held.end(), holds_it);
+                const bool only_parameters = std::all_of(held[c].begin(), held[c].end(), [](const auto& o) {
+                    return o.first.first == Variable::Kind::parameter || o.first.first == Variable::Kind::time;
+                });
+                if (elsewhere || only_parameters || (how.rooted && !roots) || (how.plain && how.turned)) continue;
+                const Variable unknown{variable.first, variable.second};
+                if (!any_multiple && is_sum_of_variables(program, conditions[c]) &&
+                    !angle_sum(program, conditions[c], unknown))
+                    continue;
+                return ChosenStep{c, {{conditions[c], unknown, how.turned}, std::nullopt}};
+            }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+SolvingOrder solving_order(const Program& program, std::vector<int> conditions) {
+    std::sort(conditions.begin(), conditions.end());
+    conditions.erase(std::unique(conditions.begin(), conditions.end()), conditions.end());
+    std::vector<Occurrences> held;
+    for (const int node : conditions) held.push_back(occurrences(program, node));
+    TakenVariables taken;
+    SolvingOrder result;
+    while (!conditions.empty()) {
+        std::optional<ChosenStep> chosen = with_own_variable(program, conditions, held, taken);
+        std::optional<std::size_t> partner;
+        if (!chosen)
+            if (auto pair = coupled(held, taken)) {
+                partner = pair->second;
+                chosen = {pair->first, pair->step};
+                chosen->second.node = conditions[pair->first];
+                chosen->second.second->node = conditions[pair->second];
+            }
+        if (!chosen) break;
+        const SolvingStep& step = chosen->second;
+        taken.insert({step.variable.kind, step.variable.index});
+        if (step.second) taken.insert({step.second->variable.kind, step.second->variable.index});
+        result.steps.insert(result.steps.begin(), step);
+        const auto drop = [&](std::size_t c) {
+            conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
+            held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
+        };
+        if (partner) drop(*partner);  // the later one
+        drop(chosen->first);
+    }
+    result.left = std::move(conditions);
+    return result;
+}
+
+}  // namespace alembert

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "program/modular.hpp"
+
+#include <cln/integer.h>
+
+#include <cmath>
+
+#include "program/modular_angle.hpp"
+
+namespace alembert {
+
+namespace {
+
+class ModularEvaluation {
+public:
+    ModularEvaluation(const Program& program, const ModularPoint& point)
+        : program_(program), point_(point), pi_(point.random(300, 0)) {}
+
+    std::optional<ModularValues> run(std::span<const int> roots) {
+        result_.value.resize(program_.size());
+        result_.degree.resize(program_.size());
+        for (const int id : program_.needed(roots)) {
+            const std::optional<Prime> value = of(id);
+            if (!value) return std::nullopt;
+            result_.value[id] = *value;
+        }
+        // Odd denominators of angles: the random points stand for the angles over all of them.
+        for (double& degree : result_.degree) degree *= denominators_;
+        return std::move(result_);
+    }
+
+private:
+    Prime value(int id) const { return result_.value[id]; }
+
+    std::optional<Prime> of(int id) {
+        const Node& node = program_[id];
+        double& degree = result_.degree[id];
+        const auto arg = [&](std::size_t k) { return value(node.args[k]); };
+        for (const int a : node.args) degree = std::max(degree, result_.degree[a]);
+        switch (node.op) {
+            case Op::number:
+                return Prime::from(node.number);
+            case Op::pi:
+                degree = 1;
+                return pi_;
+            case Op::variable:
+                degree = 1;
+                return point_.variable(node.variable);
+            case Op::sum:
+                return sum(node, degree);
+            case Op::product: {
+                degree = 0;
+                Prime product = 1;
+                for (std::size_t k = 0; k < node.args.size(); ++k) {
+                    const int e = node.exponents[k];
+                    if (e < 0 && arg(k).is_zero()) return std::nullopt;
+                    product *= (e < 0 ? arg(k).inverse() : arg(k)).power(static_cast<std::uint64_t>(std::abs(e)));
+                    degree += std::abs(e) * result_.degree[node.args[k]];
+                }
+                return product;
+            }
+            case Op::sin:
+            case Op::cos:
+            case Op::tan: {
+                const std::optional<PrimeTurn> turn = turned(node.args[0], degree);
+                if (!turn) return std::nullopt;
+                if (node.op == Op::sin) return turn->sin;
+                if (node.op == Op::cos) return turn->cos;
+                if (turn->cos.is_zero()) return std::nullopt;
+                return turn->sin * turn->cos.inverse();
+            }
+            case Op::sqrt:
+                return square_root(node.args[0]);
+            case Op::abs:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_plain() ? (arg(0).is_square() ? arg(0) : -arg(0)) : std::min(arg(0), -arg(0));
+            case Op::sign:
+                result_.exact = result_.exact && arg(0).is_plain();
+                return arg(0).is_zero() ? Prime(0) : Prime(arg(0).is_square() ? 1 : -1);
+            case Op::exp:
+                return exponential(node.args[0], degree);
+            case Op::sinh:
+            case Op::cosh:
+            case Op::tanh: {
+                const std::optional<Prime> up = exponential(node.args[0], degree);
+                if (!up) return std::nullopt;
+                degree *= 2;
+                const Prime down = up->inverse(), half = Prime(2).inverse();
+                if (node.op == Op::sinh) return (*up - down) * half;
+                if (node.op == Op::cosh) return (*up + down) * half;
+                if ((*up + down).is_zero()) return std::nullopt;
+                return (*up - down) * (*up + down).inverse();
+            }
+            case Op::min:
+            case Op::max: {
+                const Prime low = std::min(arg(0), arg(1)), high = std::max(arg(0), arg(1));
+                const bool first = (point_.random(400, low.bits(), high.bits()).bits() & 1U) != 0;
+                return first == (node.op == Op::min) ? low : high;
+            }
+            case Op::log:
+                if (const Node& inner = program_[node.args[0]]; inner.op == Op::exp) return value(inner.args[0]);
+                break;
+            case Op::asin:
+            case Op::acos:
+            case Op::atan:
+            case Op::pow:
+            case Op::atan2:
+                break;
+        }
+        result_.exact = false;
+        degree += 1;
+        return point_.random(static_cast<std::uint64_t>(node.op), arg(0).bits(),
+                             node.args.size() > 1 ? arg(1).bits() : 0);
+    }
+
+    std::optional<Prime> sum(const Node& node, double& degree) {
+        std::optional<Prime> total = Prime::from(node.number);
+        if (!total) return std::nullopt;
+        for (std::size_t k = 0; k < node.args.size(); ++k) {
+            const std::optional<Prime> c = Prime::from(node.coefficients[k]);
+            if (!c) return std::nullopt;
+            *total += *c * value(node.args[k]);
+        }
+        degree = degree_of_sum(node);
+        return total;
+    }
+
+    /// Polynomials: the largest degree. With denominators: all together.
+    double degree_of_sum(const Node& node) {
+        double largest = 0, together = 0;
+        bool fractions = false;
+        for (const int a : node.args) {
+            largest = std::max(largest, result_.degree[a]);
+            together += result_.degree[a];
+            fractions = fractions || has_denominator(a);
+        }
+        return fractions ? together : largest;
+    }
+
+    bool has_denominator(int id) {
+        if (fraction_.empty()) {
+            fraction_.resize(program_.size());
+            for (int i = 0; i < program_.size(); ++i) {
+                const Node& node = program_[i];
+                bool any = node.is_reciprocal() || node.op == Op::tan || node.op == Op::tanh;
+                for (const int a : node.args) any = any || fraction_[a] != 0;
+                fraction_[i] = any ? 1 : 0;
+            }
+        }
+        return fraction_[id] != 0;
+    }
+
+    std::optional<Prime> square_root(int arg) {
+        const Node& node = program_[arg];
+        if (node.is_number()) {
+            if (cln::zerop(node.number)) return Prime(0);
+            if (!cln::plusp(node.number)) return std::nullopt;
+            if (const auto root = Prime::root_of(node.number)) return root;
+            result_.exact = false;
+            return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
+        }
+        // √(3a + 3b) = √3 √(a + b), though 3 may be no square
+        const Rational content = node.op == Op::sum ? content_of(node) : Rational(1);
+        const auto outer = Prime::root_of(content);
+        const auto factor = Prime::from(outer ? content : Rational(1));
+        if (!factor || factor->is_zero()) return std::nullopt;
+        const Prime a = value(arg) * factor->inverse();
+        if (!a.is_square()) return std::nullopt;
+        result_.conditions += 1;
+        result_.exact = result_.exact && a.is_plain();
+        return outer ? *outer * a.root() : a.root();
+    }
+
+    /// The positive number by which the coefficients of a sum are whole without a common factor.
+    static Rational content_of(const Node& node) {
+        cln::cl_I above = cln::numerator(node.number), below = cln::denominator(node.number);
+        for (const Rational& c : node.coefficients) {
+            above = cln::gcd(above, cln::numerator(c));
+            below = cln::lcm(below, cln::denominator(c));
+        }
+        return cln::abs(above) / below;
+    }
+
+    // Angles
+
+    ModularAngle angle_or_leaf(int id) {
+        if (auto result = angle_at(program_, result_.value, pi_, id)) return *result;
+        result_.exact = false;
+        return ModularAngle{{value(id), 1}};
+    }
+
+    Prime leaf(Prime monomial) const { return monomial.is_zero() ? pi_ : monomial; }
+
+    std::optional<PrimeTurn> turned(int id, double& degree) {
+        PrimeTurn result;
+        degree = 0;
+        const ModularAngle sum = angle_or_leaf(id);
+        for (const auto& [monomial, c] : sum) {
+            if (cln::zerop(c)) continue;
+            if (monomial.is_zero()) {
+                const std::optional<PrimeTurn> part = turned_by_pi(c);
+                if (!part) return std::nullopt;
+                result = result * *part;
+                continue;
+            }
+            cln::cl_I numerator = cln::numerator(c), odd = cln::denominator(c);
+            const auto [parts, turn] = point_.part(leaf(monomial));
+            int halves = parts;
+            for (; cln::evenp(odd) && halves > 0; --halves) odd = cln::exquo(odd, cln::cl_I(2));
+            if (cln::evenp(odd)) return std::nullopt;
+            note_denominator(odd);
+            numerator = numerator << halves;
+            degree += 2 * std::abs(cln::double_approx(c)) * std::pow(2.0, parts);
+            if (odd != 1 && !turn.is_plain()) return std::nullopt;
+            result = result * turn.power(*PrimeTurn::exponent(numerator / odd));
+        }
+        return result;
+    }
+
+    /// A multiple of π that the group has, or a random turn of its own.
+    std::optional<PrimeTurn> turned_by_pi(const Rational& c) {
+        if (const auto turn = PrimeTurn::by_pi(c)) return turn;
+        result_.exact = false;
+        const std::optional<Prime> key = Prime::from(c);
+        if (!key) return std::nullopt;
+        return PrimeTurn::rational(point_.random(201, key->bits()));
+    }
+
+    void note_denominator(const cln::cl_I& odd) {
+        known_denominators_ = cln::lcm(known_denominators_, odd);
+        denominators_ = cln::double_approx(known_denominators_);
+    }
+
+    /// exp(x) = e^2520 with a random square e for each monomial, so that thirds and the like are whole powers.
+    std::optional<Prime> exponential(int id, double& degree) {
+        constexpr int parts = 2520;
+        Prime result = 1;
+        degree = 0;
+        const ModularAngle sum = angle_or_leaf(id);
+        for (const auto& [monomial, c] : sum) {
+            const Rational exponent = c * parts;
+            if (cln::denominator(exponent) != 1) {
+                result_.exact = false;
+                degree += 1;
+                const std::optional<Prime> key = Prime::from(c);
+                if (!key) return std::nullopt;
+                const Prime e = point_.random(202, leaf(monomial).bits(), key->bits());
+                result *= e * e;
+                continue;
+            }
+            const cln::cl_I whole = cln::numerator(exponent);
+            const cln::cl_I residue = cln::mod(whole, cln::cl_I(static_cast<unsigned long>(Prime::modulus - 1)));
+            const Prime e = point_.random(203, leaf(monomial).bits());
+            if (e.is_zero()) return std::nullopt;
+            result *= (e * e).power(cln::cl_I_to_UQ(residue));
+            degree += 2 * std::abs(cln::double_approx(exponent));
+        }
+        return result;
+    }
+
+    const Program& program_;
+    const ModularPoint& point_;
+    Prime pi_;
+    ModularValues result_;
+    std::vector<char> fraction_;
+    cln::cl_I known_denominators_ = 1;
+    double denominators_ = 1;
+};
+
+}  // namespace
+
+std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
+                                          std::span<const int> roots) {
+    return ModularEvaluation(program, point).run(roots);
+}
+
+}  // namespace alembert

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "alembert/switch_watch.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "alembert/tolerances.hpp"
+
+namespace alembert {
+
+namespace {
+
+constexpr double negligible_normal = 1e-9;  // a negative normal force, relative to the largest
+
+}  // namespace
+
+std::vector<Watched> watches(const SwitchSides& now, PieceSpan span, const std::vector<double>& sizes) {
+    std::vector<Watched> list;
+    for (int k = 0; k < now.count(); ++k) {
+        if (now.has_bounds())
+            list.push_back(
+                {.what = Watched::What::normal, .index = k, .offset = -2 * std::min(0.0, now.normal(k))});
+        if (now.sides()[k] == 0) {
+            const bool is_close = std::abs(now.sigma()[k]) > (1 - 1e-12) * now.bound(k);
+            for (const double sign : {-1.0, 1.0})
+                list.push_back({.what = Watched::What::bound,
+                                .index = k,
+                                .sign = sign,
+                                .offset = is_close ? 1 + 1e-12 : 1 + 16 * tolerance::epsilon});
+            continue;
+        }
+        Watched one{.index = k, .sign = static_cast<double>(now.sides()[k])};
+        const double off = std::abs(now.value(k)), speed = one.sign * now.slope(k);
+        const double rounding = 2 * off + 64 * tolerance::epsilon * sizes[k];
+        if (one.sign * now.value(k) <= 64 * tolerance::epsilon * sizes[k]) {
+            if (speed * (span.end - span.begin) > 1e6 * rounding)
+                one.open_until = span.begin + rounding / speed;
+            else
+                one.offset = rounding + 1e-13 * sizes[k] + std::numeric_limits<double>::min();
+        }
+        list.push_back(one);
+    }
+    return list;
+}
+
+double watched_value(const Watched& w, const SwitchSides& at, const std::vector<double>& normals) {
+    switch (w.what) {
+        case Watched::What::bound:
+            return w.sign * at.sigma()[w.index] + w.offset * at.bound(w.index);
+        case Watched::What::normal:
+            return at.normal(w.index) + w.offset + 2 * negligible_normal * normals[w.index] +
+                   std::numeric_limits<double>::min();
+        default:
+            return w.sign * at.value(w.index) + w.offset;
+    }
+}
+
+}  // namespace alembert
