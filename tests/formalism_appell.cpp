@@ -45,7 +45,8 @@ TEST_CASE("appell: the sleigh's equations are the closed ones, without a multipl
 // S = m ((v' − a w²)² + (a w' + v w)²)/2 + J w'²/2.
 TEST_CASE("appell: the sleigh's S is differentiated by its accelerations") {
     const Mechanism m = textbook("chaplygin_sleigh_in_speeds");
-    const OwnSteps steps = steps_of_appell(m, appell(m));
+    const Equations e = appell(m);
+    const OwnSteps steps = steps_of_appell(in_terms_of(e, m), e);
     REQUIRE(steps.sections.size() == 2);
     REQUIRE(steps.sections[0].equalities.size() == 1);
     std::vector<std::string> slopes;

@@ -64,7 +64,7 @@ TEST_CASE("maggi: a disc given by its energies rolls down, x'' = 2/3 g sin β") 
     const Equations e = maggi(m);
     REQUIRE(e.size() == 1);
     CHECK(agree({routh(m), e}, m).verdict == Agreement::Verdict::proved);
-    const GiNaC::ex acceleration = m.z->expand(e.forcing(0)) / m.z->expand(e.M(0, 0));
+    const GiNaC::ex acceleration = e.z->expand(e.forcing(0)) / e.z->expand(e.M(0, 0));
     const GiNaC::ex g = m.parameters[2].symbol, beta = m.parameters[3].symbol, r = m.parameters[1].symbol;
     const GiNaC::ex closed = GiNaC::ex(2) / 3 * g * sin(beta) / (e.u[0].get_name() == "phi'" ? r : GiNaC::ex(1));
     CHECK((acceleration - closed).normal().is_zero());

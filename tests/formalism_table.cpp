@@ -2,8 +2,21 @@
 // What every row of the table of formalisms promises, and the origins of a mechanism's parts.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
+#include "agree/agree.hpp"
+#include "check/check.hpp"
+#include "derive/derivation.hpp"
 #include "formalism/formalisms.hpp"
+#include "formalism/kane.hpp"
+#include "formalism/lagrange.hpp"
+#include "formalism/routh.hpp"
+#include "lower/lower.hpp"
+#include "lower/start.hpp"
+#include "model/energy.hpp"
 #include "model/mechanism.hpp"
+#include "notation/text.hpp"
+#include "program/interpret.hpp"
 #include "scenes.hpp"
 #include "state/prepared.hpp"
 
@@ -49,6 +62,63 @@ TEST_CASE("formalisms: a derivation throws the obstacle, and there is none where
     }
     CHECK(applied > 200);
     CHECK(refused > 50);
+}
+
+TEST_CASE("formalisms: a mechanism is the same after it was derived from, compared and checked") {
+    for (const char* const name : {"double_pendulum", "chaplygin_sleigh_in_speeds", "rolling_disc_in_space",
+                                   "watt_governor", "coin", "rolling_disc"}) {
+        CAPTURE(name);
+        const Scene scene = read_scene(test::source_path(fmt::format("scenes/textbook/{}.toml", name)));
+        const Mechanism m = prepared(scene).mechanism;
+        const std::size_t entries = m.z->entries().size(), labels = m.z->source_labels().size();
+        const auto same = [&] {
+            return m.z->entries().size() == entries && m.z->source_labels().size() == labels;
+        };
+        for (const Formalism& f : formalisms()) {
+            CAPTURE(f.name);
+            const std::optional<std::string> obstacle = f.obstacle(m);
+            CHECK(same());
+            if (obstacle) continue;
+            const Equations e = f.derive(m);
+            CHECK(same());
+            CHECK(e.z->entries().size() > entries);
+            derivation_of(m, e, f);
+            CHECK(same());
+        }
+        CHECK(agree(derive_all(m).equations, m).verdict == Agreement::Verdict::proved);
+        CHECK(same());
+        CHECK_FALSE(check(scene, m).claims.empty());
+        CHECK(same());
+        // Lagrange's equations after all that are the ones of a mechanism that nothing was asked of before.
+        const Mechanism untouched = prepared(scene).mechanism;
+        const Derivation late = derivation_of(m, routh(m)), early = derivation_of(untouched, routh(untouched));
+        REQUIRE(late.equations.size() == early.equations.size());
+        for (std::size_t i = 0; i < late.equations.size(); ++i) {
+            CHECK(text(late.equations[i].lhs) == text(early.equations[i].lhs));
+            CHECK(text(late.equations[i].rhs) == text(early.equations[i].rhs));
+        }
+    }
+}
+
+TEST_CASE("formalisms: equations with tables of their own are compared, lowered and refuted like those with one") {
+    const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/double_pendulum.toml"))).mechanism;
+    const Equations first = lagrange(m), second = kane(m);
+    CHECK(first.z != second.z);
+    const Agreement result = agree({first, second}, m);
+    CHECK(result.verdict == Agreement::Verdict::proved);
+    CHECK(result.normal_form);
+    Equations wrong = second;
+    wrong.own[0] = wrong.z->name(wrong.own[0] + m.qdot[1]);
+    CHECK(agree({first, wrong}, m).verdict == Agreement::Verdict::refuted);
+    // The energies are named in the mechanism's table, after the derivation.
+    const Energy energy = energy_of(m);
+    const Program a = lower(m, first, energy), b = lower(m, second, energy);
+    State<double> state = start_of(m).state();
+    for (double& rate : state.qdot) rate += 0.5;
+    const std::vector<double> x = interpret(a, state), y = interpret(b, state);
+    for (const Group group : {Group::acceleration, Group::energy, Group::power})
+        for (std::size_t k = 0; k < a.nodes_of(group).size(); ++k)
+            CHECK(x[a.nodes_of(group)[k]] == doctest::Approx(y[b.nodes_of(group)[k]]).epsilon(1e-12));
 }
 
 TEST_CASE("formalisms: a name that is none is refused with all that are") {

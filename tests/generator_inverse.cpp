@@ -34,7 +34,7 @@ Expected by_schiehlen(const Mechanism& m, const State<double>& state) {
     std::vector<std::pair<GiNaC::symbol, int>> open;
     for (const Mechanism::Unilateral& contact : m.unilateral)
         open.emplace_back(contact.gap.multiplier, program.number(0));
-    const std::vector<int> nodes = lower_expressions(program, m, list, open);
+    const std::vector<int> nodes = lower_expressions(program, in_terms_of(e, m), list, open);
     const std::vector<double> value = interpret(program, state);
     Expected result;
     std::size_t k = 0;

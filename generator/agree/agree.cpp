@@ -102,8 +102,10 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
 }
 
 /// Are all entries equal by their normal forms? False too where that takes too long to tell.
-bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& m, double seconds) {
+bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& mechanism, double seconds) {
     if (a.speeds_are_rates() != b.speeds_are_rates() || a.A.size() != b.A.size()) return false;
+    const Mechanism m = with_own_intermediates(in_terms_of(a, mechanism));
+    m.z->adopt(*b.z);
     const auto start = std::chrono::steady_clock::now();
     const auto equal = [&](const ex& x, const ex& y) {
         if (x.is_equal(y)) return true;
@@ -130,13 +132,16 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
 
 Derivations derive_all(const Mechanism& mechanism) {
     Derivations result;
+    Mechanism m = mechanism;  // with what the formalisms before have named: what is equal has one symbol
     for (const Formalism& f : formalisms()) {
         if (!f.without_constraints.empty() && mechanism.constraints.empty())
             continue;  // another one, word for word
-        if (const auto obstacle = f.obstacle(mechanism))
+        if (const auto obstacle = f.obstacle(m)) {
             result.refused.emplace_back(f.name, *obstacle);
-        else
-            result.equations.push_back(f.derive(mechanism));
+            continue;
+        }
+        result.equations.push_back(f.derive(m));
+        m.z = result.equations.back().z;
     }
     return result;
 }

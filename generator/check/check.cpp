@@ -679,7 +679,8 @@ private:
 
 Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets) {
     const Equations equations = routh(mechanism);
-    return Checker(scene, mechanism, equations, sheets).run();
+    const Mechanism m = in_terms_of(equations, mechanism);
+    return Checker(scene, m, equations, sheets).run();
 }
 
 CheckedScene check(Scene scene, const std::string& by) {

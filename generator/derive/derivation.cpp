@@ -267,10 +267,12 @@ void show_reactions(Derivation& shown, const Mechanism& m) {
 }
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations) {
-    return Making(mechanism, equations).make();
+    const Mechanism m = in_terms_of(equations, mechanism);
+    return Making(m, equations).make();
 }
 
-Derivation derivation_of(const Mechanism& m, const Equations& equations, const Formalism& by) {
+Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by) {
+    const Mechanism m = in_terms_of(equations, mechanism);
     // First-order equations in momenta are shown beside the energies, not after their elimination.
     Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations);
     shown.formalism = by.name;

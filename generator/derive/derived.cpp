@@ -111,6 +111,7 @@ Derived derived(Scene scene, const DeriveOptions& options) {
     std::optional<Equations> at_once;
     if (options.use != Use::shown && d.by.empty()) at_once = recursive_for_large_trees(d.mechanism, options.use);
     d.equations = at_once ? *std::move(at_once) : equations_by(d.by, d.mechanism);
+    d.mechanism.z = d.equations.z;
     if (d.mechanism.speeds.empty() && !d.equations.poles.empty())
         d.warn(
             "warning: the rates that remain when the nonholonomic constraints are solved do not determine the "
@@ -125,6 +126,7 @@ Derived derived_again(const Derived& d, Mechanism mechanism, const std::string& 
     const double start = process_seconds();
     Derived again{{.scene = d.scene, .mechanism = std::move(mechanism), .warnings = d.warnings}};
     again.equations = equations_by(by, again.mechanism);
+    again.mechanism.z = again.equations.z;
     again.by = d.by;
     again.sheets = d.sheets;
     again.reaction_outputs = d.reaction_outputs;

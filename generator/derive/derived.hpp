@@ -33,7 +33,7 @@ struct ReactionOutput {
 };
 
 /// A scene with its mechanism and equations. Redundant constraints are left out of the mechanism, and a warning
-/// names them.
+/// names them. Both share one table of intermediate symbols, which is the equations'.
 struct Derived : Prepared {
     Equations equations = {};
     std::string by = {};  ///< the formalism that was asked for; empty: the program chose

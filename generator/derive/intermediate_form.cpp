@@ -21,7 +21,7 @@ public:
     Unfolding(const Program& program, const Mechanism& mechanism, const Equations& equations)
         : p_(program), m_(mechanism), e_(equations) {
         for (const GiNaC::symbol& s : m_.symbols->all())
-            if (m_.z->find(s) == nullptr) taken_.insert(m_.symbols->info(s).name);
+            if (!m_.symbols->info(s).intermediate) taken_.insert(m_.symbols->info(s).name);
     }
 
     void define(const std::vector<int>& roots) {

@@ -16,8 +16,10 @@ namespace alembert {
 
 using GiNaC::ex;
 
-Motions::Motions(const Mechanism& m, const Equations& e, At at, int halves, int halvings, Positions positions)
+Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halves, int halvings,
+                 Positions positions)
     : at_(at), n_(e.size()), m_(static_cast<int>(e.A.size())), halves_(halves) {
+    const Mechanism m = in_terms_of(e, mechanism);
     for (const Mechanism::Friction& f : m.frictions)
         for (const GiNaC::symbol& lambda : e.lambda)
             if (f.multiplier && f.multiplier->is_equal(lambda))

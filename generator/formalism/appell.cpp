@@ -52,10 +52,11 @@ std::vector<ex> without_accelerations(const std::vector<ex>& values, const std::
 }  // namespace
 
 std::optional<std::string> obstacle_to_appell(const Mechanism& m) {
-    return kinematics_for_appell(m).obstacle();
+    return kinematics_for_appell(with_own_intermediates(m)).obstacle();
 }
 
-Equations appell(const Mechanism& m) {
+Equations appell(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
     const InSpeeds motion(m, kinematics_for_appell(m).value());
     Equations equations = motion.begin("appell");

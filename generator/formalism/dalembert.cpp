@@ -78,7 +78,8 @@ VirtualWork virtual_work(const Mechanism& m) {
     return work;
 }
 
-Equations dalembert(const Mechanism& m) {
+Equations dalembert(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     const VirtualWork work = virtual_work(m);
     Intermediates& z = *m.z;
     const int n = m.size();

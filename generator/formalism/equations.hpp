@@ -44,7 +44,7 @@ struct Equations {
     std::vector<GiNaC::symbol> lambda;      ///< m
     /// Whose terms row i holds, as labels; only where no intermediate symbol is left to tell.
     std::vector<std::vector<std::string>> row_sources;
-    std::shared_ptr<Intermediates> z;  ///< what the intermediate symbols stand for
+    std::shared_ptr<Intermediates> z;  ///< what the intermediate symbols stand for: a table of their own
 
     std::vector<GiNaC::ex> h = {};     ///< q' in q, u, t
     std::vector<GiNaC::ex> form = {};  ///< u in q, q', t
@@ -71,5 +71,13 @@ struct Equations {
     /// f = own + dissipative + applied
     GiNaC::ex forcing(int i) const { return own[i] + dissipative[i] + applied[i]; }
 };
+
+/// The same mechanism with a copy of its table of intermediate symbols. What a derivation names goes into the
+/// copy, and the mechanism that it was asked for stays as it is.
+Mechanism with_own_intermediates(const Mechanism& mechanism);
+
+/// The mechanism with the table of the equations, which takes over what the mechanism's own has beyond it: the
+/// expressions of both can be used with the result.
+Mechanism in_terms_of(const Equations& equations, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -19,9 +19,11 @@ struct Formalism {
     std::string name, title;  ///< "kane", "Kane's equations"
     /// Why it does not apply to a scene; nothing where it does.
     std::optional<std::string> (*obstacle)(const Mechanism&);
-    /// Throws ModelError with the obstacle where there is one.
+    /// Throws ModelError with the obstacle where there is one. The mechanism stays as it is; what the derivation
+    /// names is in a table of the equations, Equations::z.
     Equations (*derive)(const Mechanism&);
-    /// What it shows on its way, at readable size; null: nothing but the energies and forces that all show.
+    /// What it shows on its way, at readable size, from a mechanism in terms of the equations (`in_terms_of`);
+    /// null: nothing but the energies and forces that all show.
     OwnSteps (*steps)(const Mechanism&, const Equations&) = nullptr;
     /// What it shows at any size; null: nothing.
     std::vector<Section> (*outline)(const Mechanism&) = nullptr;

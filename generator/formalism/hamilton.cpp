@@ -154,11 +154,13 @@ Possible<CanonicalEquations> canonical(const Mechanism& m) {
     return c;
 }
 
-std::optional<std::string> obstacle_to_hamilton(const Mechanism& m) {
+std::optional<std::string> obstacle_to_hamilton(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     return m.size() > most_inverted ? second_degree(m).obstacle() : canonical(m).obstacle();
 }
 
-Equations hamilton(const Mechanism& m) {
+Equations hamilton(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     const SecondDegree c = second_degree(m).value();
     Intermediates& z = *m.z;
     std::vector<ex> force;

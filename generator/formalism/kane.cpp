@@ -115,7 +115,7 @@ Possible<Kinematics> kinematics_for_kane(const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_kane(const Mechanism& m) {
-    return kinematics_for_kane(m).obstacle();
+    return kinematics_for_kane(with_own_intermediates(m)).obstacle();
 }
 
 PartialVelocities partial_velocities(const Mechanism& m) {
@@ -126,7 +126,8 @@ KaneForces kane_forces(const Mechanism& m) {
     return forces_of(InSpeeds(m, kinematics(m).value()), m);
 }
 
-Equations kane(const Mechanism& m) {
+Equations kane(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     const InSpeeds motion(m, kinematics_for_kane(m).value());
     const KaneForces forces = forces_of(motion, m);
     Equations equations = motion.begin("kane");

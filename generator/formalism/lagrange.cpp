@@ -19,7 +19,7 @@ std::optional<std::string> obstacle_to_lagrange(const Mechanism& mechanism) {
 
 Equations lagrange(const Mechanism& mechanism) {
     need_none(obstacle_to_lagrange(mechanism));
-    return lagrange_operator(mechanism);
+    return lagrange_operator(with_own_intermediates(mechanism));
 }
 
 Equations lagrange_operator(const Mechanism& mechanism) {

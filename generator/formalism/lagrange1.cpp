@@ -78,7 +78,8 @@ std::optional<std::string> obstacle_to_lagrange1(const Mechanism& m) {
     return owners(m).obstacle();
 }
 
-Equations lagrange1(const Mechanism& m) {
+Equations lagrange1(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     const std::vector<const MassElement*> owner = owners(m).value();
     Equations equations = equations_without_terms("lagrange1", m);
     for (int i = 0; i < m.size(); ++i) equations.M(i, i) = owner[i]->mass;

@@ -62,10 +62,11 @@ std::vector<ex> expressions_of(const Equations& lagrange, const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_maggi(const Mechanism& m) {
-    return kinematics_for_maggi(m).obstacle();
+    return kinematics_for_maggi(with_own_intermediates(m)).obstacle();
 }
 
-Equations maggi(const Mechanism& m) {
+Equations maggi(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
     const InSpeeds motion(m, kinematics_for_maggi(m).value());
     const GiNaC::matrix B = kernel(m, motion.kinematics());

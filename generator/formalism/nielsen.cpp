@@ -23,7 +23,8 @@ std::optional<std::string> obstacle_to_nielsen(const Mechanism& m) {
     return no_coordinates(m, "Nielsen's equations");
 }
 
-Equations nielsen(const Mechanism& m) {
+Equations nielsen(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     need_none(obstacle_to_nielsen(m));
     const int n = m.size();
     Intermediates& z = *m.z;

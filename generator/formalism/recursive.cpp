@@ -27,7 +27,7 @@ Possible<JointTree> tree_with_masses(const Mechanism& m) {
 }  // namespace
 
 std::optional<std::string> obstacle_to_recursive(const Mechanism& m) {
-    return tree_with_masses(m).obstacle();
+    return tree_with_masses(with_own_intermediates(m)).obstacle();
 }
 
 Possible<JointTree> loaded_tree(const Mechanism& m) {
@@ -40,14 +40,16 @@ Possible<JointTree> loaded_tree(const Mechanism& m) {
     return joints;
 }
 
-Equations recursive_without_matrix(const Mechanism& m) {
+Equations recursive_without_matrix(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     Equations equations = equations_without_terms("recursive", m);
     equations.M = GiNaC::matrix(0, 0);
     equations.tree = std::make_shared<const JointTree>(loaded_tree(m).value());
     return equations;
 }
 
-Equations recursive(const Mechanism& m) {
+Equations recursive(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     JointTree joints = tree_with_masses(m).value();
     Intermediates& z = *m.z;
     const BodyTree<Named> tree =

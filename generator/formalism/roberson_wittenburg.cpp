@@ -233,7 +233,8 @@ std::optional<std::string> obstacle_to_roberson_wittenburg(const Mechanism& m) {
            "[[joint]]; use the formalism 'schiehlen', or let joints hold the bodies";
 }
 
-Equations roberson_wittenburg(const Mechanism& m) {
+Equations roberson_wittenburg(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     need_none(obstacle_to_roberson_wittenburg(m));
     return projected("roberson-wittenburg", m, Paths(m, system_graph(m)).motions());
 }

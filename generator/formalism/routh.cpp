@@ -13,7 +13,7 @@ std::optional<std::string> obstacle_to_routh(const Mechanism& mechanism) {
 }
 
 Equations routh(const Mechanism& mechanism) {
-    Equations equations = lagrange_operator(mechanism);
+    Equations equations = lagrange_operator(with_own_intermediates(mechanism));
     equations.formalism = "routh";
     attach_constraints(mechanism, equations);
     return equations;

@@ -81,10 +81,11 @@ Possible<Reduction> reduction(const Mechanism& m) {
 }
 
 std::optional<std::string> obstacle_to_routhian(const Mechanism& m) {
-    return reduction(m).obstacle();
+    return reduction(with_own_intermediates(m)).obstacle();
 }
 
-Equations routhian(const Mechanism& m) {
+Equations routhian(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     const Reduction r = reduction(m).value();
     Intermediates& z = *m.z;
     const int n = m.size(), c = static_cast<int>(r.cyclic.size()), e = n - c;

@@ -101,7 +101,8 @@ std::optional<std::string> obstacle_to_schiehlen(const Mechanism& m) {
     return masses_unknown(m, "Schiehlen's equations");
 }
 
-Equations schiehlen(const Mechanism& m) {
+Equations schiehlen(const Mechanism& mechanism) {
+    const Mechanism m = with_own_intermediates(mechanism);
     need_none(obstacle_to_schiehlen(m));
     return projected("schiehlen", m, global_motions(m));
 }

@@ -76,6 +76,7 @@ Linearization linearized(Derived& d, const LinearizeOptions& options, const Star
         try {
             Derived other = derived_again(d, d.mechanism, "kane");
             found = linearize(other.mechanism, other.equations, start);
+            d.mechanism = std::move(other.mechanism);
             d.equations = std::move(other.equations);
         } catch (const std::runtime_error&) {
         }

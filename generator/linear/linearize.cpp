@@ -300,7 +300,8 @@ private:
 }  // namespace
 
 Linearization linearize(const Mechanism& mechanism, const Equations& equations, const Start& start) {
-    return Linearizing(mechanism, equations, start).go();
+    const Mechanism m = in_terms_of(equations, mechanism);
+    return Linearizing(m, equations, start).go();
 }
 
 }  // namespace alembert

@@ -106,8 +106,9 @@ struct Candidate {
 };
 
 /// The forms that these equations can take, each lowered.
-void add_forms(std::vector<Candidate>& programs, const Mechanism& m, const Equations& equations,
+void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, const Equations& equations,
                const Energy& energy, const LowerOptions& options) {
+    const Mechanism m = in_terms_of(equations, mechanism);
     const std::size_t before = programs.size();
     if (!equations.tree || !m.constraints.empty()) {
         Equations intermediate = equations;
@@ -176,7 +177,8 @@ std::vector<Program> contenders(std::vector<Candidate> candidates) {
 
 }  // namespace
 
-Choice choose(const Mechanism& m, const std::vector<Equations>& equations, const LowerOptions& options) {
+Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equations, const LowerOptions& options) {
+    const Mechanism m = in_terms_of(equations.at(0), mechanism);
     const Energy energy = energy_of(m);
     std::vector<Candidate> candidates;
     for (const Equations& e : equations) add_forms(candidates, m, e, energy, options);

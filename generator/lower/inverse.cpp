@@ -26,7 +26,8 @@ std::vector<int> inverse_loads(Program& program, const Mechanism& m,
         return inverse_recursion(program, tree.value(), *m.z, m.qddot, lowering);
     }
     const Equations e = m.constraints.empty() ? lagrange(m) : routh(m);
-    const auto lowering = lowering_into(program, m, known);
+    const Mechanism own = in_terms_of(e, m);
+    const auto lowering = lowering_into(program, own, known);
     std::vector<int> loads;
     for (int i = 0; i < m.size(); ++i) {
         std::vector<Program::Term> terms{{-1, lowering(e.forcing(i))}};

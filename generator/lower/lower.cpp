@@ -113,7 +113,9 @@ Program begun(const Mechanism& m, bool fold) {
     return program;
 }
 
-Program lower(const Mechanism& m, const Equations& equations, const Energy& energy, const LowerOptions& options) {
+Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
+              const LowerOptions& options) {
+    const Mechanism m = in_terms_of(equations, mechanism);
     Program program = begun(m, options.fold);
     program.formulation = equations.formalism;
     program.is_textbook = options.is_textbook;

@@ -126,7 +126,7 @@ State<double> state_of(const Start& start, const Mechanism& m, const Equations& 
         return state;
     }
     Program program;
-    const std::vector<int> nodes = lower_expressions(program, m, equations.form);
+    const std::vector<int> nodes = lower_expressions(program, in_terms_of(equations, m), equations.form);
     const std::vector<double> value = interpret(program, state);
     state.qdot.clear();
     for (const int id : nodes) state.qdot.push_back(value[id]);

@@ -62,7 +62,7 @@ std::optional<ex> root_of_polynomial(const Polynomial& square) {
 
 }  // namespace
 
-RootSheets::RootSheets(const Mechanism& m) : symbols_(m.symbols), z_(m.z), moving_(m.moving()) {
+RootSheets::RootSheets(const Mechanism& m) : symbols_(m.symbols), moving_(m.moving()) {
     const ParameterValues values(m);
     for (const Mechanism::Parameter& p : m.parameters) start_[p.symbol] = values.number(p.symbol);
     for (int i = 0; i < m.size(); ++i) {
@@ -78,34 +78,34 @@ double RootSheets::at_start(const ex& e) const {
     return GiNaC::ex_to<numeric>(value).to_double();
 }
 
-std::optional<ex> RootSheets::square_root(const ex& square) const {
-    if (z_->tree_size(square) > largest_square) return std::nullopt;
-    const auto f = fourier(z_->expand(square), *symbols_);
+std::optional<ex> RootSheets::square_root(const ex& square, const Intermediates& z) const {
+    if (z.tree_size(square) > largest_square) return std::nullopt;
+    const auto f = fourier(z.expand(square), *symbols_);
     if (!f || f->polynomial().is_zero()) return std::nullopt;
     if (const auto root = root_of_polynomial(f->polynomial())) return root;
     return root_of_product(expression(readable(*f)));  // sin² θ, which the normal form has as (1 − cos 2θ)/2
 }
 
-std::optional<ex> RootSheets::root(const ex& square) {
-    const std::optional<ex> found = square_root(square);
+std::optional<ex> RootSheets::root(const ex& square, Intermediates& z) {
+    const std::optional<ex> found = square_root(square, z);
     if (!found) return std::nullopt;
     const double size = at_start(*found);
     if (!std::isfinite(size) || std::abs(size) < 1e-9) return std::nullopt;
     const ex e = size > 0 ? *found : ex(-*found);
     const bool positive_by_itself =
-        GiNaC::is_a<numeric>(e) || (GiNaC::is_a<GiNaC::symbol>(e) && !z_->depends(e, moving_));
+        GiNaC::is_a<numeric>(e) || (GiNaC::is_a<GiNaC::symbol>(e) && !z.depends(e, moving_));
     if (!positive_by_itself && std::none_of(positive_.begin(), positive_.end(),
                                             [&](const ex& known) { return (known - e).expand().is_zero(); }))
         positive_.push_back(e);
-    return z_->name(e);
+    return z.name(e);
 }
 
-std::optional<ex> RootSheets::magnitude(const ex& e) const {
-    if (z_->depends(e, moving_)) return std::nullopt;
-    const ex plain = z_->expand(e);
+std::optional<ex> RootSheets::magnitude(const ex& e, Intermediates& z) const {
+    if (z.depends(e, moving_)) return std::nullopt;
+    const ex plain = z.expand(e);
     const double size = at_start(plain);
     if (!std::isfinite(size) || size == 0) return std::nullopt;
-    return z_->name(size > 0 ? plain : ex(-plain));
+    return z.name(size > 0 ? plain : ex(-plain));
 }
 
 }  // namespace alembert

@@ -5,7 +5,7 @@
 /// textbook stands. A spring along r has the length √(r²), and its force is −k (r − l₀) for r > 0.
 ///
 ///     RootSheets sheets(mechanism);           // once its parameters and initial values are known
-///     if (const auto e = sheets.root(r*r)) …  // r
+///     if (const auto e = sheets.root(r*r, *mechanism.z)) …  // r
 ///     sheets.positive();                      // r
 ///
 /// Assumed is nothing where e vanishes at the initial state, or where a square is not seen as one. |e| is left as
@@ -23,10 +23,10 @@ class RootSheets {
 public:
     explicit RootSheets(const Mechanism& mechanism);
 
-    /// e with e² = `square`, positive at the start.
-    std::optional<GiNaC::ex> root(const GiNaC::ex& square);
+    /// e with e² = `square`, positive at the start. `z` holds what `square` names, and names the root.
+    std::optional<GiNaC::ex> root(const GiNaC::ex& square, Intermediates& z);
     /// |e|, where e holds parameters alone.
-    std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e) const;
+    std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e, Intermediates& z) const;
 
     /// What is positive on the sheet and could be negative elsewhere: it depends on coordinates, or is a
     /// difference of parameters. Each once.
@@ -34,10 +34,9 @@ public:
 
 private:
     double at_start(const GiNaC::ex& e) const;
-    std::optional<GiNaC::ex> square_root(const GiNaC::ex& square) const;
+    std::optional<GiNaC::ex> square_root(const GiNaC::ex& square, const Intermediates& z) const;
 
     std::shared_ptr<Symbols> symbols_;
-    std::shared_ptr<Intermediates> z_;
     GiNaC::exmap start_;  ///< coordinates, rates, t and parameters → numbers
     std::vector<GiNaC::symbol> moving_;
     std::vector<GiNaC::ex> positive_;

@@ -106,14 +106,14 @@ std::optional<ex> Translator::own_component(const Tree& u, const Tree& v) {
 ex Translator::length(const Vector3& v) {
     Intermediates& z = *mechanism_.z;
     if (sheets_)
-        if (const auto e = sheets_->root(dot(v, v, z))) return *e;
+        if (const auto e = sheets_->root(dot(v, v, z), z)) return *e;
     return norm(v, z);
 }
 
 ex Translator::power(const ex& base, const ex& exponent) {
     const ex twice = 2 * exponent;
     if (sheets_ && twice.info(GiNaC::info_flags::odd))
-        if (const auto e = sheets_->root(base)) return pow(*e, twice);
+        if (const auto e = sheets_->root(base, *mechanism_.z)) return pow(*e, twice);
     return pow(base, exponent);
 }
 
@@ -145,7 +145,8 @@ Value Translator::call(const Tree& tree) {
     std::vector<ex> args;
     for (const TreePtr& arg : tree.args) args.push_back(z.name(scalar_of(*arg)));
     if (sheets_ && (tree.text == "sqrt" || tree.text == "abs"))
-        if (const auto e = tree.text == "sqrt" ? sheets_->root(args[0]) : sheets_->magnitude(args[0])) return *e;
+        if (const auto e = tree.text == "sqrt" ? sheets_->root(args[0], z) : sheets_->magnitude(args[0], z))
+            return *e;
     if (const auto value = apply_function(tree.text, args)) return *value;
     throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown function '{}'", tree.text)}};
 }

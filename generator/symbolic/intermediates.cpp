@@ -40,12 +40,29 @@ ex sum_of(GiNaC::exvector terms) {
 
 }  // namespace
 
+int Intermediates::source_of(const std::string& label) {
+    const auto found = std::find(labels_.begin(), labels_.end(), label);
+    const auto index = static_cast<int>(found - labels_.begin());
+    if (found == labels_.end()) labels_.push_back(label);
+    return index;
+}
+
 int Intermediates::set_source(const std::string& label) {
     const int former = current_source_;
-    const auto found = std::find(labels_.begin(), labels_.end(), label);
-    current_source_ = static_cast<int>(found - labels_.begin());
-    if (found == labels_.end()) labels_.push_back(label);
+    current_source_ = source_of(label);
     return former;
+}
+
+void Intermediates::adopt(const Intermediates& other) {
+    if (&other == this) return;
+    for (const Entry& entry : other.entries_) {
+        if (!position_.emplace(entry.symbol.gethash(), entries_.size()).second) continue;
+        known_.emplace(entry.definition, entry.symbol);
+        entries_.push_back(entry);
+        std::vector<int>& sources = entries_.back().sources;
+        for (int& source : sources) source = source_of(other.labels_[static_cast<std::size_t>(source)]);
+        std::sort(sources.begin(), sources.end());
+    }
 }
 
 const Intermediates::Entry* Intermediates::find(const symbol& s) const {
@@ -111,8 +128,7 @@ ex Intermediates::name_whole(const ex& e) {
     if (sources.size() > 1) sources.erase(0);
     entry.sources.assign(sources.begin(), sources.end());
     if (entry.sources.size() > 4) entry.sources.resize(4);
-    entry.symbol = symbols_->declare("z" + std::to_string(entries_.size()), SymbolInfo::Kind::other,
-                                     static_cast<int>(entries_.size()));
+    entry.symbol = symbols_->declare_intermediate(static_cast<int>(entries_.size()));
     position_.emplace(entry.symbol.gethash(), entries_.size());
     known_.emplace(e, entry.symbol);
     entries_.push_back(std::move(entry));

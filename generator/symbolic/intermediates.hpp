@@ -42,6 +42,10 @@ public:
     /// The atom that stands for `e`: `e` itself if it is one. Functions inside get symbols of their own.
     GiNaC::ex name(const GiNaC::ex& e);
 
+    /// Takes over the entries of another table of the same scene that this one does not have, so that what is
+    /// expressed in the symbols of either can be used with this one.
+    void adopt(const Intermediates& other);
+
     /// Who is to blame for what is named from now on ("body M2", "spring 1"); returns the former label's index.
     int set_source(const std::string& label);
     void restore_source(int index) { current_source_ = index; }
@@ -78,6 +82,7 @@ private:
         std::map<unsigned, GiNaC::ex> dot = {};  // symbol hash → its derivative, where that is not 0
         std::set<std::size_t> done = {};         // entries
     };
+    int source_of(const std::string& label);
     Flow& flow_along(const Direction& direction);
     GiNaC::ex name_whole(const GiNaC::ex& e);
     GiNaC::ex flatten(const GiNaC::ex& e);

@@ -14,6 +14,12 @@ GiNaC::symbol Symbols::declare(std::string name, SymbolInfo::Kind kind, int inde
     return symbol;
 }
 
+GiNaC::symbol Symbols::declare_intermediate(int index) {
+    const GiNaC::symbol result = declare("z" + std::to_string(index), SymbolInfo::Kind::other, index);
+    infos_.back().intermediate = true;
+    return result;
+}
+
 GiNaC::symbol Symbols::declare_rate_before(const GiNaC::symbol& coordinate) {
     const SymbolInfo of = info(coordinate);
     const GiNaC::symbol result = declare(of.name, SymbolInfo::Kind::other, of.index, 1);

@@ -26,10 +26,11 @@ struct SymbolInfo {
     };
     std::string name;  ///< as the user wrote it, without primes
     Kind kind = Kind::other;
-    int index = 0;        ///< position among its kind
-    int order = 0;        ///< number of primes
-    int rank = 0;         ///< position among all symbols of the scene
-    bool before = false;  ///< x'(-), a rate before an impact; of kind `other`
+    int index = 0;              ///< position among its kind
+    int order = 0;              ///< number of primes
+    int rank = 0;               ///< position among all symbols of the scene
+    bool before = false;        ///< x'(-), a rate before an impact; of kind `other`
+    bool intermediate = false;  ///< stands for an expression (Intermediates); of kind `other`
 
     /// name and primes, as a user would type it.
     std::string text() const {
@@ -41,6 +42,8 @@ class Symbols {
 public:
     /// Declares a new symbol. Its rank is the number of symbols declared before.
     GiNaC::symbol declare(std::string name, SymbolInfo::Kind kind, int index = 0, int order = 0);
+    /// z0, z1 …: the name of an expression in a table of intermediate symbols, at this position.
+    GiNaC::symbol declare_intermediate(int index);
     /// x'(-) of the coordinate x.
     GiNaC::symbol declare_rate_before(const GiNaC::symbol& coordinate);
 
