@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The Python module `alembert._alembert`: a function for each verb, from the text of a scene to the same JSON that
-/// the program prints, and two classes whose numbers Python reads without a copy. The package's Python part gives
-/// them names, units and documentation (alembert/__init__.py).
+/// The Python module `alembert._alembert`: a function for each verb, from the text of a scene to the same JSON
+/// that the program prints, and two classes whose numbers Python reads without a copy. The package's Python part
+/// gives them names, units and documentation (alembert/__init__.py).
 ///
 /// GiNaC is for one thread alone: everything symbolic keeps the interpreter's lock. The functions of many
 /// states release it and use all cores.
@@ -38,7 +38,9 @@ namespace {
 using Answer = std::pair<std::string, std::vector<std::string>>;
 using Values = std::map<std::string, double>;
 
-Overrides overrides_of(const Values& at) { return Overrides(at.begin(), at.end()); }
+Overrides overrides_of(const Values& at) {
+    return Overrides(at.begin(), at.end());
+}
 
 template <typename Value>
 Answer answer(const Value& value) {
@@ -60,21 +62,21 @@ Answer linearized(const std::string& text, const std::string& file, const Values
 
 Answer evaluated(const std::string& text, const std::string& file, const Values& at, const std::string& by,
                  bool reactions) {
-    const Evaluation value = evaluate(parse_scene(text, file),
-                                      {.by = by, .at = overrides_of(at), .reactions = reactions});
+    const Evaluation value =
+        evaluate(parse_scene(text, file), {.by = by, .at = overrides_of(at), .reactions = reactions});
     return {as_json(value, reactions).dump(), value.warnings};
 }
 
 /// A view of `values` that keeps `owner` alive.
-py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssize_t> shape, const py::object& owner) {
+py::array_t<double> view(const std::vector<double>& values, std::vector<py::ssize_t> shape,
+                         const py::object& owner) {
     py::array_t<double> array(std::move(shape), values.data(), owner);
     array.attr("setflags")(py::arg("write") = false);
     return array;
 }
 
 CompiledSystem system_of(const std::string& text, const std::string& file, const std::string& by, bool jacobian) {
-    const Emission emitted =
-        emission(parse_scene(text, file), {.by = by, .jacobian = jacobian, .batch = true});
+    const Emission emitted = emission(parse_scene(text, file), {.by = by, .jacobian = jacobian, .batch = true});
     return CompiledSystem(load(compile(emitted.source.text, "python", {}).object), emitted.source.text);
 }
 
@@ -88,8 +90,8 @@ struct Rows {
 
 Rows rows_of_states(const Numbers& states, int width) {
     if (states.ndim() < 1 || states.shape(states.ndim() - 1) != width)
-        throw std::invalid_argument(fmt::format("a state has {} numbers; the last axis of the array must have them",
-                                                width));
+        throw std::invalid_argument(
+            fmt::format("a state has {} numbers; the last axis of the array must have them", width));
     Rows rows;
     for (py::ssize_t axis = 0; axis + 1 < states.ndim(); ++axis) {
         rows.leading.push_back(states.shape(axis));
@@ -102,8 +104,8 @@ Rows rows_of_states(const Numbers& states, int width) {
 std::vector<double> times_of(const Numbers& t, std::size_t count) {
     const auto given = static_cast<std::size_t>(t.size());
     if (given != 1 && given != count)
-        throw std::invalid_argument(fmt::format("{} times for {} states; one, or one for each, is wanted", given,
-                                                count));
+        throw std::invalid_argument(
+            fmt::format("{} times for {} states; one, or one for each, is wanted", given, count));
     return {t.data(), t.data() + given};
 }
 
@@ -170,9 +172,10 @@ void add_errors(py::module_& module) {
 }
 
 void add_verbs(py::module_& module) {
-    module.def("derive", [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
-        return derive(parse_scene(text, file), {.by = by, .reactions = reactions});
-    });
+    module.def("derive",
+               [](const std::string& text, const std::string& file, const std::string& by, bool reactions) {
+                   return derive(parse_scene(text, file), {.by = by, .reactions = reactions});
+               });
     module.def("check", check_claims);
     module.def("audit", [](const std::string& text, const std::string& file) {
         return answer(audit(parse_scene(text, file)));
@@ -185,10 +188,10 @@ void add_verbs(py::module_& module) {
     });
     module.def("evaluate", evaluated);
     module.def("linearize", linearized);
-    module.def("inverse", [](const std::string& text, const std::string& file, const Values& at,
-                             const std::string& by) {
-        return answer(inverse(parse_scene(text, file), {.by = by, .at = overrides_of(at)}));
-    });
+    module.def("inverse",
+               [](const std::string& text, const std::string& file, const Values& at, const std::string& by) {
+                   return answer(inverse(parse_scene(text, file), {.by = by, .at = overrides_of(at)}));
+               });
     module.def(
         "simulate",
         [](const std::string& text, const std::string& file, const std::string& by, const std::string& method,
@@ -225,7 +228,8 @@ void add_classes(py::module_& module) {
         .def_property_readonly("table", [](const py::object& self) {
             const MotionTable& rows = self.cast<const Run&>().rows;
             return view(rows.values,
-                        {static_cast<py::ssize_t>(rows.rows()), static_cast<py::ssize_t>(rows.columns.size())}, self);
+                        {static_cast<py::ssize_t>(rows.rows()), static_cast<py::ssize_t>(rows.columns.size())},
+                        self);
         });
     py::class_<CompiledSystem>(module, "System")
         .def_property_readonly("dimension", &CompiledSystem::dimension)

@@ -11,7 +11,9 @@ namespace alembert {
 
 namespace {
 
-double time_of(const std::vector<double>& times, std::size_t k) { return times.size() == 1 ? times[0] : times[k]; }
+double time_of(const std::vector<double>& times, std::size_t k) {
+    return times.size() == 1 ? times[0] : times[k];
+}
 
 std::vector<std::string> strings(const char* const* names, int count) {
     return names == nullptr ? std::vector<std::string>{} : std::vector<std::string>(names, names + count);
@@ -53,12 +55,15 @@ CompiledSystem::CompiledSystem(Module module, std::string source)
       source_(std::move(source)),
       n_(module_.table().coordinates),
       s_(module_.table().speeds),
-      values_(module_.table().parameter_values,
-              module_.table().parameter_values + module_.table().parameters),
+      values_(module_.table().parameter_values, module_.table().parameter_values + module_.table().parameters),
       par_(prepared(module_)) {}
 
-std::vector<std::string> CompiledSystem::coordinates() const { return strings(module_.table().coordinate_names, n_); }
-std::vector<std::string> CompiledSystem::speeds() const { return strings(module_.table().speed_names, s_); }
+std::vector<std::string> CompiledSystem::coordinates() const {
+    return strings(module_.table().coordinate_names, n_);
+}
+std::vector<std::string> CompiledSystem::speeds() const {
+    return strings(module_.table().speed_names, s_);
+}
 std::vector<std::string> CompiledSystem::parameter_names() const {
     return strings(module_.table().parameter_names, module_.table().parameters);
 }
@@ -70,14 +75,15 @@ void CompiledSystem::set_parameters(const std::vector<double>& values) {
     values_ = values;
 }
 
-void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from, std::size_t to,
-                          double* rates) const {
+void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double* states, std::size_t from,
+                                  std::size_t to, double* rates) const {
     const auto width = static_cast<std::size_t>(dimension());
     const alembert_pack_table* const pack = module_.pack();
     std::size_t k = from;
     if (pack != nullptr) {
         const auto lanes = static_cast<std::size_t>(pack->lanes);
-        Aligned t(lanes), state(width * lanes), rate(width * lanes), par(std::max<std::size_t>(1, par_.size()) * lanes);
+        Aligned t(lanes), state(width * lanes), rate(width * lanes),
+            par(std::max<std::size_t>(1, par_.size()) * lanes);
         for (std::size_t i = 0; i < par_.size(); ++i) std::fill_n(par.data() + i * lanes, lanes, par_[i]);
         for (; k + lanes <= to; k += lanes) {
             for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -95,13 +101,12 @@ void CompiledSystem::rhs_of_range(const std::vector<double>& times, const double
 }
 
 void CompiledSystem::rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
-                         double* rates) const {
-    on_all_cores(count,
-                 [&](std::size_t from, std::size_t to) { rhs_of_range(times, states, from, to, rates); });
+                                 double* rates) const {
+    on_all_cores(count, [&](std::size_t from, std::size_t to) { rhs_of_range(times, states, from, to, rates); });
 }
 
 void CompiledSystem::jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
-                              double* values) const {
+                                      double* values) const {
     const alembert_derivative_table* const table = module_.derivatives();
     if (table == nullptr) throw std::invalid_argument("this system was compiled without derivatives");
     const auto width = static_cast<std::size_t>(dimension());
@@ -119,8 +124,8 @@ void CompiledSystem::jacobian_of_many(const std::vector<double>& times, const do
     });
 }
 
-void CompiledSystem::mass_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* mass,
-                          double* forcing) const {
+void CompiledSystem::mass_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                                  double* mass, double* forcing) const {
     if (module_.table().mass_forcing == nullptr)
         throw std::invalid_argument("the mass matrix of this system is not emitted: it has too many joints");
     const auto width = static_cast<std::size_t>(dimension()), s = static_cast<std::size_t>(s_);
@@ -133,7 +138,7 @@ void CompiledSystem::mass_of_many(const std::vector<double>& times, const double
 }
 
 void CompiledSystem::energy_of_many(const std::vector<double>& times, const double* states, std::size_t count,
-                            double* energies) const {
+                                    double* energies) const {
     const auto width = static_cast<std::size_t>(dimension());
     on_all_cores(count, [&](std::size_t from, std::size_t to) {
         std::vector<double> rate(width);

@@ -4,8 +4,9 @@
 /// Emitted and compiled functions of a scene, for one state or for many at once.
 ///
 ///     const CompiledSystem system(load(compile(text, "pendulum", {}).object), text);
-///     system.rhs(0, state, rate);                        // state: coordinates, then speeds; rate: their derivatives
-///     system.rhs_of_many({0}, states, 1000, rates);      // rows of 1000 states; packs of eight on all cores
+///     system.rhs(0, state, rate);                        // state: coordinates, then speeds; rate: their
+///     derivatives system.rhs_of_many({0}, states, 1000, rates);      // rows of 1000 states; packs of eight on
+///     all cores
 ///
 /// A time for each state, or one for all. Functions are thread-safe while nobody sets parameters.
 
@@ -34,7 +35,8 @@ public:
     void rhs(double t, const double* state, double* rate) const {
         module_.table().rhs(t, state, par_.data(), rate);
     }
-    void rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count, double* rates) const;
+    void rhs_of_many(const std::vector<double>& times, const double* states, std::size_t count,
+                     double* rates) const;
     /// Row by row: count × dimension². Throws std::invalid_argument where the file has no derivatives.
     void jacobian_of_many(const std::vector<double>& times, const double* states, std::size_t count,
                           double* values) const;

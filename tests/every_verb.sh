@@ -3,7 +3,7 @@
 # Runs every verb, with all its options, on every scene of the repository: none may crash, whatever its answer is.
 #   every_verb.sh --sanitize [SCENE...]    with the address and undefined-behaviour sanitizers, built for it (long)
 #   every_verb.sh PROGRAM [SCENE...]       this one (many minutes)
-#   every_verb.sh --fast PROGRAM           eval, inverse and impact alone (seconds)
+#   every_verb.sh --fast PROGRAM           eval, inverse, impact and inertia alone (seconds)
 # A command fails here if it ends by a signal or by a sanitizer, or says that it met an internal error. One that
 # is still running after $SECONDS_EACH seconds of processor time (120 if not set) is ended and counted: no failure.
 set -eu
@@ -58,6 +58,7 @@ without_compiler() { # SCENE
     run eval "$1" --json --reactions
     run inverse "$1" --json
     run impact "$1" --json
+    run inertia "$1" --json
 }
 every() { # SCENE
     local scene=$1 name folder short
@@ -71,10 +72,11 @@ every() { # SCENE
     run derive "$scene" --json --reactions
     run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done
-    for verb in agree audit check eval equilibrium linearize inverse impact; do run "$verb" "$scene"; done
-    for verb in agree audit check equilibrium linearize; do run "$verb" "$scene" --json; done
+    for verb in agree audit check eval equilibrium linearize stability inertia inverse impact; do run "$verb" "$scene"; done
+    for verb in agree audit check equilibrium linearize stability; do run "$verb" "$scene" --json; done
     run emit "$scene" -o "$folder"
     run emit "$scene" -o "$folder" --fold --jacobian --batch --json
+    run emit "$scene" -o "$folder" --language c --jacobian --standalone
     run simulate "$scene" "${short[@]}" --json --reactions -o "$folder/motion.csv" --sample 0.01
     for method in rk4 gauss; do run simulate "$scene" "${short[@]}" --method "$method" --step 0.005; done
     for method in radau taylor; do run simulate "$scene" "${short[@]}" --method "$method" --no-estimate; done

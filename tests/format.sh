@@ -17,7 +17,7 @@ if [ -z "$program" ]; then
     echo "clang-format 14 is not installed: the format was not checked"
     exit 77
 fi
-files() { find lib generator tests -name '*.[ch]pp' -print0 | sort -z; }
+files() { find lib generator python tests -name '*.[ch]pp' -print0 | sort -z; }
 if [ "${1-}" = --fix ]; then
     files | xargs -0 "$program" -i
     exit

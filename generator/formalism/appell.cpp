@@ -16,10 +16,7 @@ using GiNaC::ex;
 
 namespace {
 
-Possible<Kinematics> kinematics_for_appell(const Mechanism& m) {
-    if (const auto unknown = masses_unknown(m, "The Gibbs-Appell equations")) return Obstacle{*unknown};
-    return kinematics(m);
-}
+constexpr const char* appell_title = "The Gibbs-Appell equations";
 
 /// S of all bodies, in q, u, u', t.
 ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
@@ -52,13 +49,13 @@ std::vector<ex> without_accelerations(const std::vector<ex>& values, const std::
 }  // namespace
 
 std::optional<std::string> obstacle_to_appell(const Mechanism& m) {
-    return kinematics_for_appell(with_own_intermediates(m)).obstacle();
+    return kinematics_of_masses(with_own_intermediates(m), appell_title).obstacle();
 }
 
 Equations appell(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
     Intermediates& z = *m.z;
-    const InSpeeds motion(m, kinematics_for_appell(m).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, appell_title).value());
     Equations equations = motion.begin("appell");
     const std::vector<ex> slope = z.pull_back({{acceleration_energy(m, motion), 1}}, equations.udot);
     const std::vector<ex> rest = without_accelerations(slope, equations.udot, z),
@@ -87,7 +84,7 @@ Equations appell(const Mechanism& mechanism) {
 
 OwnSteps steps_of_appell(const Mechanism& m, const Equations& e) {
     const StepWriter write(m);
-    const InSpeeds motion(m, kinematics_for_appell(m).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, appell_title).value());
     const ex S = acceleration_energy(m, motion), still = without_accelerations({S}, e.udot, *m.z)[0];
     Section energy{
         .words =

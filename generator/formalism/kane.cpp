@@ -16,10 +16,6 @@ using GiNaC::ex;
 
 namespace {
 
-bool is_zero(const Vector3& v) {
-    return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
-}
-
 PartialVelocities partials(const InSpeeds& motion, const Mechanism& m) {
     PartialVelocities result;
     std::vector<ex> velocities;
@@ -107,15 +103,12 @@ std::vector<ex> reaction_along_coordinates(const Mechanism& m) {
     return reaction;
 }
 
-Possible<Kinematics> kinematics_for_kane(const Mechanism& m) {
-    if (const auto unknown = masses_unknown(m, "Kane's equations")) return Obstacle{*unknown};
-    return kinematics(m);
-}
+constexpr const char* kane_title = "Kane's equations";
 
 }  // namespace
 
 std::optional<std::string> obstacle_to_kane(const Mechanism& m) {
-    return kinematics_for_kane(with_own_intermediates(m)).obstacle();
+    return kinematics_of_masses(with_own_intermediates(m), kane_title).obstacle();
 }
 
 PartialVelocities partial_velocities(const Mechanism& m) {
@@ -128,7 +121,7 @@ KaneForces kane_forces(const Mechanism& m) {
 
 Equations kane(const Mechanism& mechanism) {
     const Mechanism m = with_own_intermediates(mechanism);
-    const InSpeeds motion(m, kinematics_for_kane(m).value());
+    const InSpeeds motion(m, kinematics_of_masses(m, kane_title).value());
     const KaneForces forces = forces_of(motion, m);
     Equations equations = motion.begin("kane");
     equations.M = forces.M;

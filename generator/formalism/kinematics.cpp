@@ -414,6 +414,11 @@ Kinematics rates_as_speeds(const Mechanism& m) {
         .u = m.qdot, .udot = m.qddot, .form = {m.qdot.begin(), m.qdot.end()}, .h = {m.qdot.begin(), m.qdot.end()}};
 }
 
+Possible<Kinematics> kinematics_of_masses(const Mechanism& m, const char* title) {
+    if (const auto unknown = masses_unknown(m, title)) return Obstacle{*unknown};
+    return kinematics(m);
+}
+
 Possible<Kinematics> kinematics(const Mechanism& m) {
     if (!m.speeds.empty()) return with_given_speeds(m);
     if (const std::vector<int> constraints = nonholonomic(m); !constraints.empty())

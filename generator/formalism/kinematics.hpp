@@ -30,6 +30,9 @@ struct Kinematics {
 
 /// An obstacle is a number of speeds that is none of the three, and speeds that do not determine the rates.
 Possible<Kinematics> kinematics(const Mechanism& mechanism);
+/// The same for a formalism that starts from the velocities of particles and bodies; `title` is that of its
+/// equations.
+Possible<Kinematics> kinematics_of_masses(const Mechanism& mechanism, const char* title);
 
 /// u = q', whatever speeds and constraints there are.
 Kinematics rates_as_speeds(const Mechanism& mechanism);

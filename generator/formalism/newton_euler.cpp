@@ -10,14 +10,6 @@ namespace alembert {
 
 using GiNaC::ex;
 
-namespace {
-
-bool is_zero_vector(const Vector3& v) {
-    return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
-}
-
-}  // namespace
-
 Vector3 inertia_times(const std::array<ex, 6>& I, const Vector3& w, Intermediates& z) {
     return {z.name(I[0] * w[0] + I[3] * w[1] + I[5] * w[2]), z.name(I[3] * w[0] + I[1] * w[1] + I[4] * w[2]),
             z.name(I[5] * w[0] + I[4] * w[1] + I[2] * w[2])};
@@ -34,10 +26,10 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
         // The rows J of one kind, their block of M̄, and what stands beside them on the right.
         const auto add_rows = [&](const std::vector<Vector3>& J, const auto& block, const Vector3& right) {
             for (int r = 0; r < n; ++r) {
-                if (is_zero_vector(J[r])) continue;
+                if (is_zero(J[r])) continue;
                 const Vector3 p = block(J[r]);
                 for (int s = 0; s <= r; ++s)
-                    if (!is_zero_vector(J[s])) mass[r * n + s].push_back(dot(p, J[s], z));
+                    if (!is_zero(J[s])) mass[r * n + s].push_back(dot(p, J[s], z));
                 own[r].push_back(dot(right, J[r], z));
             }
         };

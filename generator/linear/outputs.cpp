@@ -41,23 +41,11 @@ template <typename Real>
 MatrixOf<Real> OutputProgram::by(const Residuals& r, const Instant<Real>& at, const Tangent<Real>& here) const {
     const std::size_t direct = at.q.size() + at.u.size() + 1 + r.inputs.size(), s = at.u.size(),
                       width = direct + s + static_cast<std::size_t>(here.lambda.size());
-    std::size_t next = 0;
-    const auto variable = [&](Real x) {
-        std::vector<Real> d(width, Real(0));
-        d[next++] = Real(1);
-        return Jet<Real>(x, std::move(d));
-    };
-    State<Jet<Real>> state;
-    for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
-    for (const Real x : at.q) state.q.push_back(variable(x));
-    for (const Real x : at.u) state.qdot.push_back(variable(x));
-    state.t = variable(at.t);
-    state.unknown.resize(static_cast<std::size_t>(first_multiplier_ + here.lambda.size()));
-    for (std::size_t k = 0; k < r.inputs.size(); ++k)
-        state.unknown[static_cast<std::size_t>(r.inputs[k])] = variable(at.inputs[k]);
-    for (Index i = 0; i < here.udot.size(); ++i) state.qddot.push_back(variable(here.udot[i]));
+    Varied<Real> varied(r, at, width, static_cast<std::size_t>(first_multiplier_ + here.lambda.size()));
+    State<Jet<Real>>& state = varied.state;
+    for (Index i = 0; i < here.udot.size(); ++i) state.qddot.push_back(varied.next(here.udot[i]));
     for (Index k = 0; k < here.lambda.size(); ++k)
-        state.unknown[static_cast<std::size_t>(first_multiplier_ + k)] = variable(here.lambda[k]);
+        state.unknown[static_cast<std::size_t>(first_multiplier_ + k)] = varied.next(here.lambda[k]);
     const std::vector<Jet<Real>> value = interpret(program_, state);
     MatrixOf<Real> g(static_cast<Index>(nodes_.size()), static_cast<Index>(width));
     for (std::size_t i = 0; i < nodes_.size(); ++i)

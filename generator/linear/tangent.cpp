@@ -79,6 +79,28 @@ Residuals::Residuals(const Mechanism& m, const Equations& e)
     std::sort(inputs.begin(), inputs.end());
 }
 
+template <typename Real>
+Varied<Real>::Varied(const Residuals& r, const Instant<Real>& at, std::size_t width, std::size_t unknowns)
+    : width_(width) {
+    for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
+    for (const Real x : at.q) state.q.push_back(next(x));
+    for (const Real x : at.u) state.qdot.push_back(next(x));
+    state.t = next(at.t);
+    state.unknown.resize(unknowns);
+    for (std::size_t k = 0; k < r.inputs.size(); ++k)
+        state.unknown[static_cast<std::size_t>(r.inputs[k])] = next(at.inputs[k]);
+}
+
+template <typename Real>
+Jet<Real> Varied<Real>::next(Real value) {
+    std::vector<Real> d(width_, Real(0));
+    d[next_++] = Real(1);
+    return Jet<Real>(value, std::move(d));
+}
+
+template struct Varied<double>;
+template struct Varied<long double>;
+
 namespace {
 
 /// Values and derivatives of all nodes; columns: q, u, t, inputs.
@@ -86,20 +108,8 @@ template <typename Real>
 struct Values {
     Values(const Residuals& r, const Instant<Real>& at, bool at_kink = false) : r_(r) {
         const std::size_t width = at.q.size() + at.u.size() + 1 + r.inputs.size();
-        std::size_t next = 0;
-        const auto variable = [&](Real x) {
-            std::vector<Real> d(width, Real(0));
-            d[next++] = Real(1);
-            return Jet<Real>(x, std::move(d));
-        };
-        State<Jet<Real>> state;
-        for (const Real x : at.parameters) state.parameters.push_back(Jet<Real>(x));
-        for (const Real x : at.q) state.q.push_back(variable(x));
-        for (const Real x : at.u) state.qdot.push_back(variable(x));
-        state.t = variable(at.t);
-        if (!r.inputs.empty()) state.unknown.resize(r.inputs.back() + 1);
-        for (std::size_t k = 0; k < r.inputs.size(); ++k) state.unknown[r.inputs[k]] = variable(at.inputs[k]);
-        value_ = interpret(r.program, state);
+        const std::size_t unknowns = r.inputs.empty() ? 0 : static_cast<std::size_t>(r.inputs.back()) + 1;
+        value_ = interpret(r.program, Varied<Real>(r, at, width, unknowns).state);
         columns = static_cast<Index>(width);
         if (at_kink) repair(at);
     }

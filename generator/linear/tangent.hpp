@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "formalism/equations.hpp"
+#include "program/interpret.hpp"
 #include "program/jet.hpp"
 
 namespace alembert {
@@ -39,6 +40,20 @@ struct Instant {
 /// The instant of a state of the equations; inputs have the values of its time.
 template <typename Real>
 Instant<Real> instant_of(const Residuals& residuals, const State<double>& state);
+
+/// The state with a unit derivative for each of q, u, t and the inputs, in this order; `width`: of the
+/// derivatives, so that whoever has more variables may follow with those. `unknowns`: how many there are room for.
+template <typename Real>
+struct Varied {
+    Varied(const Residuals& residuals, const Instant<Real>& at, std::size_t width, std::size_t unknowns);
+    /// With a unit derivative by the next variable.
+    Jet<Real> next(Real value);
+
+    State<Jet<Real>> state;
+
+private:
+    std::size_t width_, next_ = 0;
+};
 
 /// Positions of independent and dependent ones.
 struct Split {

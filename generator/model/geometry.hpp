@@ -13,6 +13,10 @@ namespace alembert {
 Vector3 add(const Vector3& a, const Vector3& b, Intermediates& z);
 Vector3 scale(const GiNaC::ex& factor, const Vector3& a, Intermediates& z);
 GiNaC::ex dot(const Vector3& a, const Vector3& b, Intermediates& z);
+/// Is it zero as it is written?
+inline bool is_zero(const Vector3& v) {
+    return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
+}
 Vector3 cross(const Vector3& a, const Vector3& b, Intermediates& z);
 /// √(a·a)
 GiNaC::ex norm(const Vector3& a, Intermediates& z);

@@ -137,7 +137,7 @@ bool is_surely_irreducible(const Polynomial& primitive, const Atom& variable, co
             std::uint64_t c = *coefficient;
             for (const Factor& factor : part.term->monomial) {
                 if (compare(factor.atom, variable) == 0) continue;
-                // A power of an atom's smallest occurring root: whole exponents alone are put in.
+                // A residue need not have a root, so that fractional powers cannot be put in.
                 if (cln::denominator(factor.exponent) != 1) return false;
                 const auto [place, is_new] = value.try_emplace(factor.atom, 0);
                 if (is_new) place->second = random() % (p - 1) + 1;

@@ -24,8 +24,6 @@ std::string mathml_row(const Phrase& phrase) {
     return whole.substr(begin, end - begin);
 }
 
-constexpr char formula_begins = '\x01', formula_ends = '\x02';  // around LaTeX among words
-
 std::string escaped(const std::string& words, bool xml) {
     std::string result;
     bool in_formula = false;

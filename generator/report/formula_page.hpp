@@ -10,6 +10,10 @@
 
 namespace alembert {
 
+/// Around a formula among words, until both are written as the page needs them. (The reader of scenes refuses
+/// control characters.)
+inline constexpr char formula_begins = '\x01', formula_ends = '\x02';
+
 /// Words, then what they announce.
 struct Block {
     std::string words;

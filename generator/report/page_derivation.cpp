@@ -12,12 +12,11 @@ namespace alembert {
 
 namespace {
 
-constexpr char math_begins = '\x01', math_ends = '\x02';  // around MathML among words
-constexpr std::size_t definitions_shown = 150;            // of equations in intermediate symbols
+constexpr std::size_t definitions_shown = 150;  // of equations in intermediate symbols
 
 Notation html_notation() {
     Notation n = notation_of("mathml");
-    n.inline_phrase = [](const Phrase& p) { return math_begins + inline_math(p) + math_ends; };
+    n.inline_phrase = [](const Phrase& p) { return formula_begins + inline_math(p) + formula_ends; };
     return n;
 }
 
@@ -25,11 +24,11 @@ Notation html_notation() {
 std::string words_of_block(const std::string& words) {
     std::string result, plain;
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (words[i] != math_begins) {
+        if (words[i] != formula_begins) {
             plain += words[i];
             continue;
         }
-        const std::size_t end = words.find(math_ends, i);
+        const std::size_t end = words.find(formula_ends, i);
         result += html(plain) + words.substr(i + 1, end - i - 1);
         plain.clear();
         i = end;

@@ -30,6 +30,14 @@ std::string name_of(const Scene& scene, const Origin& origin) {
     return origin.kind == Origin::Kind::body ? scene.bodies[k].name.text : scene.particles[k].name.text;
 }
 
+void refuse_unknown(const char* kind, const std::string& name, const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    const std::string meant = nearest(name, known);
+    throw ModelError(fmt::format("there is no {} {}{}; expected one of: {}", kind, in_quotes(name),
+                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
+                                 fmt::join(known, ", ")));
+}
+
 std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<std::string>& names) {
     std::vector<std::string> known;
     std::vector<const MassElement*> result;
@@ -42,13 +50,7 @@ std::vector<const MassElement*> chosen(const SceneInertia& s, const std::vector<
     if (known.empty())
         throw ModelError(
             "the scene has no bodies and no particles, whose inertia could be told; expected [[body]]");
-    for (const std::string& name : names)
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            const std::string meant = nearest(name, known);
-            throw ModelError(fmt::format("there is no body or particle {}{}; expected one of: {}", in_quotes(name),
-                                         meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                         fmt::join(known, ", ")));
-        }
+    for (const std::string& name : names) refuse_unknown("body or particle", name, known);
     return result;
 }
 
@@ -57,11 +59,7 @@ void check_point(const Scene& scene, const std::string& point) {
     for (const Point& p : scene.points) known.push_back(p.name.text);
     for (const Particle& p : scene.particles) known.push_back(p.name.text);
     for (const Body& b : scene.bodies) known.push_back(b.name.text);
-    if (std::find(known.begin(), known.end(), point) != known.end()) return;
-    const std::string meant = nearest(point, known);
-    throw ModelError(fmt::format("there is no point {}{}; expected one of: {}", in_quotes(point),
-                                 meant.empty() ? "" : fmt::format(" (did you mean '{}'?)", meant),
-                                 fmt::join(known, ", ")));
+    refuse_unknown("point", point, known);
 }
 
 /// plain + over/m, with m the whole mass: what is divided by a sum stays apart, so that it can be read.
