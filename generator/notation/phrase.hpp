@@ -66,6 +66,8 @@ GiNaC::ex expression(const Phrase& phrase);
 
 /// 9.81 comes from a decimal, 3/4 and 2/5 are fractions: true where a finite decimal is no customary fraction.
 bool is_decimal(const Rational& value);
+/// Beside decimals a half is 1/2 and not 0.5, but two fifths are 0.4.
+bool reads_as_decimal(const Rational& value);
 /// No primes but 2 and 5 in the denominator.
 bool is_finite_decimal(const Rational& value);
 
