@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "check/any_motion.hpp"
 #include "check/claims.hpp"
 #include "check/completeness.hpp"
 #include "check/counterexample.hpp"
@@ -49,11 +50,12 @@ public:
                     std::vector<std::size_t> part = here;
                     std::erase_if(part, [&](std::size_t k) { return undetermined_in(k) != spoken; });
                     std::erase_if(here, [&](std::size_t k) { return undetermined_in(k) == spoken; });
-                    law_ = with_multipliers(spoken);
+                    law_ = has_masses() || !spoken.empty() ? with_multipliers(spoken) : any_motion(e_, m_);
                     spoken_ = spoken;
                     settle(part, when_ == "rest" ? Motions::At::rest : Motions::At::motion);
                 }
         }
+        tell_kinematics();
         for (CheckedClaim& c : result_.claims)
             for (const ex& positive : positive_) c.where.insert(c.where.begin(), inequality(positive));
         result_.complete = complete();
@@ -136,6 +138,39 @@ private:
         c.verdict = Verdict::proved;
         c.failure = failure;
         c.normal_form = when_ == "motion" && is_multiple(forms_[k].residual, m_, law_);
+    }
+
+    bool has_masses() const { return !m_.kinetic.empty() || m_.given_lagrangian; }
+
+    /// Which of the proved claims hold for every motion that the constraints allow?
+    void tell_kinematics() {
+        std::vector<GiNaC::symbol> multipliers = e_.lambda;
+        for (const Mechanism::Constraint* c : m_.undetermined()) multipliers.push_back(c->multiplier);
+        std::vector<std::size_t> here;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            const CheckedClaim& c = result_.claims[k];
+            if (scene_.claims[k].at == "motion" && c.verdict == Verdict::proved && c.where.empty() &&
+                forms_[k].open.empty() && !m_.z->depends(forms_[k].residual, multipliers))
+                here.push_back(k);
+        }
+        if (here.empty()) return;
+        const Equations any = any_motion(e_, m_);
+        for (const int halves : {0, 1, 2}) {
+            ExactStates states(m_, any, Motions::At::motion, halves, halvings_in(here));
+            if (states.get(0) == nullptr) continue;
+            for (const std::size_t k : here) tell_kinematic(k, states);
+            return;
+        }
+    }
+
+    void tell_kinematic(std::size_t k, ExactStates& states) {
+        CheckedClaim& c = result_.claims[k];
+        Program p;
+        const int root = claims_.lower(p, {forms_[k].residual})[0];
+        double failure = 0;
+        c.kinematic = p.is_zero(root) || vanishes_at(states, p, root, failure) == std::optional(true);
+        if (c.kinematic && c.reason.empty())
+            c.reason = "a relation of kinematics: it holds for every motion that the constraints allow";
     }
 
     int halvings_in(const std::vector<std::size_t>& here) const {

@@ -17,6 +17,7 @@
 ///    unknown takes up whatever it says.
 ///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for
 ///    c.
+///  - kinematic: claims that need no equation of motion are told so; a scene without masses has no others.
 ///  - at rest: at states with q' = q'' = 0 that the equations allow.
 ///
 /// A false claim gets a state at which it fails, in exact numbers (exact/real_state.hpp).
@@ -34,6 +35,7 @@ enum class Verdict { proved, refuted, undecided, vacuous };
 struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
     bool normal_form = false;  ///< proved by normal form
+    bool kinematic = false;    ///< proved for every motion that the constraints allow, whatever the forces
     double failure = 0;        ///< log₂ of the chance that sampling is wrong
     std::string reason;        ///< in words, where there is something to say
     std::vector<std::pair<std::string, std::string>> counterexample;  ///< name → value, as typed

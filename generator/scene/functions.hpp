@@ -14,6 +14,7 @@ struct Function {
     Takes takes;
     bool gives_vector;
     std::string_view usage;  ///< as a hint shows it
+    int order = 0;           ///< of the geometry: how many times the coordinates are differentiated
 };
 
 /// Null where there is no such function.

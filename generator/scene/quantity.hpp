@@ -37,7 +37,8 @@ public:
         values_.insert(values_.end(), {"t", "pi"});
     }
 
-    /// Definitions must be described in an order in which each comes after those it refers to.
+    /// Definitions, numbers or vectors, must be described in an order in which each comes after those it refers
+    /// to.
     void describe(const Definition& definition);
     /// The same of a speed, whose form is checked at once.
     void describe(const Speed& speed);
@@ -67,6 +68,7 @@ private:
     std::vector<Diagnostic>& diagnostics_;
     std::vector<std::string> values_, frames_, points_;      // as spelled, for "did you mean"
     std::unordered_map<std::string, Contents> definitions_;  // and speeds
+    std::unordered_set<std::string> vectors_;                // definitions that are vectors
     std::unordered_set<std::string> unknown_;                // each is told once for each expression
     int suggestions_ = 0;
 
