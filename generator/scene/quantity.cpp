@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Tree::Kind;
 
-constexpr int most_suggestions = 200;  // looking for them takes time, and no one reads more
+constexpr int most_suggestions = 200;  // a limit, because finding them takes time and nobody reads more
 
 const char* order_name(int order) {
     return order == 1 ? "rates" : "accelerations";
@@ -23,7 +23,7 @@ bool begins_with(const std::string& text, const char* beginning) {
     return text.rfind(beginning, 0) == 0;
 }
 
-/// z1, z2 …: the definitions that `derive` prints beyond the readable size.
+/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read.
 bool is_intermediate(const std::string& text) {
     return text.size() > 1 && text[0] == 'z' && text.find_first_not_of("0123456789", 1) == std::string::npos;
 }

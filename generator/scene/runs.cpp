@@ -31,7 +31,7 @@ std::string with_fixed_steps() {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// True for a literal number that is zero or negative, however it is written.
+/// True for a literal number that is zero or negative, in any notation.
 bool is_not_positive(const Tree& tree) {
     if (tree.kind == Tree::Kind::negate) return tree.args[0]->kind == Tree::Kind::number;
     return tree.kind == Tree::Kind::number &&
