@@ -119,7 +119,7 @@ int cost(const Phrase& phrase) {
         case Form::power:
             return result + (phrase.args[0].kind == Form::sum);
         case Form::call: {
-            // sin 2θ is to be read twice
+            // a double angle such as sin 2θ costs more to read
             const Phrase& arg = phrase.args[0];
             const Phrase& first = arg.kind == Form::sum ? arg.args[0] : arg;
             const bool multiple = (phrase.name == "sin" || phrase.name == "cos") && first.kind == Form::product &&

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = Tree::Kind;
 
-constexpr int most_suggestions = 200;  // looking for them takes time, and no one reads more
+constexpr int most_suggestions = 200;  // a limit, because finding them takes time and nobody reads more
 
 constexpr const char* no_derivative =
     "a vector has no plain derivative; the rate of pos(P) is vel(P), that of vel(P) is acc(P)";
@@ -26,7 +26,7 @@ bool begins_with(const std::string& text, const char* beginning) {
     return text.rfind(beginning, 0) == 0;
 }
 
-/// z1, z2 …: the definitions that `derive` prints beyond the readable size.
+/// z1, z2 …, the intermediate symbols that `derive` prints when the equations are too long to be read.
 bool is_intermediate(const std::string& text) {
     return text.size() > 1 && text[0] == 'z' && text.find_first_not_of("0123456789", 1) == std::string::npos;
 }

@@ -19,7 +19,7 @@ std::string methods_with_fixed_steps() {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// True for a literal number that is zero or negative, however it is written.
+/// True for a literal number that is zero or negative, in any notation.
 bool is_not_positive(const Tree& tree) {
     if (tree.kind == Tree::Kind::negate) return tree.args[0]->kind == Tree::Kind::number;
     return tree.kind == Tree::Kind::number &&
