@@ -11,9 +11,11 @@
 #include "check/completeness.hpp"
 #include "check/counterexample.hpp"
 #include "check/diagnosis.hpp"
+#include "check/first_order.hpp"
 #include "check/multiple.hpp"
 #include "check/open_rows.hpp"
 #include "check/root_form.hpp"
+#include "check/solution.hpp"
 #include "check/static_combination.hpp"
 #include "check/vanishing.hpp"
 #include "formalism/routh.hpp"
@@ -56,6 +58,7 @@ public:
                 }
         }
         tell_kinematics();
+        settle_apart();
         for (CheckedClaim& c : result_.claims)
             for (const ex& positive : positive_) c.where.insert(c.where.begin(), inequality(positive));
         result_.complete = complete();
@@ -72,6 +75,16 @@ private:
             }
         if (!mistakes.empty()) fail(scene_, mistakes);
         if (sheets_) positive_ = sheets_->positive();
+    }
+
+    /// Claims that need no states: motions in closed form, first approximations.
+    void settle_apart() {
+        std::vector<std::size_t> solution;
+        for (std::size_t k = 0; k < forms_.size(); ++k) {
+            if (scene_.claims[k].at == "solution") solution.push_back(k);
+            if (scene_.claims[k].at == "near") check_first_order(scene_.claims[k], claims_, result_.claims[k]);
+        }
+        if (!solution.empty()) check_solution(scene_, claims_, solution, result_.claims);
     }
 
     /// Which of m_.undetermined() the claim speaks of. With a contact's multiplier it holds whatever that is,

@@ -20,7 +20,8 @@ struct Legal {
     int input_order = -1;
     bool time = false;
     bool definitions = true;
-    std::string advice = {};                                ///< what to do instead if a rate is refused
+    std::string advice = {};       ///< what to do instead if a rate is refused
+    std::string if_changing = {};  ///< what to do instead if the time or a coordinate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names, those of claims
     bool multipliers = false;  ///< whether the multipliers of the scene's constraints are legal
     /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not.

@@ -105,21 +105,30 @@ int read_direction(const Table& table) {
     return 0;
 }
 
-std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
-    const Entry* const entry = table.find("impulses");
+/// A table of expressions by name, { theta = "expression" }.
+std::vector<std::pair<Name, Expression>> values_by_name(const Table& table, std::string_view key,
+                                                        std::string_view expected, std::string_view each) {
+    const Entry* const entry = table.find(key);
     if (!entry) return {};
     const toml::table* const node = entry->node->as_table();
     if (!node || node->empty()) {
-        table.complain("impulses",
-                       fmt::format("{} is {}; expected impulses by coordinate: {{ theta = \"expression\" }}",
-                                   table.what("impulses"), node ? "empty" : kind_of(*entry->node)));
+        table.complain(key, fmt::format("{} is {}; expected {}", table.what(key),
+                                        node ? "empty" : kind_of(*entry->node), expected));
         return {};
     }
-    const Table inner(table.reading(), *node, table.what("impulses"), entry->place);
-    std::vector<GeneralizedForce> impulses;
+    const Table inner(table.reading(), *node, table.what(key), entry->place);
+    std::vector<std::pair<Name, Expression>> result;
     for (const Entry& one : inner.entries())
-        impulses.push_back({{one.key, one.place},
-                            read_expression(table.reading(), *one.node, labelled("the impulse along", one.key))});
+        result.emplace_back(Name{one.key, one.place},
+                            read_expression(table.reading(), *one.node, labelled(each, one.key)));
+    return result;
+}
+
+std::vector<GeneralizedForce> read_impulses_of(const Table& table) {
+    std::vector<GeneralizedForce> impulses;
+    for (auto& [name, value] : values_by_name(
+             table, "impulses", "impulses by coordinate: { theta = \"expression\" }", "the impulse along"))
+        impulses.push_back({name, value});
     return impulses;
 }
 
@@ -146,10 +155,21 @@ void read_claim(Table table, Scene& scene) {
     claim.constants = table.names("constants");
     if (const auto at = table.name("at")) {
         claim.at = at->text;
-        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact")
+        if (claim.at != "motion" && claim.at != "rest" && claim.at != "impact" && claim.at != "solution")
             table.reading().complain(
-                at->place, fmt::format("a claim is held at \"motion\", \"rest\" or \"impact\", not at {}",
+                at->place,
+                fmt::format("a claim is held at \"motion\", \"rest\", \"impact\" or \"solution\", not at {}",
+                            in_quotes(claim.at)));
+    }
+    if (table.has("near")) {
+        claim.near =
+            values_by_name(table, "near", "values of coordinates and rates: { theta = 0 }", "the value of");
+        if (claim.at != "motion")
+            table.complain("near",
+                           fmt::format("a claim at {} cannot hold to first order 'near' a state; leave out one "
+                                       "of the two",
                                        in_quotes(claim.at)));
+        claim.at = "near";
     }
     if (const Entry* const equation = table.find("equation"); !equation)
         table.reading().complain(table.place(), table.title() + " needs 'equation'");
