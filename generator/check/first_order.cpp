@@ -17,7 +17,6 @@ using GiNaC::ex;
 namespace {
 
 constexpr int most_coordinates = 4;
-constexpr double longest_row = 30000;  // nodes of an equation, written out
 
 class FirstOrder {
 public:
@@ -57,7 +56,7 @@ public:
             GiNaC::exvector terms{-e_.forcing(i)};
             for (int j = 0; j < m_.size(); ++j) terms.push_back(e_.M(i, j) * m_.qddot[j]);
             const ex row = GiNaC::add(std::move(terms));
-            if (m_.z->tree_size(row) > longest_row) {
+            if (m_.z->tree_size(row) > longest_tested) {
                 result.reason = "the equations of motion are too long for a first approximation in symbols";
                 return;
             }

@@ -13,8 +13,6 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double longest_row = 30000;  // nodes of an equation, written out
-
 class Motion {
 public:
     Motion(const Scene& scene, Claims& read, const std::vector<std::size_t>& which)
@@ -54,7 +52,7 @@ public:
         return result;
     }
 
-    bool is_readable(const ex& row) const { return m_.z->tree_size(row) <= longest_row; }
+    bool is_readable(const ex& row) const { return m_.z->tree_size(row) <= longest_tested; }
 
     /// Along the motion that the claims give.
     ex along(const ex& row) const { return in_time(m_.z->expand(row)).subs(at_, GiNaC::subs_options::no_pattern); }

@@ -18,6 +18,9 @@
 
 namespace alembert {
 
+/// Nodes that an expression may have, written out, to be tested.
+constexpr double longest_tested = 30000;
+
 struct ZeroTest {
     std::optional<bool> zero;  ///< true: proved by normal form; false: it is not at `values`; nothing: not decided
     std::vector<std::pair<std::string, std::string>> values = {};  ///< name → value

@@ -23,7 +23,7 @@ constexpr double largest_tree = 30000;   // nodes of all equations, written out
 constexpr std::size_t most_terms = 150;  // of one equation in normal form; beyond, nobody reads it
 
 bool mentions(const Phrase& phrase, const std::string& name) {
-    return (phrase.kind == Phrase::Kind::symbol && phrase.name == name) ||
+    return (phrase.kind == Phrase::Kind::symbol && phrase.info.name == name) ||
            std::any_of(phrase.args.begin(), phrase.args.end(),
                        [&](const Phrase& part) { return mentions(part, name); });
 }

@@ -373,18 +373,25 @@ private:
             const bool is_rate = name.text.ends_with('\'');
             const std::string of = is_rate ? name.text.substr(0, name.text.size() - 1) : name.text;
             const Declared* const declared = NameSpaces::find(names_.values, of);
-            if (declared == nullptr || declared->kind != Declared::Kind::coordinate)
+            if (declared == nullptr)
+                complain(name.place, fmt::format("unknown name {}; expected a coordinate", in_quotes(of)));
+            else if (declared->kind != Declared::Kind::coordinate)
                 complain(name.place, fmt::format("'near' gives the values of coordinates, and of rates as \"x'\"; "
-                                                 "{} is neither",
-                                                 in_quotes(name.text)));
+                                                 "{} is {}",
+                                                 in_quotes(of), described(declared->kind)));
             quantities_.check(value, {.subject = "a state that a claim is held near"});
         }
         if (claim.at == "solution" && claim.equation.lhs.tree) {
             const Tree& left = *claim.equation.lhs.tree;
             const Declared* const declared =
                 left.kind == Tree::Kind::name ? NameSpaces::find(names_.values, left.text) : nullptr;
-            if (declared == nullptr || left.primes > 0 ||
-                (declared->kind != Declared::Kind::coordinate && declared->kind != Declared::Kind::multiplier))
+            if (left.kind == Tree::Kind::name && declared == nullptr)
+                complain(
+                    claim.equation.lhs.place(),
+                    fmt::format("unknown name {}; expected a coordinate or a multiplier", in_quotes(left.text)));
+            else if (declared == nullptr || left.primes > 0 ||
+                     (declared->kind != Declared::Kind::coordinate &&
+                      declared->kind != Declared::Kind::multiplier))
                 complain(
                     claim.equation.lhs.place(),
                     "a claim at \"solution\" has the name of a coordinate or a multiplier on its left, and on its "

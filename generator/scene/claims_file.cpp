@@ -46,7 +46,9 @@ std::vector<std::pair<Name, Expression>> values_after(const std::string& line, s
         std::vector<Place> places;
         for (std::size_t k = from; k <= end; ++k) places.push_back(source.place(begin + k));
         const Equality value = parse_equality(line.substr(from, end - from), places, mistakes, false);
-        result.emplace_back(Name{value.lhs.text, places.front()}, value.rhs);
+        std::string name = value.lhs.text;
+        while (!name.empty() && is_blank(name.back())) name.pop_back();
+        result.emplace_back(Name{std::move(name), places.front()}, value.rhs);
         for (from = end + 1; from < line.size() && is_blank(line[from]);) ++from;
     }
     return result;
