@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* appell_title = "The Gibbs-Appell equations";
 
-/// S of all bodies, in q, u, u', t.
+/// S of all bodies as a function of q, u, u', t.
 ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
     Intermediates& z = *m.z;
     const auto derivative = [&](const Vector3& v) {
@@ -70,7 +70,7 @@ Equations appell(const Mechanism& mechanism) {
     motion.attach_kept(equations);
     if (equations.eliminated.empty()) return equations;
 
-    // With all rates as speeds the constraints' forces are what ∂S/∂q̈ and the other forces leave.
+    // With all rates as speeds, the constraint forces are the difference between ∂S/∂q̈ and the other forces.
     const InSpeeds in_rates(m, rates_as_speeds(m));
     const std::vector<ex> inertia = z.pull_back({{acceleration_energy(m, in_rates), 1}}, m.qddot);
     const std::vector<ex> active = in_rates.conservative(), damping = in_rates.loads(true),

@@ -52,7 +52,7 @@ std::vector<ex> times(const GiNaC::matrix& M, const std::vector<ex>& x, Intermed
     return result;
 }
 
-/// E of each coordinate in q, q', q'', t.
+/// Lagrange's expression E of each coordinate, in q, q', q'', t.
 std::vector<ex> expressions_of(const Equations& lagrange, const Mechanism& m) {
     std::vector<ex> E = times(lagrange.M, {m.qddot.begin(), m.qddot.end()}, *m.z);
     for (int i = 0; i < m.size(); ++i) E[i] = m.z->name(E[i] - lagrange.forcing(i));

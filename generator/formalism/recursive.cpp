@@ -11,7 +11,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// Gravity is an acceleration of the ground here; all other potentials are forces.
+/// The forces of all potentials except gravity, which enters as an acceleration of the ground.
 std::vector<ex> potential_forces(const Mechanism& m) {
     std::vector<std::pair<ex, ex>> targets;
     for (const Part& part : m.potential)

@@ -17,7 +17,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// At the scene's parameters, where it is a number there.
+/// Checks the coefficients at the scene's parameters, if they are numbers there.
 void need_coefficients(Building& here, const FrictionRule& rule) {
     const double sliding = here.number_at(rule.coefficient);
     if (sliding < 0)

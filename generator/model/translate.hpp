@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From the scene's expression trees to symbols: names are looked up, primes differentiate, vector functions ask
-/// the geometry.
+/// Translates the scene's expression trees to symbols: names are looked up, primes differentiate, and vector
+/// functions query the geometry.
 
 #include <functional>
 #include <map>
@@ -17,7 +17,7 @@ namespace alembert {
 /// A scalar, or a vector along the axes of N.
 using Value = std::variant<GiNaC::ex, Vector3>;
 
-/// What the geometry answers; each may throw std::out_of_range for a name that it does not know.
+/// The queries to the geometry. Each may throw std::out_of_range for a name that it does not know.
 struct GeometryQueries {
     std::function<Vector3(const std::string&point)> position, velocity;
     std::function<const Orientation&(const std::string& frame)> orientation;
@@ -28,21 +28,21 @@ public:
     Translator(const Mechanism& mechanism, GeometryQueries queries)
         : mechanism_(mechanism), queries_(std::move(queries)) {}
 
-    /// A name that stands for a value: a coordinate's symbol, a definition's value …
+    /// Declares a name that stands for a value: a coordinate's symbol, a definition's value …
     void know(const std::string& name, const GiNaC::ex& value) { values_[name] = value; }
-    /// A name whose value is made when first asked for (definitions, in any order).
+    /// Declares a name whose value is computed when it is first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<GiNaC::ex()> value) { later_[name] = std::move(value); }
 
-    /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a
-    /// mistake.
+    /// Declares a symbol whose time derivative is not known (an acceleration, a multiplier). Differentiating it is
+    /// a mistake.
     void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
 
-    /// From now on √(e²) is e or −e (model/root_sheets.hpp).
+    /// From now on √(e²) becomes e or −e (model/root_sheets.hpp).
     void go_on(std::shared_ptr<RootSheets> sheets) { sheets_ = std::move(sheets); }
     /// |v|, on the sheet.
     GiNaC::ex length(const Vector3& v);
 
-    /// Throws SceneMistake for what the reader could not see.
+    /// Throws SceneMistake for mistakes that the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
 
 private:
@@ -52,7 +52,7 @@ private:
     GiNaC::ex named(const Tree& tree);
     Value call(const Tree& tree);
     GiNaC::ex power(const GiNaC::ex& base, const GiNaC::ex& exponent);
-    /// dot(omega(B), ex(B)), which is known without going by N.
+    /// A component such as dot(omega(B), ex(B)), which is known without components along N.
     std::optional<GiNaC::ex> own_component(const Tree& u, const Tree& v);
     GiNaC::ex differentiated(GiNaC::ex value, int times, const Tree& tree);
 
@@ -65,7 +65,7 @@ private:
     const Expression* current_ = nullptr;
 };
 
-/// Thrown where a translated expression turns out wrong; the builder gathers these into one SceneError.
+/// Thrown if a translated expression turns out to be wrong; the builder collects these into one SceneError.
 struct SceneMistake {
     Diagnostic diagnostic;
 };
