@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From equations to a derivation that a reader can follow.
+/// Makes a derivation that a reader can follow from equations.
 ///
 ///     const Derivation shown = derivation_of(mechanism, equations);
 ///     text(shown.equations[0].lhs);
@@ -15,51 +15,53 @@
 
 namespace alembert {
 
-/// What a derivation shows to a reader, as phrases that any notation can print: the four steps of Zhang & Qin,
-/// §1.5:
-/// 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations.
-/// Beyond the readable size the steps are left out and `definitions` carries intermediate symbols.
+/// The contents of a derivation, as phrases that any notation can print. It has the four steps of Zhang & Qin,
+/// §1.5: 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations. If
+/// the equations exceed the readable size, the steps are left out and `definitions` has intermediate symbols.
 struct Derivation {
     std::string formalism;
     std::string title;              ///< "Kane's equations"
-    std::vector<Section> sections;  ///< partial velocities, virtual works, H, R …
+    std::vector<Section> sections;  ///< the formalism's own steps: partial velocities, virtual works, H, R …
     int degrees_of_freedom = 0;
     std::vector<Phrase> coordinates;
-    std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size
+    std::vector<std::pair<Phrase, Phrase>>
+        definitions;                  ///< intermediate symbols; empty for equations of readable size
     std::vector<Statement> angular;   ///< angular velocities along the axes of bodies that turn in space
     std::vector<Statement> energies;  ///< T and V of each body and spring
     Phrase kinetic, potential;
-    std::optional<Phrase> lagrangian;    ///< where the scene gives it
-    std::vector<Statement> forces;       ///< generalized forces of each part of V and each load, then in all
+    std::optional<Phrase> lagrangian;  ///< the Lagrangian, if the scene gives it
+    std::vector<Statement> forces;     ///< generalized forces of each part of V and of each load, then their sums
     std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
-    std::vector<Phrase> rows;                           ///< whose equation each is: coordinates, or speeds
-    std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty where u = q'
-    std::vector<Phrase> poles;  ///< where one of these vanishes the rates do not follow from the speeds
-    std::vector<std::pair<Phrase, Phrase>> speeds;  ///< chosen by the program: u = N(q,t) q'
-    std::string choice;                             ///< in words, where the speeds were chosen by the program
-    std::vector<Statement> reactions;  ///< of each constraint along each coordinate, where they are asked for
-    std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
-    std::vector<Phrase> positive;                             ///< on the sheet of roots on which all this holds
-    std::vector<ReadableEquation> shares;              ///< of multipliers whose constraints depend on each other
-    std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: what is not negative
-    /// Dry friction: it slides with the velocity `slip` against the force `sliding`, or sticks with a force of at
-    /// most `sticking`.
+    std::vector<Phrase> rows;                           ///< the coordinate or speed to which each equation belongs
+    std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty if u = q'
+    std::vector<Phrase> poles;  ///< where one of these vanishes, the speeds do not determine the rates
+    std::vector<std::pair<Phrase, Phrase>> speeds;  ///< speeds chosen by the program: u = N(q,t) q'
+    std::string choice;                             ///< a sentence about the speeds, if the program chose them
+    std::vector<Statement> reactions;  ///< reactions of each constraint along each coordinate, on request
+    std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: the expression that is zero
+    std::vector<Phrase>
+        positive;  ///< expressions that are positive on the sheet of roots on which the derivation holds
+    std::vector<ReadableEquation>
+        shares;  ///< relations between multipliers whose constraints depend on each other
+    std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: the expression that is not negative
+    /// Dry friction: the contact slides with the velocity `slip` against the force `sliding`, or sticks with a
+    /// force of at most `sticking`.
     struct Rubs {
         std::string name;
         Phrase slip, sliding, sticking;
     };
     std::vector<Rubs> frictions;
-    bool has_unit_quaternions = false;  ///< e·e = 1 of each quaternion has been used in all terms
+    bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms
 };
 
-/// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
+/// Adds λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
 void show_reactions(Derivation& shown, const Mechanism& mechanism);
 
-/// With the steps that every formalism shares.
+/// The derivation with the steps that every formalism shares.
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
 
-/// With the formalism's own steps too, and its own first-order equations where it ends in these.
+/// The derivation that also has the formalism's own steps, and its first-order equations if it ends in these.
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by);
 
 }  // namespace alembert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The statements of order k: the state from the rates of the order before, all coefficients, what later orders
-// multiply.
+// The statements of order k: the state from the rates of the order before, all coefficients, and the factors that
+// later orders need.
 //
 // The cost of a statement is the number of its operations, addresses and the assignment included, times the number
 // of its vectors.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The statements of order 0: values as the functions themselves give them, and the factors of the linear system.
+// The statements of order 0: values computed by the functions themselves, and the factors of the linear system.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The coefficient of order k of each node. Sums of products are those over orders between; the ends are added
-// here, since 2 a_0 b_k needs no other order.
+// The coefficient of order k of each node. The sums of products cover the orders in between; the ends are added
+// here, because 2 a_0 b_k needs no other order.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Values as C++: what has a name by its name, what stands in place with the brackets that it needs.
+// Values as C++: a value with a name is written by its name, a value in place with the brackets that it needs.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Sines and cosines: up to eight angles at once, those of sums from those of their terms where that is asked for.
+// Sines and cosines: up to eight angles are computed at once; on request, sines and cosines of sums are computed
+// from those of the terms.
 #include <fmt/format.h>
 
 #include <algorithm>

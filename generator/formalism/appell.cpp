@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// S = Σ ½ m a·a + ½ α·I α + α·(ω × I ω),   ∂S/∂u̇_r = Q_r   (Pars, A Treatise on Analytical Dynamics (1965)).
-// I is the central inertia, α and ω are along the body's axes, in which I is constant: α is the derivative of the
-// components of ω. Terms of S that hold no acceleration are left out: they have no derivative. ∂S/∂u̇ is linear in
-// u̇:
+// S = Σ ½ m a·a + ½ α·I α + α·(ω × I ω), ∂S/∂u̇_r = Q_r (Pars, A Treatise on Analytical Dynamics (1965)). I is the
+// central inertia, α and ω are along the body's axes, in which I is constant: α is the derivative of the
+// components of ω. Terms of S without accelerations are left out, because their derivatives are zero. ∂S/∂u̇ is
+// linear in u̇:
 //   M = ∂²S/∂u̇²,   own = Q − ∂S/∂u̇ at u̇ = 0.
 #include "formalism/appell.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Force of a spring on its end P₂:  −k (1 − d₀/|d|) d,   d = r₂ − r₁, and the opposite on P₁.
-// Steiner (Zhang & Qin, chapter 2):  I_C = I_P − m (d·d E − d dᵀ),   d from P to C along the body's axes.
+// The force of a spring on its end P₂ is −k (1 − d₀/|d|) d, d = r₂ − r₁, and the opposite on P₁. Steiner (Zhang &
+// Qin, chapter 2): I_C = I_P − m (d·d E − d dᵀ), d from P to C along the body's axes.
 #include "formalism/elements.hpp"
 
 #include <fmt/format.h>

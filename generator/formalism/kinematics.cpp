@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// [W; A] q̇ = (u − w, −b)  (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), A being the constraints that u
-// leaves out. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det  (Cramer's rule).
+// [W; A] q̇ = (u − w, −b) (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), where A are the rows of the
+// constraints that u eliminates. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det (Cramer's rule).
 #include "formalism/kinematics.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// m r̈ = F + Σ λ ∂f/∂r  (Zhang & Qin (1-82)): M is diagonal, and nothing depends on the rates but the forces.
+// m r̈ = F + Σ λ ∂f/∂r (Zhang & Qin (1-82)): M is diagonal, and only the forces depend on the rates.
 #include "formalism/lagrange1.hpp"
 
 #include <fmt/format.h>

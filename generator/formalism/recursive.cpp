@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With w = S q' + w₀:  M = Sᵀ M_w S,   f = Q − Sᵀ n,   n the loads that the joints bring at q'' = 0.
+// With w = S q' + w₀: M = Sᵀ M_w S, f = Q − Sᵀ n, where n are the loads that the joints must apply at q'' = 0.
 #include "formalism/recursive.hpp"
 
 #include "formalism/elements.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The condition of rest: Σ F·δr = 0 with the inertia forces of the motion that is prescribed (Zhang & Qin,
-// equation (20) of example 1-1), as a product; a factor a cos x + b or a sin x + b that is linear in it gives its
-// root.
+// The condition of rest: Σ F·δr = 0 with the inertia forces of the prescribed motion (Zhang & Qin, equation (20)
+// of example 1-1), written as a product. A factor a cos x + b or a sin x + b gives its roots.
 #include "formalism/rest.hpp"
 
 #include <algorithm>

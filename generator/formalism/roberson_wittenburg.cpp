@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Arc a turns its outer body against its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it with
-// σ_a = Σ k_aj q'_j. The outer bodies of a are those i with T_ai ≠ 0, so that
+// Arc a turns its outer body relative to its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it
+// with σ_a = Σ k_aj q'_j. The outer bodies of a are those i with T_ai ≠ 0, so that
 //   ω_i = Σ_a |T_ai| Ω_a,   J_R,ij = Σ_a |T_ai| p_aj,   J_T,ij = Σ_a |T_ai| (p_aj × (r_i − P_a) + k_aj)
 // (Wittenburg, Dynamics of Multibody Systems (2008), chapter 5: ω = −(p T)ᵀ q', with signs from the direction of
 // the arcs). Accelerations at q'' = 0 are computed outwards along the paths: with (·)° the derivative in the body
 // where an arc's axes are fixed, and ρ = r_o − P,
-//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,   a_o = a_P + α_o ×
-//   ρ + ω_o × ρ'
+//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,
+//   a_o = a_P + α_o × ρ + ω_o × ρ'
 // if the arc points outwards. If it points to the ground, −σ is given along axes fixed in the outer body and is
 // added beyond the pivot.
 #include "formalism/roberson_wittenburg.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With S = (e₁ e₂ e₃) the body's axes along N, the columns of J_R and the rest of ω come from S alone:
+// With S = (e₁ e₂ e₃), the body's axes along N, the columns of J_R and the rest of ω follow from S only:
 //   (Sᵀ ∂S/∂q_j)  =  ũ_j,   u_j = (e₃·∂e₂/∂q_j,  e₁·∂e₃/∂q_j,  e₂·∂e₁/∂q_j),
 // and in the same way with ∂/∂t; then ω = Σ u_j q'_j + u_t, ᾱ = dω/dt at q'' = 0 (along the body's axes, where ω ×
 // ω = 0), and

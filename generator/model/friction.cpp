@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. Where v stays 0 the sign is the
-// number between −μₛ/μ and μₛ/μ that keeps it so; a run finds it (alembert/switching.hpp).
+// Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. While v stays 0, the sign is
+// replaced by the number between −μₛ/μ and μₛ/μ that keeps it 0; a run finds that number (alembert/switching.hpp).
 #include "model/friction.hpp"
 
 #include <fmt/format.h>
