@@ -23,7 +23,7 @@ struct System {
     Program program;
     int n = 0, speeds = 0;            ///< coordinates, speeds
     std::vector<int> mass, forcing;   ///< mass is the lower triangle
-    std::vector<std::vector<int>> A;  ///< in speeds
+    std::vector<std::vector<int>> A;  ///< the rows in terms of speeds
     std::vector<int> gamma, rates,
         second;                  ///< `rates` are q', `second` is q'' in terms of u'; both are empty if u = q'
     std::vector<int> columns;    ///< the columns of the multipliers of A's rows

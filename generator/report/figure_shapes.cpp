@@ -16,7 +16,7 @@ using Kind = FigureShape::Kind;
 
 constexpr double margin = 58;  // for labels and hatching, on the screen
 
-/// Of a point alone, moved on the screen.
+/// A vertex at a single point, shifted on the screen.
 FigureVertex at(int a, double right = 0, double down = 0, bool begins = false) {
     return {.a = a, .along = right, .across = down, .begins = begins};
 }
@@ -98,7 +98,7 @@ private:
         f_.toward = std::cos(elevation) * out + std::sin(elevation) * vertical;
     }
 
-    /// Points that the picture must hold.
+    /// The points that must be inside the picture.
     std::vector<int> shown() const {
         std::vector<int> points;
         for (const FigureElement& e : d_.elements) {
@@ -209,7 +209,7 @@ private:
         return put(Kind::path, style, {between(a, b, 0, 0, 0, true), between(a, b, 1)});
     }
 
-    /// Where a label beside a point is least in the way of what ends there, at the first pose.
+    /// The side of a point at which a label is farthest from the elements that end there, at the first pose.
     Vector2d free_side(int point) const {
         Vector2d taken(0, 0);
         for (const FigureElement& e : d_.elements) {
@@ -341,7 +341,7 @@ private:
         text("name", at(e.points[0], side[0] + (side[0] < 0 ? -longer : longer), side[1] + 5), mass_label(e));
     }
 
-    /// Left of a rod that points down, above one that points right: where nothing else is.
+    /// The side of a label: left of a rod that points down, above one that points right, where nothing else is.
     double label_side(int a, int b) const {
         const Vector2d way = screen(first()[b] - first()[a]);
         const double sign = std::abs(way[0]) >= std::abs(way[1]) ? (way[0] > 0 ? -1 : 1) : (way[1] > 0 ? -1 : 1);
@@ -350,7 +350,7 @@ private:
 
     void add_support(const FigureElement& e) {
         const int p = e.points[0];
-        // On the side away from what hangs there.
+        // The label is on the side away from the elements that are attached there.
         double below = 0;
         for (const FigureElement& other : d_.elements)
             if (other.kind == Element::rod || other.kind == Element::bar || other.kind == Element::tie ||
@@ -433,7 +433,7 @@ private:
 
     void add_damper(const FigureElement& e) {
         const int a = e.points[0], b = e.points[1];
-        // Beside the spring between the same points.
+        // The damper is drawn beside a spring between the same points.
         const double off = std::any_of(d_.elements.begin(), d_.elements.end(),
                                        [&](const FigureElement& other) {
                                            return other.kind == Element::spring && other.points == e.points;
@@ -549,7 +549,7 @@ private:
         }
     }
 
-    /// A dimension line beside it; an arrow of one length where it is too short for that.
+    /// Adds a dimension line beside a length, or an arrow of fixed length if that is too short.
     void add_length(const FigureElement& e) {
         const int a = e.points[0], b = e.points[1];
         const double off = 26 + 9 * (lengths_++ % 3);
