@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false
-// holds at a random point of GF(p) with a chance of at most d/p (Schwartz, J. ACM 27 (1980) 701).
+// holds at a random point of GF(p) with a probability of at most d/p (Schwartz, J. ACM 27 (1980) 701).
 #include "check/check.hpp"
 
 #include <fmt/format.h>
@@ -57,7 +57,7 @@ public:
             if (here.empty()) continue;
             if (when_ == "impact" && !claims_.after_impact())
                 for (const std::size_t k : here) result_.claims[k].reason = claims_.impact_obstacle();
-            else  // the rates after an impact are expressions by now, in what any state of motion gives
+            else  // the rates after an impact have become expressions in the variables of any state of motion
                 while (!here.empty()) {
                     const std::vector<std::size_t> spoken = undetermined_in(here.front());
                     std::vector<std::size_t> part = here;
@@ -86,9 +86,9 @@ private:
         if (sheets_) positive_ = sheets_->positive();
     }
 
-    /// Which of m_.undetermined() the claim speaks of. With a contact's multiplier it holds whatever that is,
-    /// without it speaks of the motion while the gap is open. Constraints that follow from others bear their least
-    /// share.
+    /// The constraints of m_.undetermined() whose multipliers the claim contains. A claim with a contact's
+    /// multiplier must hold for any value of it; a claim without it is about the motion while the gap is open.
+    /// Constraints that follow from others have their shares of least norm.
     std::vector<std::size_t> undetermined_in(std::size_t claim) const {
         std::vector<std::size_t> result;
         const auto all = m_.undetermined();
@@ -107,10 +107,10 @@ private:
         return law;
     }
 
-    /// What is a combination of the equations and constraints needs no state that obeys the constraints, which may
-    /// be hard to find; gives those that are none.
+    /// Settles claims that are combinations of the equations and constraints. They need no state that obeys the
+    /// constraints, which may be hard to find. Returns the other claims.
     std::vector<std::size_t> without_combinations(const std::vector<std::size_t>& here, Motions::At at) {
-        if (!m_.redundant.empty()) return here;  // which share each bears is decided on the constraints only
+        if (!m_.redundant.empty()) return here;  // the share of each is determined only on the constraints
         std::vector<std::size_t> left = here;
         if (at == Motions::At::rest) {
             std::erase_if(left, [&](std::size_t k) {
@@ -168,7 +168,7 @@ private:
         const bool may_combine = at == Motions::At::rest || (when_ == "motion" && is_bound);
         const std::vector<std::size_t> here = may_combine ? without_combinations(asked, at) : asked;
         if (here.empty()) return;
-        // Angles in halves only where they occur: every halving doubles the degrees.
+        // Half angles are used only if they occur, because every halving doubles the degrees.
         std::optional<ExactStates> states;
         for (const int halves : {0, 1, 2}) {
             states.emplace(m_, law_, at, halves, halvings_in(here));
@@ -207,13 +207,13 @@ private:
         settle_open(open, *states);
     }
 
-    /// Is `residual` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an
-    /// error.
+    /// Is `residual` zero at all states? Nothing if that cannot be decided. `failure` is log₂ of the probability
+    /// of an error.
     std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure,
                                     bool& exact) const {
         const std::array<int, 1> roots{root};
         failure = 0;
-        double missed = 0;  // log₂ of the chance that no state was on some branch
+        double missed = 0;  // log₂ of the probability that no state was on some branch
         int usable = 0;
         const bool rest = states.motions.where() == Motions::At::rest;
         for (std::size_t s = 0;; ++s) {
@@ -237,7 +237,7 @@ private:
         }
     }
 
-    /// log₂ of the chance that a branch of the constraints is not the one of this state.
+    /// log₂ of the probability that a given branch of the constraints is not that of this state.
     static double miss(const ExactState& state) {
         return state.branches > 1 ? std::log2(1 - 1 / state.branches) : 2 * wanted_failure;
     }
@@ -289,7 +289,7 @@ private:
         refine(k, states);
     }
 
-    /// A claim on constraints that depend on each other may hold for their least reactions alone.
+    /// A claim about constraints that depend on each other may hold only for their reactions of least norm.
     std::string told_of_shares(const Program& p, int root, ExactStates& states) const {
         for (std::size_t s = 0; s < 24 && states.get(s) != nullptr; ++s) {
             const std::optional<ModularPoint>& other = states.get(s)->other_shares;
@@ -379,7 +379,7 @@ private:
                 c.likely = Slip{.kind = "wrong_unit", .term = *term, .repair = {}};
     }
 
-    /// Nothing where it cannot be read, or holds open names.
+    /// Nothing if it cannot be translated or contains open names.
     std::optional<int> node_of(Program& p, const Expression& value) {
         try {
             const ex e = claims_.read(value);
@@ -424,7 +424,7 @@ private:
         return result;
     }
 
-    /// Puts a form back.
+    /// Restores a form.
     struct Formed {
         std::size_t k;
         ClaimForm form;
@@ -434,18 +434,19 @@ private:
 
     bool holds_quickly(std::size_t k, ExactStates& states) {
         if (!forms_[k].open.empty()) {
-            // With the claims of its group that are right; if they leave it open, with all.
+            // The claim is tested with the right claims of its group; if these do not determine the open names,
+            // with all.
             std::vector<std::size_t> group = group_of(k), right = group;
             std::erase_if(right, [&](std::size_t other) { return other != k && wrong_.contains(other); });
             return agrees(k, right, states) || (right.size() < group.size() && agrees(k, group, states));
         }
         Program p;
         const std::array<int, 1> root{claims_.lower(p, {forms_[k].residual})[0]};
-        if (p.is_zero(root[0])) return when_ == "impact";  // elsewhere an identity is no repair
+        if (p.is_zero(root[0])) return when_ == "impact";  // otherwise an identity is no repair
         return is_zero_at_two(p, root[0], states);
     }
 
-    /// At rest, and where constraints have branches, two states may lie on one of them.
+    /// At rest, and if constraints have branches, two states may lie on the same branch.
     static bool is_zero_at_two(const Program& p, int root, ExactStates& states) {
         std::size_t wanted = states.motions.where() == Motions::At::rest ? 8 : 2;
         for (std::size_t s = 0, usable = 0; usable < wanted; ++s) {
@@ -664,14 +665,14 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    Equations law_;                    // of the claims in hand
-    std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in it
+    Equations law_;                    // the equations for the current claims
+    std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in them
     Claims claims_;
     std::shared_ptr<RootSheets> sheets_;
-    std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of what is tried in their place
+    std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of repairs that are tried
     std::vector<ClaimForm> forms_;
     std::string when_;
-    std::set<std::size_t> wrong_;  // of the group in hand
+    std::set<std::size_t> wrong_;  // the wrong claims of the current group
     Checked result_;
 };
 

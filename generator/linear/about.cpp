@@ -21,11 +21,11 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t widest = 60;  // letters of an element in symbols
+constexpr std::size_t widest = 60;  // the most letters of an element in symbols
 
 using SymbolRows = decltype(LinearizedScene::symbols);
 
-/// Initial values as the scene has them, or exactly as they were asked for.
+/// The initial values of the scene, or exactly those that were requested.
 std::vector<GiNaC::ex> starts(const Mechanism& m, const LinearizeOptions& options, const std::string& prime) {
     std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
     for (const auto& [name, number] : options.exact_at)
@@ -62,8 +62,8 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
     return result;
 }
 
-/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates
-/// are not steady, Kane's speeds may be.
+/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: if rates are
+/// not steady, Kane's speeds may be.
 Linearization linearized(Derived& d, const LinearizeOptions& options, const Start& start) {
     try {
         return linearize(d.mechanism, d.equations, start);
