@@ -22,7 +22,7 @@ namespace {
 
 // Relative to the largest singular value; below this a direction is free.
 constexpr long double no_pivot = 1e-11L;
-constexpr long double small_step = 1e-16L;  // by scale
+constexpr long double small_step = 1e-16L;  // in units of the scales
 constexpr long double rounding = 1e-16L;
 constexpr long double longest_step = 0.5L;
 constexpr long double solved = 1e-13L;  // relative to the effect of a change of 1 in units of the scales

@@ -26,7 +26,7 @@ int count(const std::vector<RootOf>& roots, Side side) {
         std::count_if(roots.begin(), roots.end(), [&](const RootOf& r) { return r.side == side; }));
 }
 
-/// x' as series, where the states (essential coordinates, then speeds) are the given ones.
+/// x' as series for the given states (essential coordinates, then speeds).
 std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x) {
     const Residuals& r = local.residuals;
     const std::vector<int> held(static_cast<std::size_t>(r.n + r.s), -1);
@@ -40,7 +40,7 @@ std::vector<Expansion> field(const Local& local, const std::vector<Expansion>& x
         for (std::size_t j = 0; j <= i; ++j) M[i][j] = M[j][i] = value[r.mass[next++]];
         M[i][p] = value[r.forcing[i]];
     }
-    for (std::size_t k = 0; k < p; ++k)  // a mass matrix needs no exchange of rows
+    for (std::size_t k = 0; k < p; ++k)  // a mass matrix needs no row exchanges
         for (std::size_t i = 0; i < p; ++i) {
             if (i == k) continue;
             const Expansion factor = M[i][k] / M[k][k];

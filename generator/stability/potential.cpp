@@ -57,7 +57,7 @@ public:
 
     int size() const { return static_cast<int>(coordinates_.size()); }
 
-    /// Gradient, then W, where the coordinates are these series.
+    /// The gradient, then W, for coordinates given as series.
     std::vector<Expansion> at(const std::vector<Expansion>& coordinates) const {
         const std::vector<int> held(local_.point.q.size() + local_.point.u.size(), -1);
         State<Expansion> state = local_.state_at(local_.point, nullptr, held);
@@ -136,7 +136,7 @@ std::optional<std::pair<int, Certain>> along_kernel(const AmendedPotential& W, c
     return {};
 }
 
-/// Of a form in two variables, c_k x^(d−k) y^k: is it positive everywhere, or negative somewhere?
+/// Whether a form in two variables, c_k x^(d−k) y^k, is positive everywhere, or negative somewhere.
 struct FormSign {
     bool positive = false, somewhere_negative = false;
 };
@@ -156,7 +156,7 @@ FormSign sign_of_form(const CertainVector& c) {
             if (sum.sign() == -1) return {.somewhere_negative = true};
         }
     if (c[0].sign() != 1 || c[d].sign() != 1) return result;
-    // No real root: then it has the sign of x^d.
+    // Without a real root the form has the sign of x^d.
     result.positive = true;
     for (const RootOf& root : roots_of(c))
         result.positive = result.positive && std::abs(root.value.imag()) > root.radius;
@@ -183,7 +183,7 @@ std::optional<DegenerateMinimum> by_form(const AmendedPotential& W) {
     return {};
 }
 
-/// T₂ and forces with a potential alone: no gyroscopic terms, no other loads.
+/// Whether there are only T₂ and forces with a potential: no gyroscopic terms and no other loads.
 bool is_natural(const Local& local, const PowerSign& power) {
     const Mechanism& m = local.mechanism;
     if (!power.is_zero || !local.near.matrices.moving.empty()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of bodies held together, with m, c, I each about its own mass centre and along common axes:
+// For bodies that are fixed to each other, with m, c, and I about each one's own mass centre, along common axes:
 //   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
 #include "urdf/robot_scene.hpp"
 
@@ -18,9 +18,9 @@ namespace alembert {
 
 namespace {
 
-constexpr const char* base = "floating_base";  // the joint of a root that floats
+constexpr const char* base = "floating_base";  // the name of the joint of a floating root
 
-/// The shortest that reads back the same.
+/// The shortest text that gives the same number.
 std::string number(double value) {
     return value == 0 ? "0" : fmt::format("{}", value);
 }
@@ -38,7 +38,7 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-/// Names as scenes may have them, each given once.
+/// Makes names that are legal in scenes, each of them once.
 class Names {
 public:
     std::string given(const std::string& wanted) {
@@ -58,7 +58,7 @@ private:
     std::set<std::string> taken_{"N", "O", "t", "pi"};
 };
 
-/// Links that do not move against each other.
+/// Links that do not move relative to each other.
 struct Group {
     int top;  ///< a link
     std::vector<int> links;
@@ -70,12 +70,12 @@ struct Group {
     std::string frame = "N";  ///< the name of its frame
 };
 
-/// Where a link stands in its group.
+/// The pose of a link in its group.
 struct Seat {
     int group = -1;
     Real3 shift = Real3::Zero();
     Real33 R = Real33::Identity();
-    std::vector<Real3> turns = {};  ///< roll, pitch, yaw of each fixed joint on the way
+    std::vector<Real3> turns = {};  ///< roll, pitch, yaw of each fixed joint on the path to it
 };
 
 class Writer {
@@ -262,7 +262,7 @@ private:
         ++result_.bodies;
     }
 
-    /// Where the joint stands in the group of its parent: from that mass centre.
+    /// The pose of the joint in the group of its parent, relative to the mass centre of that group.
     struct Stand {
         const Group* parent;
         Real3 point;
@@ -292,7 +292,7 @@ private:
                                          : fmt::format("{}*", times),
                            over == 1 ? "" : fmt::format("/{}", over));
     }
-    /// A letter, or a vector.
+    /// An axis as a letter or a vector.
     static std::string axis(const Real3& a) {
         for (int k = 0; k < 3; ++k)
             if (a[k] > 0 && a[(k + 1) % 3] == 0 && a[(k + 2) % 3] == 0) return fmt::format("\"{}\"", "xyz"[k]);
@@ -365,7 +365,7 @@ private:
         if (options_.drives) drive(joint, q, slides);
     }
 
-    /// An input, zero until somebody gives it a value, along the joint's coordinate.
+    /// Adds an input along the joint's coordinate, which is zero until it is given a value.
     void drive(const Robot::Joint& joint, const std::string& q, bool slides) {
         const std::string name = values_.given("drive_" + joint.name);
         inputs_ += fmt::format("{} = {{ value = 0, unit = \"{}\" }}\n", key(name), slides ? "N" : "N*m");
@@ -373,7 +373,7 @@ private:
         result_.drives.push_back(name);
     }
 
-    /// Turned so that z is the normal.
+    /// Adds a planar joint, with axes turned so that z is the normal.
     void planar(const Robot::Joint& joint, const Group& child, Stand at) {
         const Real3 a = joint.axis.normalized();
         std::string child_rotate;
@@ -395,7 +395,7 @@ private:
                                 child_rotate, fmt::join(list, ", ")));
     }
 
-    /// A frame and a point in place of a joint: no coordinate of its own, no constraint.
+    /// Adds a frame and a point in place of a joint, without a coordinate and without a constraint.
     void follower(const Robot::Joint& joint, Group& child) {
         Stand at = stand(joint);
         const Robot::Mimic& mimic = *joint.mimic;
@@ -460,7 +460,7 @@ private:
     std::vector<std::size_t> order_;
     std::vector<Seat> seats_;
     Names places_, values_, joints_taken_;
-    std::vector<std::string> joint_names_, values_of_;  // by joint of the robot
+    std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
     std::string joints_, dampers_, inputs_, forces_;
     RobotScene result_;
 };
