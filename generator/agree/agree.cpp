@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Two systems of linear equations have the same solutions if and only if their reduced row echelon forms are
-// equal. A rational identity of degree d that is false holds at a random point of GF(p) with a chance of at most
-// d/p (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
+// equal. A rational identity of degree d that is false holds at a random point of GF(p) with a probability of at
+// most d/p (Schwartz, J. ACM 27 (1980) 701; Zippel, EUROSAM 79). With Cramer's rule d ≤ 2 (n deg M + deg f).
 #include "agree/agree.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// Unknowns of a square system by elimination with row exchanges; nothing where a pivot is small beside the
+/// Solves a square system by elimination with row exchanges; nothing if a pivot is small compared with the
 /// largest.
 std::optional<std::vector<long double>> solved(std::vector<std::vector<long double>> rows) {
     const std::size_t size = rows.size();
@@ -55,9 +55,9 @@ std::vector<std::vector<long double>> rows_at(const System& s, State<long double
                    }));
 }
 
-/// In long double arithmetic at a random state: the largest residual of `b`'s rows at `a`'s solution over the
-/// largest term; where the two have different unknowns, the difference of those that they share, over the largest.
-/// Nothing where that cannot be told.
+/// In long double arithmetic at a random state: the largest residual of `b`'s rows for `a`'s solution, divided by
+/// the largest term. If the two have different unknowns, the difference of the unknowns that they share, divided
+/// by the largest. Nothing if that cannot be computed.
 std::optional<long double> residual(const System& a, const System& b, std::mt19937_64& random) {
     std::uniform_real_distribution<long double> positive(0.5L, 2.0L), turn(-1.5L, 1.5L);
     State<long double> state;
@@ -67,7 +67,7 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
         state.q.push_back(turn(random));
         state.qdot.push_back(turn(random));
     }
-    State<long double> plain = state;  // with q' for u
+    State<long double> plain = state;  // the state with q' in place of u
     for (const System* s : {&a, &b}) {
         if (s->is_plain()) continue;
         const auto value = interpret(s->program, state);
@@ -101,7 +101,7 @@ std::optional<long double> residual(const System& a, const System& b, std::mt199
     return worst;
 }
 
-/// Are all entries equal by their normal forms? False too where that takes too long to tell.
+/// Do all entries have equal normal forms? False also if that takes too long to decide.
 bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanism& mechanism, double seconds) {
     if (a.speeds_are_rates() != b.speeds_are_rates() || a.A.size() != b.A.size()) return false;
     const Mechanism m = with_own_intermediates(in_terms_of(a, mechanism));
@@ -132,10 +132,11 @@ bool equal_by_normal_form(const Equations& a, const Equations& b, const Mechanis
 
 Derivations derive_all(const Mechanism& mechanism) {
     Derivations result;
-    Mechanism m = mechanism;  // with what the formalisms before have named: what is equal has one symbol
+    // With the intermediate symbols of the formalisms before, so that equal expressions have the same symbol.
+    Mechanism m = mechanism;
     for (const Formalism& f : formalisms()) {
         if (!f.without_constraints.empty() && mechanism.constraints.empty())
-            continue;  // another one, word for word
+            continue;  // this formalism is identical with another one
         if (const auto obstacle = f.obstacle(m)) {
             result.refused.emplace_back(f.name, *obstacle);
             continue;
@@ -243,7 +244,7 @@ Agreed agree(Scene scene, double seconds) {
     const auto start = std::chrono::steady_clock::now();
     Agreed result{prepared(std::move(scene))};
     Mechanism& m = result.mechanism;
-    m = without_constraints(std::move(m), redundant_constraints(m));  // as `derive` has it
+    m = without_constraints(std::move(m), redundant_constraints(m));  // as in `derive`
     if (const std::optional<Diagnostic> mistake = mistake_in_speeds(m)) fail(result.scene, {*mistake});
     result.derivations = derive_all(m);
     result.agreement = agree(result.derivations.equations, m, seconds);

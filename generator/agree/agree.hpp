@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Do all formalisms say the same?
+/// Decides whether all formalisms give the same equations of motion.
 ///
 ///     const Agreed all = agree(read_scene("scenes/textbook/coin.toml"));
 ///     const Agreement result = agree(derive_all(mechanism).equations, mechanism);
 ///     result.verdict == Agreement::Verdict::proved
 ///
-/// First exactly, modulo 2⁶¹ − 1 at random points: the reduced row echelon form of [−Aᵀ M | f; 0 A | γ] is the
-/// same for all formalisms if and only if they have the same solutions, also where M is singular. Equations in
-/// speeds are compared by the q'' that they give, at rates that obey the constraints they have eliminated. Then
-/// the Fourier normal form of the entries, where it ends quickly: then the method is `proved`, otherwise
-/// `sampled`, and 2^failure bounds the chance that the sampling has missed a difference (failure ≤ −60). A
-/// difference is `refuted` once it is seen in long double arithmetic too, `undecided` otherwise: the modular
-/// evaluation does not know every identity between functions.
+/// The equations are first compared exactly, modulo 2⁶¹ − 1 at random points: the reduced row echelon form of [−Aᵀ
+/// M | f; 0 A | γ] is the same for all formalisms if and only if they have the same solutions, also where M is
+/// singular. Equations in speeds are compared by their q'', at rates that obey the constraints that they have
+/// eliminated. Then the Fourier normal forms of the entries are compared, if they can be computed quickly; if so,
+/// the method is `proved`, otherwise `sampled`, and 2^failure bounds the probability that sampling has missed a
+/// difference (failure ≤ −60). If there is a difference, the verdict is `refuted` if it shows in long double
+/// arithmetic too, otherwise `undecided`, because the modular evaluation does not know every identity between
+/// functions.
 
 #include "formalism/formalisms.hpp"
 #include "state/prepared.hpp"
@@ -24,26 +25,26 @@ struct Derivations {
     std::vector<Equations> equations;
     std::vector<std::pair<std::string, std::string>> refused;  ///< name, reason
 };
-/// By every formalism that applies.
+/// Derives the equations by every formalism that applies.
 Derivations derive_all(const Mechanism& mechanism);
 
 struct Agreement {
     enum class Verdict { proved, refuted, undecided };
     Verdict verdict = Verdict::undecided;
-    bool normal_form = false;  ///< proved by normal form, not by sampling alone
-    double failure = 0;        ///< log₂ of the chance that sampling alone is wrong
+    bool normal_form = false;  ///< whether it is proved by normal form and not by sampling only
+    double failure = 0;        ///< log₂ of the probability that sampling alone is wrong
     int points = 0;
-    std::string reason;  ///< where refuted: which two differ and how; where undecided: why
+    std::string reason;  ///< if refuted, which two differ and how; if undecided, why
 };
 
-/// Compares all with the first. `seconds`: how long the normal form may take.
+/// Compares all equations with the first. `seconds` limits the time for normal forms.
 Agreement agree(const std::vector<Equations>& equations, const Mechanism& mechanism, double seconds = 10);
 
-/// The whole verb: a scene's formalisms and what they agree on.
+/// The result of the verb: a scene's formalisms and their agreement.
 struct Agreed : Prepared {
     Derivations derivations = {};
     Agreement agreement = {};
-    double seconds = 0;  ///< by the clock on the wall
+    double seconds = 0;  ///< wall time
 };
 
 /// Derives by every formalism that applies, and compares. Throws SceneError for a mistake in the scene.

@@ -88,7 +88,7 @@ std::optional<Echelon> echelon(const System& s, ModularPoint point, const Modula
         return std::any_of(row.begin(), row.begin() + hidden, [](Prime x) { return !x.is_zero(); });
     });
     for (std::vector<Prime>& row : result.rows) row.erase(row.begin(), row.begin() + hidden);
-    // Rows of zeros are as many as the system had too many.
+    // Redundant rows of the system have become rows of zeros.
     std::erase_if(result.rows, [](const std::vector<Prime>& row) {
         return std::all_of(row.begin(), row.end(), [](Prime x) { return x.is_zero(); });
     });

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One formalism's equations as numbers: rows of unknowns and a right-hand side, exactly modulo a prime or in
-/// floating point.
+/// The equations of one formalism as numbers: rows of coefficients and a right-hand side, exactly modulo a prime
+/// or in floating point.
 ///
-/// Unknowns: hidden ones, the multipliers of constraints that every system keeps, then q''. Hidden are u' of a
-/// system in speeds, and the multipliers of constraints that another system has eliminated. The rows whose pivots,
-/// in reduced row echelon form, come after the hidden columns say what the system says of the other unknowns.
+/// The unknowns are hidden ones, then the multipliers of constraints that every system keeps, then q''. The hidden
+/// ones are u' of a system in speeds, and the multipliers of constraints that another system has eliminated. In
+/// reduced row echelon form, the rows whose pivots come after the hidden columns are the equations for the other
+/// unknowns.
 
 #include <map>
 #include <optional>
@@ -20,36 +21,39 @@ namespace alembert {
 struct System {
     std::string formalism;
     Program program;
-    int n = 0, speeds = 0;                  ///< coordinates, speeds
-    std::vector<int> mass, forcing;         ///< mass: lower triangle
-    std::vector<std::vector<int>> A;        ///< in speeds
-    std::vector<int> gamma, rates, second;  ///< rates: q', second: q'' in u'; empty where u = q'
-    std::vector<int> columns;               ///< of the multipliers of A's rows
-    int hidden = 0, common = 0;             ///< columns
+    int n = 0, speeds = 0;            ///< coordinates, speeds
+    std::vector<int> mass, forcing;   ///< mass is the lower triangle
+    std::vector<std::vector<int>> A;  ///< the rows in terms of speeds
+    std::vector<int> gamma, rates,
+        second;                  ///< `rates` are q', `second` is q'' in terms of u'; both are empty if u = q'
+    std::vector<int> columns;    ///< the columns of the multipliers of A's rows
+    int hidden = 0, common = 0;  ///< columns
     std::vector<int> wanted;
 
-    /// Where u = q' leaves out nothing.
+    /// Whether u = q', so that no constraint is eliminated.
     bool is_plain() const { return rates.empty(); }
     int unknowns() const { return hidden + common; }
 };
 
-/// `somewhere_eliminated`: positions in Mechanism::constraints that one of the systems has eliminated.
+/// `somewhere_eliminated` are positions in Mechanism::constraints of constraints that one of the systems has
+/// eliminated.
 System system_of(const Equations& equations, const Mechanism& mechanism,
                  const std::vector<int>& somewhere_eliminated);
 
-/// Values of all nodes, and q'' = B u' + c.
+/// The values of all nodes, and q'' = B u' + c.
 template <typename Real>
 struct SystemValues {
     std::vector<Real> value;
     std::vector<Real> c;
-    std::vector<std::vector<Real>> B;  ///< by speed
+    std::vector<std::vector<Real>> B;  ///< one column for each speed
 };
 
-/// −Aᵀλ + M u' = f,  A u' = γ,  q'' − B u' = c.
+/// The rows of −Aᵀλ + M u' = f, A u' = γ, q'' − B u' = c.
 template <typename Real>
 std::vector<std::vector<Real>> rows_of(const System& s, const SystemValues<Real>& at) {
     const std::size_t size = static_cast<std::size_t>(s.speeds), width = static_cast<std::size_t>(s.unknowns());
-    const std::size_t q = width - static_cast<std::size_t>(s.n), u = s.is_plain() ? q : 0;  // where u' begins
+    // The first column of u'.
+    const std::size_t q = width - static_cast<std::size_t>(s.n), u = s.is_plain() ? q : 0;
     std::vector<std::vector<Real>> result;
     for (std::size_t i = 0; i < size; ++i) {
         std::vector<Real> row(width + 1, Real(0));
@@ -77,7 +81,7 @@ std::vector<std::vector<Real>> rows_of(const System& s, const SystemValues<Real>
     return result;
 }
 
-/// From `evaluate(accelerations)`, which gives all nodes' values at u'.
+/// Computes B and c with `evaluate(accelerations)`, which gives the values of all nodes for given u'.
 template <typename Real, typename Evaluate>
 SystemValues<Real> values_of(const System& s, const Evaluate& evaluate) {
     std::vector<Real> udot(static_cast<std::size_t>(s.speeds), Real(0));
@@ -95,15 +99,15 @@ SystemValues<Real> values_of(const System& s, const Evaluate& evaluate) {
     return result;
 }
 
-/// Given values of the rates in place of random ones; none: random.
+/// Given values of the rates; those that are missing are random.
 using RatesModP = std::map<std::pair<Variable::Kind, int>, Prime>;
 
 struct Echelon {
-    std::vector<std::vector<Prime>> rows;  ///< of the unknowns that are not hidden
+    std::vector<std::vector<Prime>> rows;  ///< the rows for the unknowns that are not hidden
     double degree = 1, conditions = 0;
 };
 
-/// q' where u is random; nothing at an unusable point. `degree` of these values in the random ones.
+/// q' for random u; nothing at an unusable point. `degree` is that of these values in the random ones.
 struct ModularRates {
     RatesModP rates;
     double degree = 1;

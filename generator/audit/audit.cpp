@@ -24,7 +24,7 @@ using GiNaC::ex;
 namespace {
 
 constexpr int most_states = 6;
-constexpr std::size_t most_special = 12;  // constraints: beyond, nobody asks what special parameters change
+constexpr std::size_t most_special = 12;  // for more constraints, the effect of special parameters is not examined
 
 std::string quoted(const Mechanism& m, const std::vector<int>& which) {
     std::vector<std::string> names;
@@ -87,7 +87,7 @@ private:
         return std::any_of(rates.begin(), rates.end(), [&](const ex& e) { return vanishes(e, m_) != true; });
     }
 
-    /// Residuals at the start, guesses adjusted where that leads anywhere.
+    /// Computes the residuals at the start, after an adjustment of the guesses if that succeeds.
     void settle(const Start& start) {
         const Program program = lower_constraints(m_);
         Start moved = start;
@@ -197,7 +197,7 @@ private:
         result_.failure = joint_.failure;
         result_.integrals = joint_.integrals;
         if (joint_.on_variety && !contradictory_ && static_cast<int>(joint_.independent.size()) < result_.rank) {
-            // Rounding may leave a little of a row that is exactly zero.
+            // Rounding may leave a small rest of a row that is exactly zero.
             redundant_.clear();
             for (int k = 0; k < static_cast<int>(m_.constraints.size()); ++k)
                 if (std::find(joint_.independent.begin(), joint_.independent.end(), k) == joint_.independent.end())
@@ -207,7 +207,7 @@ private:
         result_.exact_rank = joint_.on_variety && static_cast<int>(joint_.independent.size()) == result_.rank;
         if (joint_.on_variety) result_.generic_rank = static_cast<int>(joint_.independent.size());
         if (contradictory_) {
-            // Rank and redundancy as exact arithmetic sees them: no state is at hand.
+            // Rank and redundancy are those of exact arithmetic, because there is no state.
             result_.rank = static_cast<int>(joint_.independent.size());
             result_.degrees_of_freedom = n_ - result_.rank;
             for (AuditedConstraint& c : result_.constraints) c.redundant = false;
@@ -338,7 +338,7 @@ private:
         }
     }
 
-    /// Rows at states that obey the constraint, beside rows at the same states moved a little.
+    /// Compares rows at states that obey the constraint with rows at states close to these.
     bool gradient_vanishes(std::size_t k) const {
         const Mechanism one = only(static_cast<int>(k));
         const Program program = lower_constraints(one);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a scene's constraints are worth: kinds, rank, integrability, the initial state.
+/// An audit of a scene's constraints: kinds, rank, integrability, the initial state.
 ///
 ///     const Audit audit = audit_of(mechanism);
 ///     audit.constraints[0].integral          // x − r·φ, of x' − r·φ' = 0
 ///     audit.degrees_of_freedom               // independent rates: n − rank
 ///
-/// Rank and redundancy are those that the equations of motion use: at states that obey the constraints, with the
+/// Rank and redundancy are those that the equations of motion use, at states that obey the constraints, with the
 /// scene's parameters (redundancy.hpp). Integrability is exact, for generic parameters (integrability.hpp).
 /// `exact_rank` says whether exact arithmetic on the constraint variety has found the same independent
 /// constraints.
@@ -24,13 +24,15 @@ namespace alembert {
 
 struct AuditedConstraint {
     std::string name;
-    bool holonomic = true;           ///< as declared
-    bool rheonomic = false;          ///< t occurs, and not only in how it is written
-    std::optional<bool> integrable;  ///< together with the others; true of holonomic ones
+    bool holonomic = true;   ///< as the scene declares it
+    bool rheonomic = false;  ///< whether the constraint depends on t, even after simplification
+    std::optional<bool>
+        integrable;  ///< whether it is integrable together with the others; true for holonomic ones
     std::optional<bool> alone;
-    std::optional<Phrase> integral;  ///< constant along every motion; zero, for holonomic ones
+    std::optional<Phrase>
+        integral;  ///< a function that is constant along every motion; for holonomic constraints it is zero
     bool redundant = false;
-    std::array<double, 2> residual{0, 0};  ///< of position and velocity, at the initial state
+    std::array<double, 2> residual{0, 0};  ///< residuals of position and velocity at the initial state
     std::vector<std::string> notes;
 };
 
@@ -42,19 +44,22 @@ struct Adjusted {
 struct Audit {
     std::vector<AuditedConstraint> constraints;
     int rank = 0, degrees_of_freedom = 0;
-    /// Independent functions of q and t that all motions keep; n minus these is the dimension of where they lead.
+    /// The number of independent functions of q and t that are constant along all motions; n minus this number is
+    /// the dimension of the set of positions that motions can reach.
     std::optional<int> integrals;
     bool exact_rank = false;
-    std::optional<int> generic_rank;  ///< for general parameters, where exact points of the variety were found
-    std::vector<int> contradictory;   ///< constraints that no state obeys together, as few as possible
-    double failure = 0;  ///< log₂ of the chance that a "yes, integrable" is wrong; 0 where none is at stake
-    /// Integrable combinations of constraints that are not: "left - right", and what it keeps.
+    std::optional<int> generic_rank;  ///< for general parameters, if exact points of the variety were found
+    std::vector<int> contradictory;   ///< a smallest set of constraints that no state obeys together
+    double failure = 0;  ///< log₂ of the probability that a "yes, integrable" is wrong; 0 if that is impossible
+    /// Integrable combinations of constraints that are not integrable themselves: "left - right", and its
+    /// integral.
     std::vector<std::pair<std::string, std::optional<Phrase>>> combinations;
     std::vector<Adjusted> adjusted;
-    State<double> start;                       ///< after the adjustment
+    State<double> start;                       ///< the initial state after the adjustment of guesses
     std::vector<SingularPose> singular_poses;  ///< `among` counts all constraints
     std::vector<std::string> notes;
-    /// Why the initial state does not do; `wrong`: the scene is wrong, otherwise the numbers failed.
+    /// The reason why the initial state cannot be used; with `wrong` the scene is wrong, otherwise the computation
+    /// failed.
     std::string problem;
     bool wrong = false;
 };
@@ -67,7 +72,7 @@ struct Audited : Prepared {
 };
 
 /// Throws SceneError for a mistake in the scene; contradictory constraints and an initial state that breaks them
-/// are no exception here, but stand in `audit.problem`.
+/// are not reported as exceptions but in `audit.problem`.
 Audited audit(Scene scene);
 
 }  // namespace alembert

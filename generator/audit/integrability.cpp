@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The null fields X_f = ∂_f − Σ C_pf ∂_p of the rows in echelon form: their brackets, and those of the X_f with
-// brackets, have pivot components alone; left-normed brackets span all others, and one that is a combination of
-// those before gives none that is not.
+// brackets, have only pivot components. Left-normed brackets span all others, and brackets of one that is a
+// combination of earlier ones are combinations too.
 #include "audit/integrability.hpp"
 
 #include <fmt/format.h>
@@ -22,11 +22,11 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr int few = 3, many = 16;  // points; many where few give no bound
+constexpr int few = 3, many = 16;  // numbers of points; the larger one is used if the smaller one gives no bound
 constexpr double surely = -60;
 constexpr int largest_program = 500000;
 
-/// d³F/dt³ of every input, which the mechanism has no symbol for. Inputs may hold each other.
+/// d³F/dt³ of every input, for which the mechanism has no symbol. Inputs may depend on each other.
 std::vector<ex> third_derivatives(const Mechanism& m) {
     GiNaC::exmap known;
     for (const Mechanism::Input& input : m.inputs) known[input.derivative[0]] = m.z->expand(input.value);
@@ -97,7 +97,7 @@ private:
         return std::move(result_);
     }
 
-    /// The nodes' values at every point; empty where a point became unusable.
+    /// The values of the nodes at every point; empty if a point became unusable.
     std::vector<std::vector<Prime>> evaluate(const std::vector<int>& nodes) {
         std::vector<std::vector<Prime>> result;
         double failure = 0, largest = 1;
@@ -121,7 +121,7 @@ private:
         return values_[point][form * size_ + variable];
     }
 
-    /// Those whose row raises the rank, at whichever point.
+    /// Finds the forms whose row raises the rank at some point.
     void find_independent() {
         std::vector<Rows> rates(points_), all(points_);
         std::vector<std::size_t> order;
@@ -194,8 +194,9 @@ private:
         return result;
     }
 
-    /// Adds brackets until no more raises the rank, which is at most the number of forms that are not exact; false
-    /// where they grow too large. In small lots, so that what is not needed is not made.
+    /// Adds brackets until no further one raises the rank, which is at most the number of forms that are not
+    /// exact; false if they grow too large. Brackets are made in small groups, so that few unnecessary ones are
+    /// made.
     bool close() {
         std::size_t lot = 2;
         for (const int k : result_.independent) most_ += options_.exact.empty() || !options_.exact[k] ? 1 : 0;
@@ -223,7 +224,8 @@ private:
         return true;
     }
 
-    /// Leaves in the list what is no combination of those kept before; false where it is too large to tell.
+    /// Keeps in the list the brackets that are no combinations of those kept before; false if they are too large
+    /// to decide.
     bool keep(std::vector<std::vector<ex>>& brackets) {
         std::vector<ex> flat;
         for (const std::vector<ex>& Z : brackets) flat.insert(flat.end(), Z.begin(), Z.end());
@@ -252,7 +254,7 @@ private:
     }
 
     void decide() {
-        // A determinant of at most as many rows as there are forms, and one bracket more.
+        // A determinant with at most as many rows as there are forms, plus one for a bracket.
         const double failure =
             points_ * (std::log2(2 * degree_ * static_cast<double>(pivots_.size() + 1)) - 61) + conditions_;
         const bool certain = result_.exact && result_.on_variety;
@@ -276,7 +278,7 @@ private:
                 result_.reason = "the forms are of too high a degree for a bound on the failure of sampling";
         }
         if (kept_nodes_.size() < most_ && result_.failure == 0.0)
-            result_.failure = failure;  // of the number of integrals
+            result_.failure = failure;  // the bound for the number of integrals
         find_combinations();
     }
 
@@ -321,8 +323,8 @@ private:
         return false;
     }
 
-    /// Constant coefficients c with Σ c_k w_k(Y) = 0 for all brackets Y: the same echelon form at all points, with
-    /// small numbers.
+    /// Finds constant coefficients c with Σ c_k w_k(Y) = 0 for all brackets Y. The echelon form is then the same
+    /// at all points, and its numbers are small.
     void find_combinations() {
         std::vector<std::size_t> unfit;
         for (const int k : result_.independent)
@@ -336,7 +338,8 @@ private:
             }
             reduce_rows(forms[p], unfit.size());
         }
-        // Every form beside its pivot: w_j − Σ (entries) w_pivot. One column must be constant for its combination.
+        // The combination of each form that is no pivot is w_j − Σ (entries) w_pivot. It exists if its column is
+        // constant.
         std::vector<std::size_t> pivot;
         for (const std::vector<Prime>& row : forms[0])
             for (std::size_t j = 0; j < unfit.size(); ++j)
@@ -377,12 +380,12 @@ private:
     Program program_;
     std::vector<int> entries_;
     Variety variety_;
-    std::vector<std::vector<Prime>> values_;  ///< of the entries, at every point
+    std::vector<std::vector<Prime>> values_;  ///< values of the entries at every point
     std::vector<std::size_t> pivots_;
     std::vector<std::vector<ex>> fields_;
-    std::vector<Rows> kept_;  ///< brackets that raised the rank, at every point
+    std::vector<Rows> kept_;  ///< the brackets that raised the rank, at every point
     std::vector<std::vector<int>> kept_nodes_;
-    std::size_t most_ = 0;  ///< brackets that can be independent
+    std::size_t most_ = 0;  ///< the most brackets that can be independent
     double degree_ = 1, conditions_ = 0;
     Integrability result_;
 };

@@ -16,7 +16,7 @@ using GiNaC::symbol;
 
 namespace {
 
-constexpr double largest_tree = 600;  // beyond, nobody finds it easy
+constexpr double largest_tree = 600;  // larger forms are not tried
 constexpr std::size_t most_terms = 400;
 
 class Integration {
@@ -47,7 +47,7 @@ public:
             a.push_back(all[j]);
         }
         for (const ex& factor : factors(a)) {
-            // What keeps its value may keep the value zero.
+            // A constant variable may have the value zero.
             if (std::any_of(frozen_.begin(), frozen_.end(), [&](const symbol& s) { return factor.has(s); }))
                 continue;
             std::vector<ex> b;
@@ -156,7 +156,7 @@ private:
         }
         if (moving.empty()) return e * x;
         const ex rest = GiNaC::mul(GiNaC::exvector(moving.begin(), moving.end()));
-        // One factor as the outer function of B, the others as a multiple of ∂B/∂x.
+        // One factor is tried as the outer function of B, and the others as a multiple of ∂B/∂x.
         for (const ex& outer : moving) {
             const bool power = GiNaC::is_a<GiNaC::power>(outer) && !outer.op(1).has(x);
             const bool function = GiNaC::is_a<GiNaC::function>(outer) && outer.nops() == 1;
@@ -180,7 +180,8 @@ private:
         return by_parts(constant, moving, x);
     }
 
-    /// ∫ xⁿ S(x) dx = xⁿ ∫S − n ∫ xⁿ⁻¹ ∫S, n a small whole number, S a function of what is linear in x.
+    /// ∫ xⁿ S(x) dx = xⁿ ∫S − n ∫ xⁿ⁻¹ ∫S, where n is a small whole number and S a function of an expression
+    /// linear in x.
     static std::optional<ex> by_parts(const ex& constant, const std::vector<ex>& moving, const symbol& x) {
         if (moving.size() != 2) return std::nullopt;
         for (const bool swap : {false, true}) {
@@ -197,7 +198,8 @@ private:
     const Mechanism& m_;
     std::vector<int> free_;
     std::vector<symbol> frozen_;
-    std::vector<symbol> variables_;  ///< whose coefficients are not zero, or that occur in others
+    std::vector<symbol>
+        variables_;  ///< variables whose coefficients are not zero, or that occur in other coefficients
 };
 
 }  // namespace
@@ -205,7 +207,7 @@ private:
 std::optional<ex> integral_of(const OneForm& form, const Mechanism& mechanism, const std::vector<int>& frozen) {
     try {
         return Integration(mechanism, frozen).go(form);
-    } catch (const std::domain_error&) {  // a candidate that divides by zero; GiNaC's poles too
+    } catch (const std::domain_error&) {  // a candidate that divides by zero, or a pole that GiNaC reports
         return std::nullopt;
     }
 }

@@ -18,7 +18,7 @@ namespace alembert {
 namespace {
 
 constexpr int starts = 48, most_rounds = 60;
-constexpr int largest = 30000;  // entries of the derivatives of A
+constexpr int largest = 30000;  // the most entries of the derivatives of A
 
 class Search {
 public:
@@ -80,7 +80,7 @@ public:
             q = simplified(q);
             if (near(q)) add(q, false);
         }
-        // Simple poses first, where there are many.
+        // If there are many poses, simple ones come first.
         const auto plain = [&](const SingularPose& pose) {
             int count = 0;
             for (const int i : moving_) {
@@ -104,7 +104,7 @@ public:
     }
 
 private:
-    /// A and f at q, rows in their usual sizes.
+    /// Computes A and f at q, rows in units of their usual sizes.
     void look(const std::vector<double>& q) {
         State<double> state = state_;
         state.q = q;
@@ -120,7 +120,7 @@ private:
         }
     }
 
-    /// The derivatives of A at q.
+    /// Computes the derivatives of A at q.
     void look_at_slopes(const std::vector<double>& q) {
         State<double> state = state_;
         state.q = q;
@@ -167,7 +167,7 @@ private:
         return J;
     }
 
-    /// What tends to zero at infinity is no singular pose.
+    /// A singular value that tends to zero at infinity gives no singular pose.
     bool near(const std::vector<double>& q) const {
         return std::all_of(moving_.begin(), moving_.end(), [&](int i) {
             return std::abs(q[i] - state_.q[i]) <= 4 * std::numbers::pi * std::max(1.0, std::abs(state_.q[i]));
@@ -214,7 +214,7 @@ private:
         return r.norm() < 1e-9;
     }
 
-    /// The same pose with simpler numbers, where it is singular as well.
+    /// The same pose with simpler numbers, if it is singular there too.
     std::vector<double> simplified(std::vector<double> q) {
         for (const int i : moving_)
             for (double other : {0.0, state_.q[i], std::remainder(q[i], 2 * std::numbers::pi)}) {

@@ -154,7 +154,7 @@ std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& m) {
 namespace {
 
 struct Powers {
-    std::vector<std::pair<std::size_t, int>> of;  ///< which steady value, its exponent
+    std::vector<std::pair<std::size_t, int>> of;  ///< the constant value, and its exponent
     int size() const {
         int sum = 0;
         for (const auto& [which, exponent] : of) sum += std::abs(exponent);
@@ -167,7 +167,7 @@ Prime raised(Prime x, int exponent) {
                         : x.power(static_cast<std::uint64_t>(exponent));
 }
 
-/// All products of at most three of `ratios` to small powers; of two equal ones the simpler.
+/// All products of at most three of `ratios` to small powers; of two with equal values, the simpler one.
 std::map<Prime, Powers> table_of(const std::vector<Prime>& ratios) {
     constexpr int highest = 2;
     constexpr std::size_t most_factors = 3, most_entries = 60000;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which term does a claim lack? For claims that are no multiple of an equation of motion: integrals, eliminated
-/// equations.
+/// Finds a term that a claim lacks, for claims that are no multiple of an equation of motion: integrals,
+/// eliminated equations.
 ///
 ///     // "m*l^2*theta'^2/2", "r'*phi'" …
 ///     const std::vector<std::string> terms = terms_of_mechanics(claim, mechanism, equations);
 ///     // residual + (3/2)·m·terms[7] = 0 on every motion
 ///     absent_term(program, residual, nodes_of_terms, steady, states)
 ///
-/// A term t is lacking from r if −r/t is the same number times powers of parameters at all states. The powers are
-/// found from two states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, looked up in a
-/// table of all small powers.
+/// A term t is missing from r if −r/t is the same number times powers of parameters at all states. The powers are
+/// found from two states: Π ρ_j^e_j = w with ρ_j the ratios of the parameters and w that of −r/t, and are looked
+/// up in a table of all small powers.
 
 #include <optional>
 #include <string>
@@ -32,11 +32,11 @@ std::vector<std::string> terms_of_mechanics(const Claim& claim, const Mechanism&
 std::vector<std::string> steady_sums(const Claim& claim, const Mechanism& mechanism);
 
 struct Absent {
-    std::size_t term = 0;     ///< which
+    std::size_t term = 0;     ///< the position of the term
     std::string coefficient;  ///< "-2*m/l", "1"
 };
 
-/// A value that no motion changes, as a node and as text: parameters and sums of them.
+/// A constant value, as a node and as text: parameters and sums of them.
 struct Steady {
     std::string text;
     int node = 0;

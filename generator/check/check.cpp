@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion (check/vanishing.hpp).
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false
+// holds at a random point of GF(p) with a probability of at most d/p (Schwartz, J. ACM 27 (1980) 701).
 #include "check/check.hpp"
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ public:
             if (here.empty()) continue;
             if (when_ == "impact" && !claims_.after_impact())
                 for (const std::size_t k : here) result_.claims[k].reason = claims_.impact_obstacle();
-            else  // the rates after an impact are expressions by now, in what any state of motion gives
+            else  // the rates after an impact have become expressions in the variables of any state of motion
                 while (!here.empty()) {
                     const std::vector<std::size_t> spoken = undetermined_in(here.front());
                     std::vector<std::size_t> part = here;
@@ -108,10 +109,10 @@ private:
         return law;
     }
 
-    /// What is a combination of the equations and constraints needs no state that obeys the constraints, which may
-    /// be hard to find; gives those that are none.
+    /// Settles claims that are combinations of the equations and constraints. They need no state that obeys the
+    /// constraints, which may be hard to find. Returns the other claims.
     std::vector<std::size_t> without_combinations(const std::vector<std::size_t>& here, Motions::At at) {
-        if (!m_.redundant.empty()) return here;  // which share each bears is decided on the constraints only
+        if (!m_.redundant.empty()) return here;  // the share of each is determined only on the constraints
         std::vector<std::size_t> left = here;
         if (at == Motions::At::rest) {
             std::erase_if(left, [&](std::size_t k) {
@@ -201,7 +202,7 @@ private:
         const bool may_combine = at == Motions::At::rest || (when_ == "motion" && is_bound);
         const std::vector<std::size_t> here = may_combine ? without_combinations(asked, at) : asked;
         if (here.empty()) return;
-        // Angles in halves only where they occur: every halving doubles the degrees.
+        // Half angles are used only if they occur, because every halving doubles the degrees.
         std::optional<ExactStates> states;
         for (const int halves : {0, 1, 2}) {
             states.emplace(m_, law_, at, halves, halvings_in(here));
@@ -420,14 +421,14 @@ private:
     const Scene& scene_;
     const Mechanism& m_;
     const Equations& e_;
-    Equations law_;                    // of the claims in hand
-    std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in it
+    Equations law_;                    // the equations for the current claims
+    std::vector<std::size_t> spoken_;  // the multipliers of m_.undetermined() in them
     Claims claims_;
     std::shared_ptr<RootSheets> sheets_;
-    std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of what is tried in their place
+    std::vector<ex> positive_;  // on the sheet of the scene and its claims, not of repairs that are tried
     std::vector<ClaimForm> forms_;
     std::string when_;
-    std::set<std::size_t> wrong_;  // of the group in hand
+    std::set<std::size_t> wrong_;  // the wrong claims of the current group
     Checked result_;
 };
 

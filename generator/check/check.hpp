@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Does a hand derivation hold?
+/// Checks a hand derivation.
 ///
 ///     const Checked result = check(scene, mechanism);          // the claims of the scene
 ///     result.claims[0].verdict == Verdict::proved
 ///
-/// A claim is an equation in what the scene declares. It is right if it holds at every state that obeys the
-/// constraints and their derivatives, with the accelerations and multipliers that the equations give there; so
-/// multiples, combinations and rewritings with the constraints are right, whatever they look like. Decided by
-/// exact evaluation modulo 2⁶¹ − 1 at random such states (exact/motions.hpp), until the chance of an error is
-/// below 2⁻⁶⁰; where the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
+/// A claim is an equation in the names that the scene declares. It is right if it holds at every state that obeys
+/// the constraints and their derivatives, with the accelerations and multipliers that the equations give there; so
+/// multiples, combinations and rewritings with the constraints are right in any form. This is decided by exact
+/// evaluation modulo 2⁶¹ − 1 at random such states (exact/motions.hpp), until the probability of an error is below
+/// 2⁻⁶⁰. If the normal form of claim − Σ c_i · equation_i is zero, that is a proof by itself.
 ///
 ///  - unknowns are functions of the state that the author leaves open. Claims are linear in them: B(state) μ =
-///    d(state) must be solvable at every state. A claim whose row the others' rows do not imply is vacuous: some
-///    unknown takes up whatever it says.
+///    d(state) must be solvable at every state. A claim whose row does not follow from the rows of the others is
+///    vacuous: some unknown can be chosen so that it holds.
 ///  - constants of the motion: F(state, c) = 0 and, c being constant, its time derivatives, as a linear system for
 ///    c.
 ///  - kinematic: claims that need no equation of motion are told so; a scene without masses has no others.
@@ -33,16 +33,16 @@
 namespace alembert {
 
 struct Checked {
-    std::vector<CheckedClaim> claims;  ///< as in Scene::claims
-    bool complete = false;             ///< with the constraints, the proved claims fix every acceleration
+    std::vector<CheckedClaim> claims;  ///< in the order of Scene::claims
+    bool complete = false;  ///< whether the proved claims, with the constraints, determine every acceleration
 };
 
-/// Throws SceneError for a claim that the mechanism cannot read.
-/// `sheets`: those on which the mechanism was built, if it was.
+/// Throws SceneError for a claim that cannot be translated to the symbols of the mechanism. `sheets` are those on
+/// which the mechanism was built, if any.
 Checked check(const Scene& scene, const Mechanism& mechanism, const std::shared_ptr<RootSheets>& sheets = {});
 
-/// The whole verb: the claims of the scene, held against equations derived by the formalism of that name, or the
-/// teacher's choice. Throws ModelError where there are no claims.
+/// The result of the verb: the claims of the scene, compared with equations derived by the named formalism, or by
+/// the one that a teacher would choose. Throws ModelError if there are no claims.
 struct CheckedScene : Derived {
     Checked checked = {};
 };

@@ -42,7 +42,7 @@ Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& 
     for (int i = 0; i < m_.size(); ++i) formulas_.know(m_.q[i].get_name() + "'(-)", m_.qddot[i]);
 }
 
-// The definitions that `derive` prints beyond the readable size, where a claim speaks of them.
+// Declares the definitions that `derive` prints when equations exceed the readable size, if a claim uses them.
 void Claims::know_intermediates(const Scene& scene) {
     const std::function<bool(const Tree&)> has_one = [&](const Tree& tree) {
         if (tree.kind == Tree::Kind::name && tree.text[0] == 'z' && tree.text.size() > 1) return true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The claims of a scene as programs: what is zero if they are right, and how it depends on what the author leaves
-/// open.
+/// The claims of a scene as programs: expressions that are zero if the claims are right, and their dependence on
+/// the names that the author leaves open.
 
 #include <map>
 #include <set>
@@ -17,9 +17,9 @@ namespace alembert {
 struct ClaimForm {
     GiNaC::ex residual;
     std::vector<GiNaC::ex>
-        derivatives;        ///< with respect to time, as far as accelerations reach; only of integrals
+        derivatives;        ///< time derivatives, up to those that contain accelerations; only for integrals
     std::vector<int> open;  ///< positions in Claims::open of the names that occur
-    bool linear = true;     ///< in these
+    bool linear = true;     ///< whether it is linear in these names
     int order = 0;          ///< highest derivative of a coordinate
 };
 
@@ -40,8 +40,8 @@ public:
     ClaimForm read(const Claim& claim);
     GiNaC::ex read(const Expression& expression) { return m_.z->name(formulas_.value(expression)); }
 
-    /// Rates after the scene's impulses (§ `contact/impact.hpp`), as expressions at the pose where it starts;
-    /// nothing where they are known in numbers only, or not at all: then `impact_obstacle` says why.
+    /// The rates after the scene's impulses (contact/impact.hpp), as expressions at the initial pose. Nothing if
+    /// they are known only as numbers, or not at all; `impact_obstacle` then gives the reason.
     const std::optional<Impact::Exact>& after_impact();
     const std::string& impact_obstacle() const { return impact_obstacle_; }
 
@@ -69,7 +69,7 @@ private:
     std::string impact_obstacle_;
 };
 
-/// The time derivative at most `times` times, each in q'' at the highest; nothing more once it would hold q'''.
+/// At most `times` successive time derivatives, none of which contains q'''.
 int order_of(const GiNaC::ex& e, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -61,7 +61,7 @@ Counterexample described(const Told& told, const RealState& state, const numeric
     return result;
 }
 
-/// Is the state on the sheet of roots on which claims are held?
+/// Tests whether a state is on the sheet of roots on which claims are checked.
 class OnSheet {
 public:
     explicit OnSheet(const Told& told) : nodes_(told.claims.lower(program_, told.positive)) {}
@@ -85,7 +85,7 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
     const auto start = std::chrono::steady_clock::now();
     for (unsigned seed = 0; seed < 1200; ++seed) {
         if (std::chrono::steady_clock::now() - start > std::chrono::seconds(4) && seed > 40)
-            break;  // far beyond what a right answer takes
+            break;  // much longer than a right answer takes
         const auto state = real_state(motions, p, {root}, seed);
         if (!state || !is_on_sheet(*state)) continue;
         const auto value = evaluate(p, *state, {root});
@@ -121,8 +121,8 @@ std::optional<Counterexample> counterexample(const Told& told, const Motions& mo
         for (const Open& o : names) state->value[{o.variable.kind, o.variable.index}] = 0;
         const auto value = evaluate(rows.program, *state, roots);
         if (!value) continue;
-        // Rows of the right claims first, then of the other wrong ones, then this one's: the first that
-        // contradicts.
+        // The rows of the right claims come first, then those of the other wrong ones, then those of this claim.
+        // The first row that contradicts is shown.
         std::vector<std::size_t> sequence(rows.list.size());
         std::iota(sequence.begin(), sequence.end(), std::size_t{0});
         std::stable_sort(sequence.begin(), sequence.end(), [&](std::size_t a, std::size_t b) {

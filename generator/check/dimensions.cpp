@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A dimension is a product of powers of base units; the terms of a sum have one dimension (Bridgman, Dimensional
-// Analysis (1922), chapter 2).
+// A dimension is a product of powers of base units; all terms of a sum have the same dimension (Bridgman,
+// Dimensional Analysis (1922), chapter 2).
 #include "check/dimensions.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace alembert {
 namespace {
 
 using Dimension = std::map<std::string, double>;  ///< base unit → exponent, none of them 0
-using Known = std::optional<Dimension>;           ///< nothing: may be any
+using Known = std::optional<Dimension>;           ///< nothing if it may be any
 
 Dimension multiplied(Dimension a, const Dimension& b, double exponent = 1) {
     for (const auto& [base, power] : b)
@@ -23,7 +23,7 @@ Dimension multiplied(Dimension a, const Dimension& b, double exponent = 1) {
     return a;
 }
 
-/// "kg m^2/s": words with whole exponents, joined by spaces, points, * and /, which goes for the next word alone.
+/// "kg m^2/s": words with whole exponents, joined by spaces, points, * and /; a / applies to the next word only.
 class UnitText {
 public:
     explicit UnitText(const std::string& text) : text_(text) {}
@@ -141,7 +141,7 @@ private:
         terms.emplace_back(std::move(text), zero ? Known() : std::move(dimension));
     }
 
-    /// The dimension of most terms; another one's term is wrong.
+    /// The dimension of most terms; a term with another dimension is wrong.
     Known common(const Terms& terms) {
         std::map<Dimension, int> votes;
         for (const auto& [text, dimension] : terms)

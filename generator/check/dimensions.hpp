@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Terms of a claim whose dimension is not that of the others, by the units that the scene gives.
+/// Finds terms of a claim whose dimension differs from that of the others, by the units in the scene.
 ///
 ///     m*x'' + k*v = 0      // k in N/m, v in m/s: "k*v"
 
@@ -13,9 +13,9 @@
 
 namespace alembert {
 
-/// The first term, inside a sum or of a whole side, whose dimension differs from that of the most terms of its
-/// sum, as the claim has it; the later one of two. Nothing where all agree as far as units are given: a name
-/// without unit has any dimension. A unit that is not of the SI is a dimension of its own.
+/// The first term, inside a sum or of a whole side, whose dimension differs from that of most terms of its sum, as
+/// the claim writes it; if there are only two terms, the later one. Nothing if all terms agree as far as units are
+/// given: a name without a unit may have any dimension. A unit outside the SI is a dimension of its own.
 std::optional<std::string> term_of_wrong_unit(const Claim& claim, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -78,7 +78,7 @@ std::optional<Nearest> nearest_equation(const ex& residual, const Mechanism& m, 
                 tried.push_back(*scale);
                 const Fourier difference = *claim - *scale * *rows[i];
                 if (difference.size() == 0 || 2 * difference.size() > claim->size() + rows[i]->size()) continue;
-                // Of two that differ in as many terms, the one that agrees in more.
+                // Of two rows that differ in the same number of terms, the one that agrees in more is better.
                 const auto worth = [](const Fourier& d, const Fourier& row) {
                     return std::pair(d.size(), -static_cast<long>(row.size()));
                 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The equation of motion that a wrong one was meant to be, after matching the scale of its row.
+/// Finds the equation of motion that a wrong claim was probably meant to be, after matching the scale of its row.
 ///
 ///     if (const auto nearest = nearest_equation(residual, mechanism, equations))
 ///         nearest->difference;            // claim − scale·row, "2*m*g*sin(theta)"
@@ -18,24 +18,24 @@
 namespace alembert {
 
 struct Nearest {
-    int row = 0;  ///< of the equations; beyond them: of the constraints
+    int row = 0;  ///< a row of the equations; larger numbers are rows of the constraints
     Fourier scale;
     Fourier wrong;         ///< the difference
     std::string equation;  ///< scale·row = 0
     std::string difference;
 };
 
-/// Nothing where no row shares a term with it, or where it is too large.
+/// Nothing if no row has a term in common with the claim, or if the claim is too large.
 std::optional<Nearest> nearest_equation(const GiNaC::ex& residual, const Mechanism& mechanism,
                                         const Equations& equations);
 
-/// The rows' normal forms, M u' − f − Aᵀλ and A u' − γ; nothing in place of what is too large.
+/// The rows' normal forms, M u' − f − Aᵀλ and A u' − γ; nothing in place of rows that are too large.
 std::vector<std::optional<Fourier>> rows_of(const Mechanism& mechanism, const Equations& equations);
 
-/// Sums of the terms that differ by powers of parameters only: what stands as one term in a textbook.
+/// The sums of terms that differ by powers of parameters only; a textbook writes such a sum as one term.
 std::vector<Fourier> parts_of(const Fourier& f);
 
-/// c·m with b = c·m·a, m a product of powers of parameters; nothing where there is none.
+/// c·m with b = c·m·a, where m is a product of powers of parameters; nothing if there is none.
 std::optional<Fourier> steady_ratio(const Term& a, const Term& b);
 
 }  // namespace alembert

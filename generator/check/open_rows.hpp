@@ -23,15 +23,15 @@ std::vector<std::size_t> group_of(const Scene& scene, const std::vector<ClaimFor
 struct OpenRows {
     struct Row {
         std::size_t claim;
-        int rest;                ///< the row at open names zero
-        std::vector<int> slope;  ///< by open name
-        bool derived = false;    ///< a time derivative of its claim
-        bool last = false;       ///< the highest of them
+        int rest;                ///< the value of the row if all open names are zero
+        std::vector<int> slope;  ///< the coefficient of each open name
+        bool derived = false;    ///< whether the row is a time derivative of its claim
+        bool last = false;       ///< whether it is the highest of these
     };
     Program program;
     std::vector<Row> list;
 
-    /// Of each row the rest, then the slopes.
+    /// The rest of each row, then its slopes.
     std::vector<int> roots() const;
 };
 OpenRows open_rows(const Claims& claims, const std::vector<ClaimForm>& forms,
@@ -41,7 +41,7 @@ struct OpenMatrix {
     std::vector<std::vector<Prime>> rows;  ///< slopes, then −rest
     double chance = 0;                     ///< log₂ of the chance that what it says is wrong
 };
-/// Nothing where the rows cannot be evaluated.
+/// Nothing if the rows cannot be evaluated.
 std::optional<OpenMatrix> open_matrix(const OpenRows& rows, const ExactState& state);
 /// At the state of that number; nothing where there is none.
 std::optional<OpenMatrix> open_matrix(const OpenRows& rows, ExactStates& states, std::size_t number);
@@ -51,11 +51,11 @@ int rank_of(std::vector<std::vector<Prime>> rows, std::size_t columns);
 /// Is there a solution?
 bool consistent(const std::vector<std::vector<Prime>>& rows);
 
-/// Does the last row of claim k raise the rank of all the others but those of `without`? Then it only determines
-/// something open.
+/// Does the last row of claim k raise the rank of all other rows except those of `without`? Then it only
+/// determines an open name.
 bool pins(const OpenRows& rows, const OpenMatrix& at, const std::set<std::size_t>& without, std::size_t k);
 
-/// The fewest claims without which the others can be satisfied; where there is a choice, all of them.
+/// The smallest sets of claims without which the others can be satisfied; if there are several, their union.
 std::set<std::size_t> culprits(const OpenRows& rows, const OpenMatrix& at, const std::vector<std::size_t>& group);
 
 /// Which claims of the group are wrong: at some state, no choice of what they leave open satisfies them together.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A claim with one square root, as A + B √s. Where A² = B² s on every motion, the claim holds for one sign of the
-/// root at each state: on the branch on which −A/B > 0.
+/// A claim with one square root, in the form A + B √s. If A² = B² s on every motion, the claim holds for one sign
+/// of the root at each state: on the branch on which −A/B > 0.
 ///
 ///     x = r*cos(th) + sqrt(l^2 - r^2*sin(th)^2)      // of a slider-crank: proved where x − r cos(th) > 0
 
@@ -17,11 +17,11 @@ struct RootForm {
     GiNaC::ex root;  ///< −A/B, which is √s or −√s where `norm` vanishes
 };
 
-/// Nothing where there is no root, more than one, or too long an expression.
+/// Nothing if there is no root, or more than one, or if the expression is too long.
 std::optional<RootForm> root_form(const GiNaC::ex& residual, const Mechanism& mechanism);
 
 /// Is `value` (of coordinates, rates, accelerations and multipliers) positive at the scene's initial state? False
-/// too where it cannot be told.
+/// also if that cannot be decided.
 bool is_positive_at_start(const GiNaC::ex& value, const Claims& claims, const Equations& equations);
 
 }  // namespace alembert

@@ -16,13 +16,13 @@ using GiNaC::ex;
 
 namespace {
 
-/// A stretch of one side's text.
+/// A part of one side's text.
 struct Stretch {
     bool left = true;
     int offset = 0, length = 0;
 };
 
-/// A term of some sum, however deep; where it stands in its sum, and the outermost term that it is part of.
+/// A term of some sum at any depth, its position in the sum, and the outermost term of which it is a part.
 struct Summand {
     Stretch at;
     bool first = true, negated = false, compound = false;
@@ -33,7 +33,7 @@ struct Summand {
 struct Leaf {
     const Tree* tree;
     Stretch at, whole;
-    Stretch term;  ///< the innermost term of a sum, of a derivative or of a side that it is part of
+    Stretch term;  ///< the innermost term of a sum, a derivative or a side of which it is a part
     bool in_angle = false, exponent = false;
 };
 
@@ -58,7 +58,7 @@ public:
         signs();
         if (!found_) trigonometry();
         if (!found_) arguments();
-        // In rest a rate is zero, whatever it stands before; the rates after an impact have no derivatives.
+        // At rest a rate is zero, whatever it multiplies; the rates after an impact have no derivatives.
         if (!found_ && claim_.at == "motion") dots();
         if (!found_) parameters(true);
         if (!found_) numbers();
@@ -76,7 +76,7 @@ public:
 private:
     using Kind = Tree::Kind;
 
-    // Where what stands
+    // The places of the parts of a claim
 
     static Stretch stretch(const Tree& tree, bool left) { return {left, tree.offset, tree.length}; }
 
@@ -118,7 +118,7 @@ private:
 
     // Asking
 
-    /// The claim with these sides, if that is right.
+    /// The claim with these sides, if it is right.
     std::optional<std::string> ask(const std::string& lhs, const std::string& rhs) {
         asked_ += lhs.size() + rhs.size();
         if (asked_ > most_asked) return std::nullopt;
@@ -139,7 +139,7 @@ private:
         return found_.has_value();
     }
 
-    /// The same inside a term. A change that makes the term vanish on every motion sets nothing right.
+    /// The same inside a term. A change that makes the term vanish on every motion is no correction.
     bool try_change(const Leaf& leaf, const Stretch& at, const std::string& by, const std::string& kind) {
         if (found_ || !try_change(at, by, kind, trimmed(leaf.whole))) return found_.has_value();
         std::string term = slice(leaf.term);
@@ -261,7 +261,7 @@ private:
             parameters_.push_back(name);
             bool is_length = p.unit == "m";
             for (const MassElement& body :
-                 m_.masses)  // where units are not given; an angular rate is in positions too
+                 m_.masses)  // used if units are not given; an angular rate occurs in positions too
                 for (const ex& x : body.position)
                     is_length = is_length || (p.unit.empty() && m_.z->depends(x, {p.symbol}));
             const bool without_units = m_.masses.empty() && p.unit.empty();
@@ -270,7 +270,7 @@ private:
         }
     }
 
-    /// Another parameter for one, one more, one less: those that are lengths, or the others.
+    /// Replaces a parameter by another, adds one or removes one, among the lengths or among the others.
     void parameters(bool lengths) {
         const std::string kind = lengths ? "wrong_arm" : "factor";
         for (const Leaf& leaf : leaves_) {
@@ -314,14 +314,15 @@ private:
                     return;
             }
         }
-        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4"})  // alone on its side of the equation
+        // For a summand that is alone on its side of the equation.
+        for (const char* factor : {"2", "1/2", "3", "1/3", "4", "1/4"})
             for (const Summand& s : summands_)
                 if (try_change(s.at, scaled(s, "*", std::string("(") + factor + ")"),
                                s.in_angle ? "wrong_argument" : "factor", trimmed(s.whole)))
                     return;
     }
 
-    /// Is it all that the claim says is zero? "0 = 0" sets nothing right.
+    /// Is it the only summand of the claim? "0 = 0" is no correction.
     bool is_only_one(const Summand& s) const {
         return s.whole.offset == s.at.offset && s.whole.length == s.at.length &&
                std::none_of(summands_.begin(), summands_.end(), [&](const Summand& other) {
@@ -350,7 +351,7 @@ private:
 
     // With the nearest right equation
 
-    /// The claim less `wrong`, as text.
+    /// Tries the claim minus `wrong`, as text.
     bool try_without(const Fourier& wrong, const std::string& kind, const std::string& term) {
         const std::string addition = text(readable(Rational(-1) * wrong));
         const std::string lhs =
@@ -359,7 +360,7 @@ private:
         return found_.has_value();
     }
 
-    /// A term of the nearest equation, the whole of it.
+    /// Tries a missing term of the nearest equation as a whole.
     void missing_own() {
         if (!nearest_) return;
         const auto rows = rows_of(m_, e_);
@@ -369,7 +370,8 @@ private:
             if (is_zero(part - term)) try_without(nearest_->wrong, "missing_term", text(readable(term)));
     }
 
-    /// A force of the claim's own row and one of another, exchanged; or one too many.
+    /// Tries whether a force of the claim's own row was exchanged with one of another row, or a force was added
+    /// from another row.
     void wrong_row() {
         if (!nearest_ || nearest_->row >= e_.size()) return;
         const auto forces = [&](int i) {
@@ -386,7 +388,8 @@ private:
                     }
             return result;
         };
-        std::vector<Fourier> left{nearest_->wrong};  // what remains once the own force is put back
+        // The difference that remains after the own force has been restored.
+        std::vector<Fourier> left{nearest_->wrong};
         for (const Fourier& own : forces(nearest_->row)) left.push_back(nearest_->wrong - nearest_->scale * own);
         for (const Fourier& rest : left)
             for (int j = 0; j < e_.size(); ++j) {
@@ -423,7 +426,7 @@ private:
 
     void absent() {
         constexpr std::size_t most_tried = 12;
-        // A term that is there already, times something: the factor is wrong.
+        // If the term is there already with another factor, the factor is wrong.
         std::vector<std::string> own;
         for (const Summand& s : summands_)
             if (s.whole.offset == s.at.offset && s.whole.left == s.at.left && !s.in_angle)
@@ -455,7 +458,7 @@ private:
     std::set<std::string> lengths_;
     std::optional<Nearest> nearest_;
     std::optional<Slip> found_;
-    static constexpr std::size_t most_asked = 300000;  // bytes of claims: some tenths of a second
+    static constexpr std::size_t most_asked = 300000;  // in bytes of claims, which takes some tenths of a second
     std::size_t asked_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // r lies in span{g_j E_i} as functions if and only if the vector of its values at N > dim states lies in the span
-// of theirs, but for a chance of degree/p at each draw of the states (Schwartz, J. ACM 27 (1980) 701).
+// of theirs, except with a probability of degree/p at each draw of the states (Schwartz, J. ACM 27 (1980) 701).
 #include "check/static_combination.hpp"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ private:
         });
     }
 
-    /// What the coefficients are made of, and what the claim divides by.
+    /// Finds the factors of the coefficients, and the divisors in the claim.
     void find_factors() {
         std::vector<int> all = equations_;
         all.push_back(claim_);
@@ -135,7 +135,7 @@ private:
         return result;
     }
 
-    /// log₂ of the chance of an error; nothing where no multiple of the claim is in the span of the equations
+    /// log₂ of the probability of an error; nothing if no multiple of the claim is in the span of the equations
     /// times products of at most `degree` factors.
     std::optional<double> in_span(std::uint64_t draw, int degree) const {
         const auto right = products(factors_, degree), left = products(parameters_, 2);

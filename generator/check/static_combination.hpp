@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Is a claim about rest a combination of the static equations and the constraints?
+/// Decides whether a claim about rest is a combination of the static equations and the constraints.
 ///
 ///     const auto found = static_combination(claims, law, residual);
 ///     found && *found <= -60          // log₂ of the chance that the combination found does not exist
 ///
-/// The residual r, times its denominators and at most two parameters, is held against Σ c_ij g_j E_i: E_i are the
+/// The residual r, times its denominators and at most two parameters, is compared with Σ c_ij g_j E_i: E_i are the
 /// equations of motion and the constraints with q' = q'' = 0, g_j products of at most two of the parameters,
 /// coordinates, sines, cosines and roots that occur, c_ij numbers. r lies in the span of the g_j E_i if it does at
 /// more random states than there are c_ij. No state of rest is needed, so equations of rest that cannot be solved
-/// one after the other (exact/motions.hpp) are no obstacle. The c_ij are no functions of the parameters: these
-/// might have poles just where rest is possible, as 1/(m1 − m2) for two weights on a rope.
+/// one after the other (exact/motions.hpp) are no obstacle. The c_ij are not functions of the parameters, because
+/// such functions might have poles just where rest is possible, as 1/(m1 − m2) for two weights on a rope.
 
 #include <optional>
 
@@ -19,7 +19,7 @@
 
 namespace alembert {
 
-/// Nothing where no such combination was found, or where some equation of rest holds parameters alone.
+/// Nothing if no such combination was found, or if some equation of rest contains only parameters.
 std::optional<double> static_combination(const Claims& claims, const Equations& law, const GiNaC::ex& residual);
 
 }  // namespace alembert

@@ -14,7 +14,7 @@ namespace alembert {
 namespace {
 
 struct CheckOptions : SceneOptions {
-    std::string claims;  ///< a file; empty: the claims of the scene
+    std::string claims;  ///< a file; if empty, the claims of the scene
 };
 
 int exit_code(const Checked& checked) {

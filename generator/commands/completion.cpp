@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Completion scripts, written from the tree of verbs and options. What options take, values.hpp says. Names are
-// those of the program alone: letters, digits and hyphens. Descriptions are quoted.
+// Completion scripts, written from the tree of verbs and options. The values of options come from values.hpp.
+// Names consist only of letters, digits and hyphens, because they are the program's own. Descriptions are quoted.
 #include <fmt/format.h>
 
 #include <fmt/ranges.h>
@@ -27,7 +27,7 @@ std::string names_of(const CLI::App& app) {
     return names;
 }
 
-/// What a positional argument or an option takes; of VERB the verbs themselves.
+/// The values that a positional argument or an option takes; for VERB, the verbs themselves.
 ValueKind kind_of(const std::string& value, const CLI::App& app) {
     if (value == values::verb) {
         ValueKind kind{.name = value};
@@ -106,7 +106,7 @@ complete -F _alembert alembert
                        names_of(app), options, all, positions);
 }
 
-/// In single quotes of a shell.
+/// The text in single quotes for a shell.
 std::string quoted(std::string text) {
     for (std::size_t at = text.find('\''); at != std::string::npos; at = text.find('\'', at + 4))
         text.replace(at, 1, "'\\''");

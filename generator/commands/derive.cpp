@@ -13,7 +13,7 @@ namespace {
 struct DeriveVerb : SceneOptions {
     PageOptions page;
     bool reactions = false;
-    std::string draw;  ///< an SVG file; empty: none
+    std::string draw;  ///< an SVG file; empty for none
 };
 
 int run(const DeriveVerb& options) {

@@ -41,7 +41,7 @@ std::string name_of(const OptionText& option) {
     return text;
 }
 
-/// "  name      what it is", continued below itself.
+/// An entry " name description", whose description is continued in its own column.
 std::vector<std::string> entry(const std::string& name, const std::string& about, std::size_t indent) {
     std::vector<std::string> lines;
     const bool is_long = name.size() + 3 > indent;
@@ -74,7 +74,7 @@ std::vector<std::string> entries_of(const CLI::App& app) {
     return lines;
 }
 
-/// All words that options of the verb take, where they leave the help on one screen.
+/// All words that options of the verb take, if the help still fits on one screen.
 std::vector<std::string> lists_of(const CLI::App& app, std::size_t lines_until_now) {
     std::vector<std::string> lines;
     for (const OptionText& option : options_of(app)) {

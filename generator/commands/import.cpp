@@ -33,7 +33,7 @@ int run(const ImportOptions& options) {
             "{} angle{} a right angle written with few digits, as 1.5708; with --right-angles {} exact, "
             "which leaves terms out of the equations",
             rounded, rounded == 1 ? " is" : "s are each", rounded == 1 ? "it becomes" : "they become"));
-    parse_scene(scene.text, options.output);  // what it refuses is not written
+    parse_scene(scene.text, options.output);  // a scene that is refused is not written
     write_file(options.output, scene.text, {options.robot});
     for (const Diagnostic& remark : robot.remarks)
         std::cerr << fmt::format("{}:{}:{}: warning: {}\n", options.robot, remark.place.line, remark.place.column,

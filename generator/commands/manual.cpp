@@ -15,7 +15,7 @@ namespace alembert {
 
 namespace {
 
-/// Text as roff prints it: backslashes and hyphens are themselves, and no line is a request.
+/// Escapes text for roff, so that backslashes and hyphens are printed as they are and no line is a request.
 std::string roff(const std::string& text) {
     std::string result;
     if (!text.empty() && (text[0] == '.' || text[0] == '\'')) result = "\\&";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// In the place of page_server.cpp, where the program is built without cpp-httplib.
+// Replaces page_server.cpp if the program is built without cpp-httplib.
 #include "alembert/error.hpp"
 #include "commands/page_server.hpp"
 

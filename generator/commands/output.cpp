@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_links = 40;  // as the kernel follows
+constexpr int most_links = 40;  // the kernel follows as many
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
     throw CompileError(fmt::format("cannot write '{}': {}", path, reason));
@@ -42,7 +42,7 @@ struct Descriptor {
     int number;
 };
 
-/// Where a path leads, links followed: a file that is there or is to be made, or a descriptor of this process
+/// The target of a path after links: a file that exists or is to be made, or a descriptor of this process
 /// (/dev/stdout).
 struct Target {
     fs::path file;
@@ -70,7 +70,7 @@ Target target_of(const std::string& path) {
     fail(path, std::strerror(ELOOP));
 }
 
-/// What is there now.
+/// The status of the existing file.
 std::optional<struct stat> status_of(const Target& target) {
     struct stat info {};
     const bool there =
@@ -101,14 +101,15 @@ void check(const std::string& path, const Target& target, const std::vector<std:
                             path, input));
     }
     if (target.descriptor) return;
-    // The mode counts for the superuser too, who may write anyway: it says what the owner wants.
+    // The mode also counts for the superuser, who could write anyway, because it shows what the owner wants.
     if ((here->st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0)
         fail(path, fmt::format("it is read-only (mode {:04o}); chmod +w it, or name another file",
                                here->st_mode & 07777));
     if (access(target.file.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
 }
 
-/// The errno of the write that failed; 0: all is written. A pipe whose reader has gone is an error and no signal.
+/// The errno of the write that failed; 0 if everything was written. A pipe without a reader gives an error, not a
+/// signal.
 int write_all(int descriptor, std::string_view text) {
     struct sigaction ignored {
     }, before{};
@@ -132,12 +133,12 @@ void write_to_device(const std::string& path, const fs::path& file, const std::s
     if (const int error = write_all(opened.number, text); error != 0) fail(path, std::strerror(error));
 }
 
-/// `before`: of the file that is replaced.
+/// `before` is the status of the file that is replaced.
 void write_beside(const std::string& path, const fs::path& file, const std::string& text,
                   const std::optional<struct stat>& before) {
     fs::path part;
     int made = -1;
-    for (int k = 0; k < 100 && made < 0; ++k) {  // names of processes that were killed are passed over
+    for (int k = 0; k < 100 && made < 0; ++k) {  // names left by processes that were killed are skipped
         part = file.parent_path() / fmt::format(".alembert-{}-{}.part", getpid(), k);
         made = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (made < 0 && errno != EEXIST) break;
@@ -146,12 +147,14 @@ void write_beside(const std::string& path, const fs::path& file, const std::stri
     const Leftover beside(part);
     Descriptor opened(made);
     if (before) {
-        std::ignore = fchown(made, before->st_uid, before->st_gid);  // only the superuser can, and need
+        // Only the superuser can do this, and needs to.
+        std::ignore = fchown(made, before->st_uid, before->st_gid);
         if (fchmod(made, before->st_mode & 0777) != 0) fail(path, std::strerror(errno));
     }
     if (const int error = write_all(made, text); error != 0) fail(path, std::strerror(error));
     opened.number = -1;
-    if (close(made) != 0) fail(path, std::strerror(errno));  // some file systems find only now that they are full
+    // Some file systems notice only now that they are full.
+    if (close(made) != 0) fail(path, std::strerror(errno));
     if (rename(part.c_str(), file.c_str()) != 0) fail(path, std::strerror(errno));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Events are server-sent ones (WHATWG HTML, §9.2): "making" and "page". The frame around the page reloads it at
-// the second; the page itself is what `report` writes, under its own policy, which allows it no connections.
+// Events are server-sent events (WHATWG HTML, §9.2): "making" and "page". On the latter, the frame around the page
+// reloads it. The page itself is the one that `report` writes, under its own policy, which allows it no
+// connections.
 #include "commands/page_server.hpp"
 
 #include <fmt/format.h>
@@ -88,7 +89,7 @@ struct PageServer::State {
         response.set_header("Cross-Origin-Resource-Policy", "same-origin");
     }
 
-    /// Writes the news beyond `seen`, waiting for them; false: the stream is over.
+    /// Waits for events after `seen` and writes them; false if the stream is over.
     bool tell(httplib::DataSink& sink, std::pair<long, bool>& seen) {
         std::unique_lock lock(mutex);
         changed.wait_for(lock, heartbeat, [&] { return is_over || seen != std::pair(version, is_making); });

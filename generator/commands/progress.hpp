@@ -6,7 +6,7 @@
 ///     Progress progress;
 ///     progress.at("integrating", 0.3);              // as often as you like: it looks at the clock
 ///
-/// The bar is wiped when it goes out of scope.
+/// The bar is erased when the object goes out of scope.
 
 #include <chrono>
 #include <string_view>
@@ -20,10 +20,10 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// What is being done, and which part of it is over, from 0 to 1.
+    /// Sets the current task and the part of it that is done, from 0 to 1.
     void at(std::string_view what, double part);
 
-    /// Before something else is printed.
+    /// To be called before something else is printed.
     void wipe();
 
 private:

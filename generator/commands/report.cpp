@@ -17,7 +17,7 @@ struct ReportVerb : SceneOptions {
     bool moves = true;
 };
 
-/// What the mistake is, where the scene is no mechanism; then the page shows it.
+/// Writes a page that shows the mistake if the scene is no mechanism, and reports the mistake.
 [[noreturn]] void report_mistake(const ReportVerb& verb, const std::string& message) {
     write_file(verb.output, error_page(verb.scene, message), {verb.scene});
     throw;

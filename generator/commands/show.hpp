@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Results and warnings on their way to standard output and standard error (streams.hpp).
+/// Prints results and warnings to standard output and standard error (streams.hpp).
 
 #include <string>
 #include <vector>
@@ -11,15 +11,15 @@
 
 namespace alembert {
 
-/// Prints one JSON object, or text for a person.
+/// Prints one JSON object, or text for people.
 void show(const Json& result);
 void show(const std::string& text);
 
-/// Text with formulas: on a terminal its lines are wrapped to the width (wrap.hpp).
+/// Prints text with formulas; on a terminal its lines are wrapped to the width (wrap.hpp).
 void show_formulas(const std::string& text);
 
-/// Reads a scene. Its warnings, and those of all that is made from it, go to standard error as soon as they are
-/// found. Throws as read_scene.
+/// Reads a scene. Its warnings, and those of everything computed from it, are printed to standard error as soon as
+/// they are found. Throws like read_scene.
 Scene scene_of(const std::string& file);
 
 /// Prints each warning to standard error.

@@ -16,8 +16,8 @@ namespace alembert {
 namespace {
 
 struct SimulateVerb : RunVerb {
-    std::string plot;  ///< an SVG file; empty: none
-    std::string show;  ///< names of what it shows, with commas; empty: all
+    std::string plot;  ///< an SVG file; empty for none
+    std::string show;  ///< the names of the columns that it shows, with commas; if empty, all
 };
 
 int run(const SimulateVerb& verb) {

@@ -24,7 +24,7 @@ bool may_need_escape(unsigned char byte) {
     return (byte < 0x20 && byte != '\n' && byte != '\t') || byte >= 0x7F;
 }
 
-/// Bytes at the end that begin a UTF-8 character whose rest has not come yet.
+/// The number of bytes at the end that begin a UTF-8 character whose rest has not arrived yet.
 std::size_t unfinished(std::string_view text) {
     for (std::size_t back = 1; back <= std::min<std::size_t>(3, text.size()); ++back) {
         const auto byte = static_cast<unsigned char>(text[text.size() - back]);
@@ -36,12 +36,12 @@ std::size_t unfinished(std::string_view text) {
     return 0;
 }
 
-/// Where a stream's bytes go.
+/// The destination of a stream's bytes.
 struct Way {
     int descriptor;
     int error = 0;          ///< errno of the first write that failed
-    std::string held = {};  ///< the beginning of a character
-    bool colours = false;   ///< marks (ink.hpp) become colours
+    std::string held = {};  ///< the first bytes of an incomplete character
+    bool colours = false;   ///< whether marks (ink.hpp) become colours
 
     bool put(std::string_view text) {
         while (!text.empty() && error == 0) {
@@ -58,7 +58,7 @@ struct Way {
 // Never destroyed: the C library flushes its streams after everything else.
 Way &out = *new Way{STDOUT_FILENO}, &err = *new Way{STDERR_FILENO};
 
-/// Harmless, with escape sequences of our own in the place of marks.
+/// The text made harmless, with our own escape sequences in place of marks.
 std::string coloured(std::string_view text) {
     std::string result;
     std::size_t begin = 0;
@@ -72,7 +72,7 @@ std::string coloured(std::string_view text) {
     return result + harmless(text.substr(begin));
 }
 
-/// As fopencookie wants it: the number of bytes taken, 0 for an error.
+/// The write function for fopencookie: the number of bytes written, 0 for an error.
 ssize_t pass_on(void* cookie, const char* bytes, std::size_t size) {
     Way& way = *static_cast<Way*>(cookie);
     std::string text = way.held + std::string(bytes, size);
@@ -107,8 +107,8 @@ private:
     std::FILE* file_;
 };
 
-/// A closed descriptor would be given to the next file that is opened, and messages would be written into it.
-/// Writing to what takes its place fails.
+/// The next file that is opened would get a closed descriptor, and messages would be written into it. Therefore
+/// something to which writing fails is opened in its place.
 void keep_descriptors() {
     for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(descriptor, F_GETFD) < 0 &&

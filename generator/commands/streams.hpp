@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What the program says, on its way out: the one place through which standard output and standard error pass.
+/// The one place through which all text on standard output and standard error passes.
 ///
 ///     guard_streams();               // first thing in main
 ///     ... fmt::print, std::cout, std::cerr as anywhere ...
 ///     return finished(code);         // last thing in main
 ///
-/// Titles, names, file names and the compiler's messages are other people's text. Control characters, marks of
-/// writing direction and bytes that are not UTF-8 are shown as escapes, so that they cannot steer a terminal; line
-/// ends and tabs pass.
+/// Titles, names, file names and the compiler's messages come from outside. Control characters, marks of writing
+/// direction and bytes that are not UTF-8 are shown as escapes, so that they cannot control a terminal; line ends
+/// and tabs are kept.
 
 #include <string>
 #include <string_view>
@@ -17,11 +17,12 @@
 namespace alembert {
 
 /// Makes stdout, stderr, std::cout and std::cerr pass their text through `harmless`; keeps the first three
-/// descriptors from being taken by files if they are closed; and has SIGINT, SIGTERM, SIGHUP and SIGPIPE remove
-/// what is temporary (leftover.hpp) before they end the process. Signals that were ignored at the start stay so.
+/// descriptors from being taken by files if they are closed; and makes SIGINT, SIGTERM, SIGHUP and SIGPIPE remove
+/// temporary files (leftover.hpp) before they end the process. Signals that were ignored at the start remain
+/// ignored.
 void guard_streams();
 
-/// `code`, or 5 with a message on standard error if the standard output took not everything.
+/// `code`, or 5 with a message on standard error if not everything could be written to standard output.
 int finished(int code);
 
 /// Has a write to standard output failed?
@@ -31,7 +32,7 @@ bool output_failed();
 /// UTF-8.
 std::string harmless(std::string_view text);
 
-/// To standard error as it is: for our own escape sequences (progress bars).
+/// Writes to standard error without escaping, for our own escape sequences (progress bars).
 void raw_to_terminal(std::string_view text);
 
 }  // namespace alembert

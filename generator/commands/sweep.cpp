@@ -19,8 +19,8 @@ namespace {
 struct SweepVerb : RunVerb {
     std::vector<std::string> vary;
     int threads = 0;
-    std::string svg;   ///< a picture; empty: none
-    std::string show;  ///< names of what it shows, with commas; empty: the coordinates
+    std::string svg;   ///< an SVG picture; empty for none
+    std::string show;  ///< the names of the columns that it shows, with commas; if empty, the coordinates
 };
 
 int run(const SweepVerb& verb) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a terminal gets beyond what files and pipes get: colours, and lines that fit.
+/// Output features for terminals only: colours, and lines of the right width.
 
 #include <optional>
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace alembert {
 
-/// Marks where the descriptor is a terminal with colours, none elsewhere. NO_COLOR set to anything forbids them
-/// (no-color.org), and so does a TERM that is "dumb".
+/// An Ink with marks if the descriptor is a terminal with colours, otherwise without. NO_COLOR set to anything
+/// forbids colours (no-color.org), and so does a TERM that is "dumb".
 Ink ink_for(int descriptor);
 
-/// Columns; nothing where the descriptor is no terminal.
+/// The number of columns; nothing if the descriptor is no terminal.
 std::optional<int> columns_of(int descriptor);
 
-/// A message of an error or a warning with its place, "error" and the caret marked.
+/// An error or a warning with its place, the word "error" and the caret marked.
 std::string marked_message(const std::string& message, const Ink& ink, const std::string& tone);
 
 /// The escape sequence for the letter of a mark; empty for any other.

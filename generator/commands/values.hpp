@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What options take, by the word that stands for it in `--help`: completion in shells and the lists in the manual
-/// go by this table.
+/// The values that options take, by the word for them in `--help`. Completion in shells and the lists in the
+/// manual use this table.
 ///
 ///     verb.add_option("--by", options.by, "…")->type_name(values::formalism);
 ///     value_kind("FORMALISM")->words;                      // lagrange, kane …
@@ -23,13 +23,13 @@ inline constexpr const char *scene = "SCENE", *claims = "CLAIMS", *robot = "ROBO
 struct ValueKind {
     enum class Files { none, any, folders, ending };
     std::string name;
-    std::string plural = {};              ///< what a list of all words is called; empty where there is none
-    std::vector<std::string> words = {};  ///< all that may be given
+    std::string plural = {};              ///< the heading of a list of all words; empty if there is none
+    std::vector<std::string> words = {};  ///< all words that may be given
     Files files = Files::none;
-    std::string ending = {};  ///< of Files::ending, without the dot
+    std::string ending = {};  ///< the ending for Files::ending, without the dot
 };
 
-/// Null for a word that stands for something free.
+/// Null for a word whose values are free.
 const ValueKind* value_kind(const std::string& name);
 
 }  // namespace alembert

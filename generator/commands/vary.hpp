@@ -9,8 +9,8 @@
 
 namespace alembert {
 
-/// Throws ModelError: nothing to vary, what is not NAME=FROM:TO:COUNT with finite numbers and a count from 1, a
-/// name given twice, more than a million points.
+/// Throws ModelError if there is nothing to vary, if an item is not NAME=FROM:TO:COUNT with finite numbers and a
+/// count of at least 1, if a name is given twice, or if there are more than a million points.
 Grid grid_of(const std::vector<std::string>& vary);
 
 }  // namespace alembert

@@ -15,7 +15,7 @@ namespace alembert {
 
 namespace {
 
-/// CLI11 tells the range in 309 digits.
+/// CLI11 would print the range with 309 digits.
 CLI::Validator number(bool zero) {
     return CLI::Validator(
         [zero](const std::string& text) {

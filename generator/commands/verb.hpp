@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verbs of the command line. Each registers itself with its options; when it is chosen, it makes one call of
-/// the library and shows the result, for a person or, with --json, for a program.
+/// The verbs of the command line. Each registers itself with its options; when it is chosen, it calls the library
+/// once and shows the result, for people or, with --json, for programs.
 ///
 ///     CLI::App app;
 ///     Chosen chosen;
@@ -10,7 +10,7 @@
 ///     app.parse(argc, argv);
 ///     const int code = chosen.action();
 ///
-/// Mistakes leave as exceptions, which main turns into messages and the exit codes of docs/commands.md.
+/// Mistakes are thrown as exceptions, which main turns into messages and the exit codes of docs/commands.md.
 
 #include <functional>
 #include <initializer_list>
@@ -27,17 +27,17 @@ class Option;
 
 namespace alembert {
 
-/// What the command line asks for.
+/// The verb that the command line has chosen.
 struct Chosen {
-    std::string subject;          ///< the file that messages name: the scene
-    std::function<int()> action;  ///< gives the exit code
+    std::string subject;          ///< the file that messages name, which is the scene
+    std::function<int()> action;  ///< does the work and returns the exit code
 };
 
-/// What every verb takes.
+/// The options that every verb takes.
 struct SceneOptions {
     std::string scene;
     bool json = false;
-    std::string by;  ///< a formalism; empty: the program chooses
+    std::string by;  ///< a formalism; if empty, the program chooses
 };
 
 void add_agree(CLI::App& app, Chosen& chosen);
@@ -61,24 +61,24 @@ void add_watch(CLI::App& app, Chosen& chosen);
 void add_completion(CLI::App& app, Chosen& chosen);
 void add_manual(CLI::App& app, Chosen& chosen);
 
-/// All of them, in the order in which --help shows them.
+/// Adds all verbs in the order in which --help shows them.
 void add_verbs(CLI::App& app, Chosen& chosen);
 
-/// --at NAME=VALUE, any number of times. Throws ModelError for what is not of this form.
+/// --at NAME=VALUE, any number of times. Throws ModelError for anything that is not of this form.
 Overrides overrides_of(const std::vector<std::string>& at);
 
 /// A number as typed, or an expression of numbers and pi (model/constant.hpp). Throws ModelError for anything
 /// else.
 double number_of(const std::string& text);
 
-/// An option that was just added to a verb, and what else there is to be said about it.
+/// An option that was just added to a verb, for setting its further properties.
 class AddedOption {
 public:
     explicit AddedOption(CLI::Option* option) : option_(option) {}
-    AddedOption& type_name(const char* kind);  ///< of its value, one of commands/values.hpp
+    AddedOption& type_name(const char* kind);  ///< the kind of its value, one of commands/values.hpp
     AddedOption& required();
-    AddedOption& needs(const std::string& other);  ///< an option that must be given beside it
-    AddedOption& positive();                       ///< a number above zero; CLI11's own check lets NaN pass
+    AddedOption& needs(const std::string& other);  ///< an option that must be given together with it
+    AddedOption& positive();                       ///< requires a number above zero; CLI11's own check accepts NaN
     AddedOption& nonnegative();
     AddedOption& between(int least, int most);
     AddedOption& one_of(std::initializer_list<std::string> words);
@@ -87,42 +87,42 @@ private:
     CLI::Option* option_;
 };
 
-/// A verb while its options are added. CLI11 is included in the few files that walk through all verbs and not
-/// here: it takes three seconds to compile in every file that sees it.
+/// A verb while its options are added. CLI11 is included only in the few files that go through all verbs and not
+/// here, because it adds three seconds of compile time to every file that includes it.
 class Verb {
 public:
     explicit Verb(CLI::App& app) : app_(&app) {}
-    /// The value stays as it is where the option is not given. T: std::string, double, int, std::size_t, an
+    /// The value is not changed if the option is not given. T: std::string, double, int, std::size_t, an
     /// std::optional of these, std::vector<std::string>.
     template <typename T>
     AddedOption add_option(const std::string& names, T& value, const std::string& about);
     void add_flag(const std::string& names, bool& value, const std::string& about);
-    /// What is done when the verb has been chosen and its options have been read.
+    /// Sets the function that is called when the verb has been chosen and its options have been read.
     void callback(std::function<void()> chosen);
 
 private:
     CLI::App* app_;
 };
 
-/// --reactions, of the verbs that can tell them.
+/// Adds --reactions, for verbs that can show them.
 void add_reactions_option(Verb& verb, bool& reactions);
 
-/// --at, of the verbs that look at one state.
+/// Adds --at, for verbs that evaluate one state.
 void add_at_option(Verb& verb, std::vector<std::string>& at);
 
-/// --by, of the verbs in which the formalism makes a difference.
+/// Adds --by, for verbs in which the formalism makes a difference.
 void add_by_option(Verb& verb, std::string& by);
 
 void add_scene_options(Verb& verb, SceneOptions& options);
 
-/// What `--help` says of a verb. The example is a command line that works in the folder of the repository.
+/// The text of `--help` for a verb. The example is a command line that works in the folder of the repository.
 struct VerbText {
     const char *name, *about, *example;
 };
 Verb add_verb(CLI::App& app, const VerbText& text);
 
-/// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the options of this verb alone; `run`
-/// does the work and gives the exit code.
+/// Adds a verb on a scene. `Options` derives from SceneOptions; `more` adds the verb's own options; `run` does the
+/// work and returns the exit code.
 template <typename Options>
 void add_scene_verb(CLI::App& app, Chosen& chosen, const VerbText& text, int (*run)(const Options&),
                     const std::function<void(Verb&, Options&)>& more = {}) {

@@ -29,8 +29,8 @@ struct WatchVerb {
     OverviewOptions options = {};
 };
 
-/// What changes when a file is saved, whether it is written in place or replaced; nothing where there is no file
-/// now.
+/// Values that change when a file is saved, whether it is written in place or replaced; nothing if there is no
+/// file now.
 using Stamp = std::optional<std::tuple<dev_t, ino_t, off_t, time_t, long>>;
 
 Stamp stamp_of(const std::string& file) {
@@ -39,7 +39,8 @@ Stamp stamp_of(const std::string& file) {
     return std::tuple(info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
 }
 
-/// Waits until the file is another one than `seen` and has stayed so for a moment: editors write in several steps.
+/// Waits until the file differs from `seen` and has not changed for a moment, because editors write in several
+/// steps.
 Stamp changed_from(const Stamp& seen, const std::string& file) {
     for (Stamp before = seen;;) {
         std::this_thread::sleep_for(look_again_after);
@@ -49,7 +50,7 @@ Stamp changed_from(const Stamp& seen, const std::string& file) {
     }
 }
 
-/// The page of the scene as it is now; of a scene with mistakes, the page that shows them.
+/// The page of the scene as it is now; for a scene with mistakes, a page that shows them.
 std::string page_of(const WatchVerb& verb) {
     try {
         return as_html(overview(read_scene(verb.scene), verb.options),
@@ -62,7 +63,7 @@ std::string page_of(const WatchVerb& verb) {
 int run(const WatchVerb& verb) {
     check_output(verb.output, {verb.scene});
     Stamp seen = stamp_of(verb.scene);
-    if (!seen) read_scene(verb.scene);  // says why it cannot be read
+    if (!seen) read_scene(verb.scene);  // throws the reason why it cannot be read
     PageServer server(verb.port);
     show(fmt::format("{}  shows {}; Ctrl-C ends\n", server.address(), verb.scene));
     std::cout.flush();

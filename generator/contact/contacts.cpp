@@ -36,7 +36,7 @@ Mechanism with_contacts_watched(Mechanism mechanism, const std::vector<int>& clo
 
 namespace {
 
-/// ∂slip/∂q' of each friction, n entries each.
+/// Adds ∂slip/∂q' of each friction, n entries each.
 void add_slip_rows(Program& program) {
     const std::vector<int> slips = program.nodes_of(Group::slip);
     const int n = static_cast<int>(program.coordinates.size());
@@ -49,14 +49,15 @@ void add_slip_rows(Program& program) {
     for (const int entry : rows) program.roots.push_back({Group::form_row, "", entry});
 }
 
-/// Rows and the like of all constraints, contacts last; no solution, which may not exist with all of them.
+/// A program with the rows and other values of all constraints, contacts last. It has no accelerations, because
+/// there may be none with all contacts closed.
 Program view_of(const Mechanism& mechanism) {
     Mechanism closed = with_all_closed(mechanism);
     closed.outputs.clear();
     closed.events.clear();
     closed.event_actions.clear();
     Energy energy = energy_of(mechanism);
-    energy.power = 0;  // it holds multipliers
+    energy.power = 0;  // it contains multipliers
     Program program = lower(closed, routh(closed), energy);
     const auto is_wanted = [](const Root& root) {
         for (const Group group : {Group::mass, Group::forcing, Group::row, Group::gamma, Group::position,
@@ -69,7 +70,7 @@ Program view_of(const Mechanism& mechanism) {
     return program.canonical();
 }
 
-/// In the order of the contacts' frictions; −1 for frictions that are not at a contact.
+/// The contact of each friction; −1 for frictions that are not at a contact.
 std::vector<int> contacts_of_frictions(const Mechanism& m) {
     std::vector<int> result;
     for (const Mechanism::Friction& f : m.frictions) {
@@ -183,7 +184,7 @@ Lasting contacts_at_rest(const ContactView& view, const State<double>& state, do
     return lasting;
 }
 
-// M q'' − f = Aᵀλ + Gᵀπ, of full rank in λ and π but for bilateral rows that depend on each other.
+// M q'' − f = Aᵀλ + Gᵀπ determines λ and π, except that bilateral rows may depend on each other.
 std::vector<std::string> touching_without_force(const ContactView& view, const State<double>& state,
                                                 const Lasting& lasting) {
     if (lasting.closed.empty()) return {};

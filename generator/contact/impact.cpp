@@ -20,7 +20,8 @@ using GiNaC::ex;
 
 namespace {
 
-/// Mass matrix, rows and positions. No accelerations: constraints that only an impact can impose may leave none.
+/// A program with mass matrix, rows and positions. It has no accelerations, because there may be none with
+/// constraints that only an impact can impose.
 Program program_of(Mechanism m) {
     m.outputs.clear();
     m.events.clear();
@@ -30,7 +31,7 @@ Program program_of(Mechanism m) {
     return lower(m, routh(m), energy);
 }
 
-/// Everything that the law needs, as numbers at the start.
+/// The numbers at the start that the law of impact needs.
 class Numbers {
 public:
     explicit Numbers(const Mechanism& m) : m_(m), program_(program_of(m)) {
@@ -84,7 +85,7 @@ public:
 private:
     Eigen::Index rows(Group group) const { return static_cast<Eigen::Index>(program_.nodes_of(group).size()); }
     double wanted(Eigen::Index i) const { return value_[nodes_[i]]; }
-    /// Where the values of a unilateral constraint begin: gap, drift, restitution, row.
+    /// The index of the first value of a unilateral constraint; its values are gap, drift, restitution, row.
     Eigen::Index first_of(std::size_t u) const {
         return static_cast<Eigen::Index>(m_.size() + m_.constraints.size() + u * (3 + m_.size()));
     }

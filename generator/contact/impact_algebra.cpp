@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// [M −Aᵀ −Gᵀ; A 0 0; G 0 0] (q'⁺, Λ, Π) = (M q'⁻ + Q̂, −b, −c − e gap'⁻), the contacts being those that were
-// struck, e = 0 for those that did not approach. Where a constraint is imposed and a contact bounces, the
-// constraint comes first: gap'⁻ is then that of the rates that solve the same system without Q̂ and G.
+// [M −Aᵀ −Gᵀ; A 0 0; G 0 0] (q'⁺, Λ, Π) = (M q'⁻ + Q̂, −b, −c − e gap'⁻), where the contacts are those that were
+// struck, and e = 0 for those that did not approach. If a constraint is imposed and a contact bounces, the
+// constraint is imposed first: gap'⁻ is then that of the rates that solve the same system without Q̂ and G.
 #include "contact/impact_algebra.hpp"
 
 #include <cmath>
@@ -20,17 +20,17 @@ using GiNaC::exvector;
 namespace {
 
 constexpr std::size_t most_unknowns = 8;
-constexpr std::size_t most_terms = 100;  // of one equation or value; beyond, nobody reads it
+constexpr std::size_t most_terms = 100;  // of one equation or value; longer ones are not readable
 constexpr double largest_tree = 30000;
 
-/// A row of the system: a·q' + b, and what it is multiplied with.
+/// A row of the system, a·q' + b, and its multiplier.
 struct Row {
     std::string name;
     exvector a;
     ex b, restitution = 0;
     GiNaC::symbol multiplier;
     bool contact = false;
-    double value = 0;  ///< the impulse, as computed
+    double value = 0;  ///< the impulse found numerically
 };
 
 class Algebra {
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    // Which rows take part
+    // The rows that take part
 
     void find_rows() {
         const auto row = [&](const Mechanism::Constraint& c, bool contact, const ex& e, double value) {
@@ -145,7 +145,7 @@ private:
         }
     }
 
-    /// A coordinate inside a function, at a number other than zero and multiples of π.
+    /// Whether a coordinate occurs inside a function and its value is a number other than zero and multiples of π.
     bool turns_by_a_decimal(std::size_t i) const {
         if (!GiNaC::is_a<GiNaC::numeric>(m_.q_start[i]) || m_.q_start[i].is_zero()) return false;
         const auto inside = [&](const ex& e, const auto& self) -> bool {
@@ -171,7 +171,7 @@ private:
 
     // The solution
 
-    /// Rates after and the multipliers of `rows`.
+    /// The rates after and the multipliers of `rows`.
     std::optional<exvector> solved(const exvector& before, bool with_impulses, const std::vector<Row>& rows,
                                    const exvector& conditions) const {
         const std::size_t size = n_ + rows.size();
@@ -238,7 +238,7 @@ private:
         return x && write_solution(*x, rows, before, conditions);
     }
 
-    /// Without those whose row follows from the others; their impulses are shared out in numbers only.
+    /// The rows without those that follow from others, whose impulses are determined only numerically.
     std::vector<Row> independent_rows() {
         std::vector<Row> result;
         std::vector<Eigen::VectorXd> basis;
@@ -265,8 +265,8 @@ private:
 
     bool write_solution(const exvector& x, const std::vector<Row>& rows, const exvector& before,
                         const exvector& conditions) {
-        // Another route to the same: what the numbers say. Signs that only the scene's values decide would show
-        // here.
+        // The solution is compared with the numeric one, which was found by another route. Signs that only the
+        // scene's values decide would show here.
         double size = 0, misfit = 0;
         for (std::size_t i = 0; i < n_; ++i) {
             const double after = impact_.numbers.after[static_cast<Eigen::Index>(i)];
@@ -292,7 +292,7 @@ private:
             impact_.exact->reactions.emplace_back(rows[k].multiplier, x[n_ + k]);
         for (std::size_t k = 0; k < rows.size() && !redundant_; ++k)
             if (const auto p = phrase(x[n_ + k])) impact_.reactions.emplace_back(rows[k].name, *p);
-        // T⁻ − T⁺ = −½ Δp·(q'⁺ + q'⁻), in which a·q'⁺ is what the conditions say.
+        // T⁻ − T⁺ = −½ Δp·(q'⁺ + q'⁻), in which a·q'⁺ follows from the conditions.
         exvector loss;
         for (std::size_t i = 0; i < n_; ++i) loss.push_back(-at_pose(impulse_[i]) * (x[i] + before[i]) / 2);
         for (std::size_t k = 0; k < rows.size(); ++k) {

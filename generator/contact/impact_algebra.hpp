@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The symbolic side of an impact: its equations in general coordinates, and their solution at the scene's pose.
+/// The symbolic part of an impact: its equations in general coordinates, and their solution at the scene's pose.
 ///
-/// The pose is the scene's, exactly: numbers, multiples of π, parameters stay symbols; so do guesses that moved,
-/// and angles that are plain decimals (cos 0.3 is nothing to read). The numbers have found which contacts are
-/// struck; the solution is valid as long as these are the ones.
+/// The pose is the exact pose of the scene, with numbers and multiples of π. Parameters stay symbols; so do
+/// guesses that moved, and angles that are plain decimals (cos 0.3 would not be readable). The numeric solution
+/// determines which contacts are struck, and the symbolic one is valid as long as these are struck.
 
 #include "contact/impact.hpp"
 
 namespace alembert {
 
-/// Fills `equations`, `conditions`, `solution`, `reactions`, `energy_loss`, or `silence`, from the numeric part.
+/// Fills `equations`, `conditions`, `solution`, `reactions`, `energy_loss`, or else `silence`, from the numeric
+/// part.
 void add_algebra(Impact& impact, const Mechanism& mechanism);
 
 }  // namespace alembert

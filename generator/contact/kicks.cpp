@@ -24,7 +24,7 @@ KickView::KickView(const Mechanism& m) : program_(begun(m)) {
     for (const Mechanism::Definition& event : m.events) values.push_back(event.value);
     std::vector<ex> wanted = values;
     const std::vector<ex> slopes = m.time_derivative(values);
-    const std::vector<ex> bends = m.time_derivative(slopes);  // but for q''', where `when` holds rates
+    const std::vector<ex> bends = m.time_derivative(slopes);  // without q''', if `when` contains rates
     wanted.insert(wanted.end(), slopes.begin(), slopes.end());
     wanted.insert(wanted.end(), bends.begin(), bends.end());
     for (const ex& value : values) {
@@ -68,7 +68,7 @@ std::vector<PassedZero> KickView::passed(const State<double>& before, const Stat
         for (std::size_t i = 0; i < after.q.size(); ++i)
             size += std::abs(b[gradients_[k][i]]) * std::max(1.0, std::abs(after.q[i]));
         PassedZero one{.is_zero = std::abs(value) <= 16 * epsilon * size, .slope = a[slopes_[k]], .size = size};
-        if (has_jumped) {  // the value as it is tells
+        if (has_jumped) {  // the value itself decides
         } else if (std::abs(slope) > tolerance::jump * std::abs(one.slope)) {
             one.side = slope > 0 ? 1 : -1;
             one.hold = rounding / std::abs(slope);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What the runtime must know of the scene's events where their impulses act (alembert/phases.hpp), by
+/// The values that the runtime needs where the impulses of events act (alembert/phases.hpp), evaluated by
 /// interpretation.
 ///
 ///     const KickView view(mechanism);
 ///     view.impulse(0, state);                 // Q̂ of event 0, of the rates in `state`
 ///     view.passed(before, after)[0].side;     // to which side the value of event 0 goes
 ///
-/// States hold rates, q' and not speeds, and q'' where `passed` is asked.
+/// States have the rates q', not speeds, and for `passed` also q''.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -23,20 +23,21 @@ class KickView {
 public:
     explicit KickView(const Mechanism& mechanism);
 
-    /// n; of an event that has impulses.
+    /// n numbers; the event must have impulses.
     Eigen::VectorXd impulse(int event, const State<double>& state) const;
 
-    /// For each event, in case its zero has just been passed. Its value as it is tells where the jump of the rates
-    /// has changed it; else the sign of its rate, or of its second derivative where the rate is gone.
+    /// For each event, the side to which its value goes if its zero has just been passed. If the jump of the rates
+    /// has changed the value, that is the sign of the value; otherwise it is the sign of its rate, or of its
+    /// second derivative if the rate is zero.
     std::vector<PassedZero> passed(const State<double>& before, const State<double>& after) const;
 
-    /// Of the scene, from the rates.
+    /// The scene's speeds from the rates.
     std::vector<double> speeds(const State<double>& state) const;
 
 private:
     Program program_;
     std::vector<int> values_, slopes_, bends_, speeds_;
-    std::vector<std::vector<int>> impulses_, gradients_;  ///< by event
+    std::vector<std::vector<int>> impulses_, gradients_;  ///< nodes for each event
 };
 
 }  // namespace alembert

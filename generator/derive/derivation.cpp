@@ -19,8 +19,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_tree = 30000;   // nodes of all equations, written out
-constexpr std::size_t most_terms = 150;  // of one equation in normal form; beyond, nobody reads it
+constexpr double largest_tree = 30000;   // the most nodes of all equations with intermediate symbols substituted
+constexpr std::size_t most_terms = 150;  // of one equation in normal form; longer ones are not readable
 
 bool mentions(const Phrase& phrase, const std::string& name) {
     return (phrase.kind == Phrase::Kind::symbol && phrase.info.name == name) ||
@@ -133,7 +133,7 @@ private:
         return true;
     }
 
-    /// Do multipliers of constraints that follow from others stand beside those of the others?
+    /// Do the equations contain multipliers of constraints that follow from others?
     bool has_shares() const { return e_.speeds_are_rates() && !e_.A.empty() && !m_.redundant.empty(); }
 
     void shares() {
@@ -144,7 +144,7 @@ private:
         }
     }
 
-    /// Speeds that the program chose.
+    /// Describes the speeds that the program chose.
     void choice() {
         std::string kept, solved;
         for (int i = 0; i < m_.size(); ++i) {
@@ -169,7 +169,7 @@ private:
         return true;
     }
 
-    /// ω along the axes of each body that turns in space.
+    /// Adds ω along the axes of each body that turns in space.
     void angular_velocities() {
         for (const MassElement& body : m_.masses) {
             if (!body.rotation || (body.rotation->w_NB_B[0].is_zero() && body.rotation->w_NB_B[1].is_zero()))
@@ -196,7 +196,7 @@ private:
         return true;
     }
 
-    /// Q of everything that does work: of V as −∂V/∂q, of loads by their virtual work; then in all.
+    /// Adds Q of everything that does work: of V as −∂V/∂q, of loads by their virtual work; then the sums.
     void forces() {
         using Kind = Statement::Kind;
         GiNaC::exvector total(m_.size(), 0);
@@ -219,7 +219,7 @@ private:
             add(result_.forces, {Kind::force, "Q", "", symbol_of(m_.q[i]), {}}, total[i]);
     }
 
-    /// ∂T/∂q' and ∂T/∂q, or those of L where the scene gives it.
+    /// Adds ∂T/∂q' and ∂T/∂q, or those of L if the scene gives it.
     void derivatives() {
         using Kind = Statement::Kind;
         const std::string letter = m_.given_lagrangian ? "L" : "T";
@@ -244,7 +244,7 @@ private:
         }
     }
 
-    /// A unilateral constraint among the others, for the sake of its reaction.
+    /// Whether this is a unilateral constraint, which is among the constraints because of its reaction.
     bool is_gap(const Mechanism::Constraint& c) const {
         return std::any_of(m_.unilateral.begin(), m_.unilateral.end(), [&](const Mechanism::Unilateral& contact) {
             return contact.gap.multiplier.is_equal(c.multiplier);
@@ -322,7 +322,7 @@ Derivation derivation_of(const Mechanism& mechanism, const Equations& equations)
 
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by) {
     const Mechanism m = in_terms_of(equations, mechanism);
-    // First-order equations in momenta are shown beside the energies, not after their elimination.
+    // First-order equations in momenta are shown with the energies, not after the elimination of the momenta.
     Derivation shown = derivation_of(m, by.in_momenta ? lagrange(m) : equations);
     shown.formalism = by.name;
     shown.title = by.title;

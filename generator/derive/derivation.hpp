@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From equations to a derivation that a reader can follow.
+/// Makes a derivation that a reader can follow from equations.
 ///
 ///     const Derivation shown = derivation_of(mechanism, equations);
 ///     text(shown.equations[0].lhs);
@@ -15,22 +15,22 @@
 
 namespace alembert {
 
-/// What a derivation shows to a reader, as phrases that any notation can print: the four steps of Zhang & Qin,
-/// §1.5:
-/// 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations.
-/// Beyond the readable size the steps are left out and `definitions` carries intermediate symbols.
+/// The contents of a derivation, as phrases that any notation can print. It has the four steps of Zhang & Qin,
+/// §1.5: 1. degrees of freedom and coordinates, 2. T, 3. virtual work and generalized forces, 4. the equations. If
+/// the equations exceed the readable size, the steps are left out and `definitions` has intermediate symbols.
 struct Derivation {
     std::string formalism;
     std::string title;              ///< "Kane's equations"
-    std::vector<Section> sections;  ///< partial velocities, virtual works, H, R …
+    std::vector<Section> sections;  ///< the formalism's own steps: partial velocities, virtual works, H, R …
     int degrees_of_freedom = 0;
     std::vector<Phrase> coordinates;
-    std::vector<std::pair<Phrase, Phrase>> definitions;  ///< intermediate symbols; empty at readable size
+    std::vector<std::pair<Phrase, Phrase>>
+        definitions;                  ///< intermediate symbols; empty for equations of readable size
     std::vector<Statement> angular;   ///< angular velocities along the axes of bodies that turn in space
     std::vector<Statement> energies;  ///< T and V of each body and spring
     Phrase kinetic, potential;
-    std::optional<Phrase> lagrangian;    ///< where the scene gives it
-    std::vector<Statement> forces;       ///< generalized forces of each part of V and each load, then in all
+    std::optional<Phrase> lagrangian;  ///< the Lagrangian, if the scene gives it
+    std::vector<Statement> forces;     ///< generalized forces of each part of V and of each load, then their sums
     std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
@@ -51,16 +51,16 @@ struct Derivation {
         Phrase slip, sliding, sticking;
     };
     std::vector<Rubs> frictions;
-    bool has_unit_quaternions = false;  ///< e·e = 1 of each quaternion has been used in all terms
+    bool has_unit_quaternions = false;  ///< whether e·e = 1 of quaternions has been used in all terms
 };
 
-/// λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
+/// Adds λ ∂f/∂q of each constraint (λ a for nonholonomic ones), as far as readable.
 void show_reactions(Derivation& shown, const Mechanism& mechanism);
 
-/// With the steps that every formalism shares.
+/// The derivation with the steps that every formalism shares.
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations);
 
-/// With the formalism's own steps too, and its own first-order equations where it ends in these.
+/// The derivation that also has the formalism's own steps, and its first-order equations if it ends in these.
 Derivation derivation_of(const Mechanism& mechanism, const Equations& equations, const Formalism& by);
 
 }  // namespace alembert

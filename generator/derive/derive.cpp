@@ -9,7 +9,7 @@ namespace alembert {
 
 namespace {
 
-/// What joints bear, as far as it is short: F_x … M_z of each.
+/// The reactions F_x … M_z of each joint, if they are short.
 std::vector<Statement> borne(const Derived& d) {
     constexpr std::size_t most_terms = 20;
     constexpr const char* letters[] = {"F_x", "F_y", "F_z", "M_x", "M_y", "M_z"};

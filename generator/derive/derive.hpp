@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `derive`: a scene's equations of motion as a reader sees them.
+/// The verb `derive`: a scene's equations of motion for a reader.
 ///
 ///     const DerivedScene d = derive(read_scene("scenes/textbook/double_pendulum.toml"), {.by = "lagrange"});
 ///     latex(d.shown.equations[0].lhs);
@@ -12,19 +12,20 @@
 namespace alembert {
 
 struct ShowOptions {
-    std::string by = {};     ///< a formalism; empty: the one that a teacher would choose
-    bool reactions = false;  ///< the share of each constraint along each coordinate, and what joints bear
+    std::string by = {};  ///< a formalism; if empty, the one that a teacher would choose
+    /// Whether to give the reaction of each constraint along each coordinate, and those of joints.
+    bool reactions = false;
 };
 
-/// Reactions of unilateral constraints stand in the equations, zero while their gap is open, unless the formalism
-/// is one for independent coordinates.
+/// The equations contain the reactions of unilateral constraints, which are zero while their gap is open, unless
+/// the formalism needs independent coordinates.
 struct DerivedScene : Derived {
     Derivation shown = {};
-    std::vector<Statement> joint_loads = {};  ///< F_x … M_z on the child of each joint, as far as they are short
+    std::vector<Statement> joint_loads = {};  ///< F_x … M_z on the child of each joint, if they are short
     bool has_unilateral_reactions = false;
 };
 
-/// Throws as `derived` does.
+/// Throws what `derived` throws.
 DerivedScene derive(Scene scene, const ShowOptions& options = {});
 
 }  // namespace alembert

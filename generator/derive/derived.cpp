@@ -22,7 +22,7 @@ namespace alembert {
 
 namespace {
 
-/// The formalism of that name; without one, the one a teacher would choose.
+/// The equations by the formalism of that name; without a name, by the one that a teacher would choose.
 Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     if (!name.empty()) return formalism(name).derive(mechanism);
     if (!mechanism.speeds.empty() && mechanism.unilateral.empty() && masses_are_known(mechanism))
@@ -30,11 +30,12 @@ Equations equations_by(const std::string& name, const Mechanism& mechanism) {
     return formalism(mechanism.constraints.empty() ? "lagrange" : "routh").derive(mechanism);
 }
 
-constexpr int many_pairs = 128;       // of bodies above each other: 16 in a row
-constexpr int most_with_matrix = 80;  // joints; of more, M would be most of what is derived, emitted and compiled
+constexpr int many_pairs = 128;  // pairs of a body and one it is carried by: a chain of 16 has as many
+// Joints; with more, most of the derivation, emission and compilation would be for M.
+constexpr int most_with_matrix = 80;
 
-/// Nothing where other equations may be faster. M has an element for each joint and each one above it, which are
-/// as many operations for all formalisms but articulated bodies.
+/// Nothing if other equations may be faster. M has an element for each joint and each joint that carries it, which
+/// means as many operations for all methods except articulated bodies.
 std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) {
     if (!m.speeds.empty() || !m.constraints.empty() || !m.unilateral.empty() ||
         m.size() * (m.size() + 1) / 2 < many_pairs || !masses_are_known(m))
@@ -52,8 +53,8 @@ std::optional<Equations> recursive_for_large_trees(const Mechanism& m, Use use) 
     return recursive(m);
 }
 
-/// Constraints that no state obeys are told by name; initial values that break some are for those to tell who need
-/// them.
+/// Throws with the names of constraints that no state obeys. Initial values that break a constraint are reported
+/// later, by the computations that use them.
 void refuse_contradiction(const Mechanism& m) {
     if (m.constraints.empty()) return;
     Start start = start_of(m);
@@ -65,7 +66,7 @@ void refuse_contradiction(const Mechanism& m) {
     }
 }
 
-/// The share of each constraint along each coordinate, λ ∂f/∂q, as outputs R_<constraint>_<coordinate>.
+/// Adds the reaction of each constraint along each coordinate, λ ∂f/∂q, as outputs R_<constraint>_<coordinate>.
 std::vector<ReactionOutput> add_reactions(Mechanism& m) {
     std::vector<ReactionOutput> result;
     for (const auto* list : {&m.constraints, &m.redundant})
@@ -80,8 +81,8 @@ std::vector<ReactionOutput> add_reactions(Mechanism& m) {
     return result;
 }
 
-/// A rolling has three rows, of which one may well follow from where the body is: `audit` tells it, nothing else
-/// needs to. A joint that closes a loop likewise.
+/// A rolling condition has three rows, one of which often follows from the position of the body; only `audit`
+/// reports that. The same applies to a joint that closes a loop.
 std::optional<std::string> warning_of_redundancy(const Prepared& p, const Mechanism::Constraint& c) {
     if (c.joint) return {};
     if (std::any_of(p.scene.rolling.begin(), p.scene.rolling.end(),

@@ -18,7 +18,7 @@ bool is_difference(const Phrase& p) {
            (p.args[0].kind == Kind::negative) != (p.args[1].kind == Kind::negative);
 }
 
-/// Position in the sum of the one term (P − Q)·first·second, with nothing else in it; −1 where there is none.
+/// The position in the sum of the one term (P − Q)·first·second without further factors; −1 if there is none.
 int gyroscopic_term(const Phrase& sum, const Phrase& first, const Phrase& second) {
     if (sum.kind != Kind::sum) return -1;
     for (std::size_t i = 0; i < sum.args.size(); ++i) {
@@ -39,7 +39,7 @@ void rewrite(Phrase& term, const Phrase& first, const Phrase& second) {
     const Phrase product = is_negative ? term.args[0] : term;
     Phrase difference = *std::find_if(product.args.begin(), product.args.end(), is_difference);
     if (!is_negative) {
-        // The term that had the minus stands first now.
+        // The term that had the minus now comes first.
         for (Phrase& arg : difference.args) arg = phrases::negative(arg);
         if (difference.args[0].kind == Kind::negative) std::swap(difference.args[0], difference.args[1]);
     }

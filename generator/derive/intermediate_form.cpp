@@ -14,7 +14,7 @@ namespace {
 
 using namespace phrases;
 
-constexpr int widest = 8;  // operations that may stay in one definition
+constexpr int widest = 8;  // the most operations in one definition
 
 class Unfolding {
 public:
@@ -136,7 +136,8 @@ private:
 
 IntermediateForm intermediate_form(Program program, const Mechanism& m, const Equations& e) {
     std::vector<Mechanism::Constraint> held = m.constraints;
-    if (e.speeds_are_rates() && !e.A.empty()) {  // constraints that follow from others bear their share
+    // Constraints that follow from others have their share of the forces.
+    if (e.speeds_are_rates() && !e.A.empty()) {
         const auto lowering = lowering_into(program, m, {});
         for (const Mechanism::Constraint& c : m.redundant)
             for (const GiNaC::ex& entry : c.row)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// row_r = Σ c_k row_k over the rows k that it is made of, and as many columns j: Σ_k c_k row_kj = row_rj, by
-// Cramer's rule, with the determinant multiplied out.
+// row_r = Σ c_k row_k over the rows k of which it is a combination. For as many columns j, Σ_k c_k row_kj = row_rj
+// is solved by Cramer's rule, multiplied by the determinant.
 #include "derive/shares.hpp"
 
 #include <Eigen/Dense>
@@ -17,8 +17,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t most_rows = 4;   // of the determinants
-constexpr double largest_entry = 300;  // nodes, written out
+constexpr std::size_t most_rows = 4;   // the most rows of the determinants
+constexpr double largest_entry = 300;  // the most nodes with intermediate symbols substituted
 constexpr double negligible = 1e-7;
 constexpr int places = 4;
 
@@ -59,7 +59,8 @@ private:
         return result;
     }
 
-    /// Columns in which these rows are independent at every place, those of few and short entries first.
+    /// Columns in which these rows are independent at every state; columns with few and short entries are
+    /// preferred.
     std::vector<Eigen::Index> columns_of(const std::vector<Eigen::Index>& rows) const {
         std::vector<Eigen::Index> order, chosen;
         std::vector<double> size;
@@ -90,7 +91,7 @@ private:
         if (columns.size() < rows.size()) return std::nullopt;
         const auto n = static_cast<unsigned>(rows.size());
         GiNaC::matrix S(n, n), right(n, 1);
-        for (unsigned a = 0; a < n; ++a) {  // the equation of column a
+        for (unsigned a = 0; a < n; ++a) {  // one equation for column a
             for (unsigned b = 0; b < n; ++b) {
                 const ex& e = m_.constraints[rows[b]].row[columns[a]];
                 if (m_.z->tree_size(e) > largest_entry) return std::nullopt;
@@ -110,7 +111,7 @@ private:
 
     const Mechanism& m_;
     Eigen::Index kept_;
-    std::vector<Eigen::MatrixXd> at_;  // all rows, kept ones first, by place
+    std::vector<Eigen::MatrixXd> at_;  // all rows at each state, kept ones first
 };
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Constraints that depend on each other leave their multipliers open. The program takes the least ones that give
-/// the same forces: where row_r = Σ c_k row_k, they obey λ_r = Σ c_k λ_k, for (−c, 1) is orthogonal to all forces.
+/// If constraints depend on each other, their multipliers are not determined. The program takes those of least
+/// norm that give the same forces. If row_r = Σ c_k row_k, these obey λ_r = Σ c_k λ_k, because (−c, 1), which
+/// gives no force, must be orthogonal to them.
 ///
 ///     for (const LeastShare& share : least_shares_of(mechanism)) …   // cos(θ) λ_y = sin(θ) λ_x
 
@@ -12,13 +13,14 @@
 
 namespace alembert {
 
-/// left = right; both linear in multipliers, with factors in q and t.
+/// The relation left = right. Both sides are linear in multipliers, with factors in q and t.
 struct LeastShare {
     GiNaC::ex left, right;
 };
 
-/// One for each of Mechanism::redundant whose factors are short enough to be written out. Which rows it is made
-/// of, and which columns tell its factors, is decided at states that obey the constraints, in floating point.
+/// One relation for each of Mechanism::redundant whose factors are short enough to be written out. The rows of
+/// which it is a combination, and the columns that determine its factors, are chosen in floating point at states
+/// that obey the constraints.
 std::vector<LeastShare> least_shares_of(const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What the templates of emitted files share: lists of lines, and which elementary functions a file needs; those
-/// that it does not use are not written into it.
+/// What the templates of emitted files share: lists of lines, and the elementary functions that a file needs.
+/// Functions that it does not use are not written.
 
 #include <kainjow/mustache.hpp>
 #include <set>
@@ -15,14 +15,14 @@ namespace alembert {
 
 kainjow::mustache::data list_of(const std::vector<std::string>& lines);
 
-/// Those that the roots of a program are made of.
+/// The elementary functions in the roots of a program.
 std::set<Op> elementary_functions(const Program& program);
 
-/// Keys of templates/elementary.cpp.mustache and templates/sines.cpp.mustache: one for each function;
-/// `trigonometric` for sines and cosines, `library` where there are others.
+/// Keys of templates/elementary.cpp.mustache and templates/sines.cpp.mustache: one for each function,
+/// `trigonometric` for sines and cosines, and `library` if there are others.
 void set_elementary(kainjow::mustache::data& file, const std::set<Op>& functions);
 
-/// The text of these templates under `elementary` and `sines`; of the second with an empty line before and after.
+/// Sets the text of these templates as `elementary` and `sines`; the second has an empty line before and after it.
 void add_elementary(kainjow::mustache::data& file);
 
 }  // namespace alembert

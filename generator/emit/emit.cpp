@@ -94,7 +94,7 @@ public:
     }
 
 private:
-    /// A function that has nothing to do is not written; `has_name` says so to the tables.
+    /// A function without statements is not written; `has_name` tells the tables whether a function exists.
     void add(const std::vector<EmittedFunction>& list, const std::string& name) {
         for (const EmittedFunction& function : list) functions_ << data_of(function);
         file_.set("has_" + name, !list.empty());

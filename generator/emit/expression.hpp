@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Values as C++ text that knows where it needs brackets and what it costs.
+/// C++ text of a value, with the precedence that decides about brackets and with its cost.
 ///
 ///     CodeExpression("a") * (CodeExpression("b") - CodeExpression("c"))      // "a * (b - c)", 2 operations
 ///     joined({{true, "a"}, {false, "b"}})                        // "b - a"
@@ -14,7 +14,7 @@ namespace alembert {
 
 struct CodeExpression {
     enum class Kind { atom, product, sum };
-    std::string text = {};  ///< empty: a factor that is not there
+    std::string text = {};  ///< empty for a missing factor
     Kind kind = Kind::atom;
     int operations = 0;
 
@@ -26,7 +26,7 @@ struct CodeExpression {
     bool is_one() const { return text.empty(); }
 };
 
-/// As one factor or argument, whatever stands around it.
+/// The expression as one factor or argument, whatever stands around it.
 inline CodeExpression bracketed(const CodeExpression& e) {
     return e.kind == CodeExpression::Kind::atom ? e : CodeExpression("(" + e.text + ")", e.operations);
 }
@@ -45,7 +45,7 @@ struct Piece {
     CodeExpression value;
 };
 
-/// In the order given; "Real(0)" of no pieces.
+/// The sum in the given order; "Real(0)" if there are no pieces.
 inline CodeExpression in_order(const std::vector<Piece>& pieces) {
     if (pieces.empty()) return "Real(0)";
     if (pieces.size() == 1 && !pieces[0].negative) return pieces[0].value;
@@ -62,7 +62,7 @@ inline CodeExpression in_order(const std::vector<Piece>& pieces) {
     return sum;
 }
 
-/// Beginning with something that is not subtracted, where there is one.
+/// The sum, beginning with a term that is not subtracted, if there is one.
 inline CodeExpression joined(std::vector<Piece> pieces) {
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& x) { return !x.negative; });
     if (positive != pieces.end()) std::rotate(pieces.begin(), positive, positive + 1);

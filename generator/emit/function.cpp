@@ -19,7 +19,7 @@ std::string type_in(CodeLanguage language, const std::string& type) {
     return language == CodeLanguage::c && type == "const Real&" ? "Real" : type;
 }
 
-/// Several in a line; arrays apart.
+/// Several declarations in a line; different arrays on separate lines.
 std::vector<std::string> unpacked(const std::vector<ArrayInput>& items, CodeLanguage language) {
     const std::string alias = language == CodeLanguage::cpp ? "&" : "";
     std::vector<std::string> lines;
@@ -37,7 +37,7 @@ std::vector<std::string> unpacked(const std::vector<ArrayInput>& items, CodeLang
     return lines;
 }
 
-/// Arguments that the function does not use stay without a name in C++.
+/// In C++, arguments that the function does not use get no name.
 std::string signature(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used,
                       CodeLanguage language) {
     std::string result;
@@ -49,7 +49,7 @@ std::string signature(const std::vector<FunctionArgument>& arguments, const std:
     return result;
 }
 
-/// Those that C has to name and the function does not use.
+/// The arguments that C must name although the function does not use them.
 std::vector<std::string> ignored(const std::vector<FunctionArgument>& arguments, const std::set<std::string>& used,
                                  CodeLanguage language) {
     std::vector<std::string> names;
@@ -99,7 +99,7 @@ std::vector<EmittedFunction> in_pieces(const FunctionTask& task, const std::vect
                               .unpacked = unpacked(used, language),
                               .passages = {lines},
                               .is_part = true};
-        if (language == CodeLanguage::c) {  // whichever of them it uses
+        if (language == CodeLanguage::c) {  // C names all arguments, whether used or not
             for (const FunctionArgument& a : task.arguments) piece.ignored.push_back(a.name);
             piece.ignored.emplace_back("carried");
         }
@@ -125,7 +125,7 @@ std::vector<EmittedFunction> written(const Program& program, const Vocabulary& w
         last.statements.push_back(writer.assigned(result.array, result.place, result.node));
     passages.push_back(std::move(last));
     std::vector<ArrayInput> items = words.inputs(writer.uses(), !task.copies.empty());
-    if (options.language == CodeLanguage::c) {  // whose compilers complain of a name that is not used
+    if (options.language == CodeLanguage::c) {  // C compilers warn about names that are not used
         const std::set<std::string> read = used_in(passages, {});
         std::erase_if(items, [&](const ArrayInput& item) { return !read.contains(item.name); });
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How text is set in an emitted file: the width of lines, lists, and what stands in its head.
+/// The layout of an emitted file: the width of lines, lists, and the header.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace alembert {
 
 constexpr std::size_t line_width = 110;
 
-/// Long lines go on below, indented; a line is only broken before an operator or after a comma.
+/// Breaks long lines and indents the rest; lines are only broken before an operator or after a comma.
 std::string wrapped(const std::string& text);
 
 /// "a, b, " over several lines.

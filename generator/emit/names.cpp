@@ -77,7 +77,7 @@ std::string ascii_identifier(const std::string& text) {
         result += spelled(code);
         i += length;
     }
-    // Names that begin with _ or hold __ belong to the implementation.
+    // Names that begin with _ or contain __ are reserved for the implementation.
     for (std::size_t at = result.find("__"); at != std::string::npos; at = result.find("__")) result.erase(at, 1);
     if (result.empty() || result[0] == '_' || std::isdigit(static_cast<unsigned char>(result[0])) != 0)
         result.insert(0, result.empty() || result[0] != '_' ? "x_" : "x");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// C++ identifiers for the names of a scene: the compiler never sees what a user typed, only what comes from here.
+/// C++ identifiers for the names of a scene. The compiler never sees text that a user typed, only identifiers made
+/// here.
 
 #include <map>
 #include <set>
@@ -11,11 +12,11 @@ namespace alembert {
 
 class Names {
 public:
-    /// Starts with everything that the emitted code itself uses, and C++'s keywords, as taken.
+    /// At first the names that the emitted code itself uses, and the keywords of C++, are taken.
     Names();
 
-    /// An identifier like `wish` that nothing else has. Greek letters are spelled out, other letters beyond ASCII
-    /// become u and their code point, and a `_` is added until the name is free.
+    /// A new identifier like `wish`. Greek letters are spelled out, other letters beyond ASCII become u and their
+    /// code point, and a `_` is added until the name is free.
     std::string fresh(const std::string& wish);
 
     /// prefix0, prefix1 …: the first that is free.

@@ -30,7 +30,7 @@ std::string number_text(const Rational& value) {
     const cln::cl_I largest = cln::expt_pos(cln::cl_I(2), 53);
     if (denominator == 1 && cln::abs(numerator) <= largest) return fmt::format("Real({})", digits(numerator));
     const double nearest = cln::double_approx(value);
-    // A decimal such as 9.81 is itself when its digits are; 1/3 is left to Real's own division.
+    // A decimal such as 9.81 is written with its digits; 1/3 is left to the division of Real.
     cln::cl_I rest = denominator;
     while (cln::zerop(cln::mod(rest, 2))) rest = cln::exquo(rest, 2);
     while (cln::zerop(cln::mod(rest, 5))) rest = cln::exquo(rest, 5);

@@ -9,13 +9,13 @@
 
 namespace alembert {
 
-/// The shortest decimal that reads back as the same double.
+/// The shortest decimal that gives the same double when it is read.
 std::string shortest(double value);
 
-/// A rational as a double or a quotient of two, in as few characters as that takes.
+/// A rational as a double or a quotient of two, with as few characters as possible.
 std::string number_text(const Rational& value);
 
-/// A rational exactly in every Real of up to 34 digits: a double, a quotient of two, or a sum of three.
+/// A rational, exact for every Real of up to 34 digits: a double, a quotient of two, or a sum of three.
 std::string exact_text(const Rational& value);
 
 }  // namespace alembert

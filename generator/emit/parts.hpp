@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A long function's statements in parts, each of which a compiler takes in its stride.
+/// Divides the statements of a long function into parts that compile quickly.
 ///
 ///     const FunctionParts parts = in_parts(statements, 1000);
 ///     parts.list[1].lines;       // const Real& z7 = carried[3]; …; carried[9] = z12;
 ///     parts.carried;             // length of `carried`
 ///
 /// The time that g++ takes grows with the square of a function's length from some thousand statements on (a minute
-/// for 18 000, most of it for registers). What a part makes and a later one needs goes through the array
-/// `carried`, once.
+/// for 18 000, most of it for registers). Values of one part that later parts need are passed through the array
+/// `carried`, each once.
 
 #include <set>
 #include <string>
@@ -21,7 +21,7 @@ namespace alembert {
 
 struct FunctionPart {
     std::vector<std::string> lines;
-    std::set<std::string> names;  ///< all that the statements use or declare
+    std::set<std::string> names;  ///< all names that the statements use or declare
 };
 
 struct FunctionParts {
@@ -29,7 +29,7 @@ struct FunctionParts {
     int carried = 0;
 };
 
-/// Parts of `length` statements; the last may have fewer.
+/// Makes parts of `length` statements; the last may have fewer.
 FunctionParts in_parts(const std::vector<CodeStatement>& statements, std::size_t length, CodeLanguage language);
 
 }  // namespace alembert

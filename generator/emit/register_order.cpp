@@ -18,7 +18,7 @@ double occupied(const Computation& statement) {
     return std::max(1.0, processor::fused * statement.operations) / processor::units;
 }
 
-/// As depth first from the ends would take them, what takes longest first.
+/// The depth-first order from the results, arguments that take longest first.
 std::vector<int> depth_first(const std::vector<Computation>& statements,
                              const std::vector<std::vector<int>>& users) {
     std::vector<int> depth, place(statements.size(), -1);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Statements in an order that fits in a processor's registers.
+/// Orders statements so that their values fit in a processor's registers.
 ///
 ///     const std::vector<int> order = register_order(statements);       // positions; each after those that it
 ///     needs
 ///
-/// Where a program has far more operations than its longest chain waits for, what is urgent is soon computed by
-/// the hundred, and a compiler stores it and loads it again: an arm of seven joints about oblique axes read a
-/// value from memory in every instruction. Here what is urgent goes first as long as there are registers; then
-/// what sets one free, or the next value that depth first would take. Elsewhere, or with too many statements, the
-/// order stays as it is. (Goodman & Hsu, Code scheduling and register allocation in large basic blocks, ICS 1988,
-/// 442.)
+/// If a program has far more operations than the longest chain has time for, a schedule by urgency soon has
+/// hundreds of values waiting, and the compiler stores and reloads them: for an arm of seven joints with oblique
+/// axes, every instruction read a value from memory. Here urgent statements come first as long as registers are
+/// free. After that, a statement that frees a register comes next, or the next one in depth-first order. For other
+/// programs, or with too many statements, the order is not changed. (Goodman & Hsu, Code scheduling and register
+/// allocation in large basic blocks, ICS 1988, 442.)
 
 #include <vector>
 

@@ -18,7 +18,7 @@ int latency(const Node& node) {
     return node.op == Op::sum || node.op == Op::product ? step : function;
 }
 
-/// Instructions: a product that is added costs none of its own, as good as always.
+/// The number of instructions. A product that is added nearly always costs none of its own.
 int instructions(const Node& node) {
     if (node.op == Op::sum)
         return std::max(1, static_cast<int>(node.args.size()) - (cln::zerop(node.number) ? 1 : 0));
@@ -51,7 +51,7 @@ std::vector<int> scheduled(const Program& program, const Readiness& ready, std::
             ++waits[*id];
         }
     }
-    using Waiting = std::tuple<int, int>;  // when, node
+    using Waiting = std::tuple<int, int>;  // time, node
     std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> later;
     const auto less_urgent = [&](int a, int b) { return std::tie(tail[a], b) < std::tie(tail[b], a); };
     std::priority_queue<int, std::vector<int>, decltype(less_urgent)> now(less_urgent);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The order in which statements are best written: what the end waits for longest comes first.
+/// The best order of statements: those for which the results wait longest come first.
 ///
 ///     for (const int id : scheduled(program, ready, roots, is_done)) …       // nodes, arguments first
 ///
-/// A processor looks a few hundred instructions ahead. A chain of divisions that starts after a thousand
-/// independent products is found too late; started at once, it runs beside them. List scheduling (Hu 1961) on two
-/// units, by the longest way to the end.
+/// A processor looks a few hundred instructions ahead. If a chain of divisions starts after a thousand independent
+/// products, the processor finds it too late; if it starts at once, it runs in parallel with them. The method is
+/// list scheduling (Hu 1961) on two units, by the longest path to the end.
 
 #include <functional>
 #include <span>
@@ -18,7 +18,7 @@
 
 namespace alembert {
 
-/// The nodes that the roots need, without those that are done before (these are ready when `ready` says).
+/// The nodes that the roots need, without those that are computed before; `ready` tells when these are ready.
 std::vector<int> scheduled(const Program& program, const Readiness& ready, std::span<const int> roots,
                            const std::function<bool(int)>& is_done);
 

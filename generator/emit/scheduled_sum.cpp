@@ -48,7 +48,7 @@ double ScheduledSum::ready(const Times& times) const {
     return std::max(inner, plain) + (outer_.is_one() ? 0 : processor::step);
 }
 
-/// Of one weight the sign goes outside; a sum of several is multiplied as a whole.
+/// The sign of a single weight is taken outside; a sum of several weights is multiplied as a whole.
 Piece ScheduledSum::weight_of(const Group& group) {
     if (group.weights.size() == 1) return group.weights[0];
     std::vector<Piece> weights = group.weights;
@@ -57,7 +57,8 @@ Piece ScheduledSum::weight_of(const Group& group) {
     return {false, bracketed(joined(weights))};
 }
 
-/// Terms with the same weight in one bracket; the first piece is not subtracted, where there is such a one.
+/// Terms with the same weight are put into one bracket; the first piece is one that is not subtracted, if there is
+/// one.
 std::vector<Piece> ScheduledSum::together(const std::vector<const Group*>& groups) {
     std::vector<Piece> weights;
     std::vector<std::vector<Piece>> terms;

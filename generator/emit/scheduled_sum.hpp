@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Sums in which what is ready last is added last.
+/// Sums in which the term that is ready last is added last.
 ///
 ///     const ScheduledSum sum({.outer = "per_z", .inner = "per_k",
 ///                       .terms = {{.late = "gathered[0]", .ready = {.node = 7, .before = 2, .delay = 15},
@@ -12,7 +12,7 @@
 ///     sum.value(times).text        // "per_z * (per_k * (gathered[0] + Real(2) * x_one * z_before) + x_0 * y)"
 ///
 /// The coefficients of a series wait for each other, order after order, in a chain of additions and
-/// multiplications: written in any other order, a sum waits for its last term and then adds the others.
+/// multiplications: in any other order, a sum would wait for its latest term and then still have to add others.
 
 #include <array>
 #include <string>
@@ -22,25 +22,26 @@
 
 namespace alembert {
 
-/// When each node's coefficient is ready, in cycles: of this order, the one before, and two before.
+/// The time in cycles at which each node's coefficient is ready: that of this order, of the order before, and of
+/// two orders before.
 using Times = std::array<std::vector<double>, 3>;
 
-/// `delay` cycles after the coefficient of a node, `before` orders ago.
+/// A time: `delay` cycles after the coefficient of a node, `before` orders ago, is ready.
 struct Moment {
     int node = 0, before = 0;
     double delay = 0;
 };
 
 struct SumTerm {
-    CodeExpression weight = {};  ///< a factor that terms have in common; empty: 1
-    CodeExpression factor = {};  ///< a product, ready early; empty: 1
+    CodeExpression weight = {};  ///< a factor that terms have in common; empty for 1
+    CodeExpression factor = {};  ///< a product that is ready early; empty for 1
     CodeExpression late = {};
-    Moment ready = {};  ///< of `late`
+    Moment ready = {};  ///< when `late` is ready
     bool is_inner = false;
     bool negative = false;
 };
 
-/// outer · (inner · Σ inner terms + Σ other terms); both factors are products that are ready early, empty: 1.
+/// outer · (inner · Σ inner terms + Σ other terms); both factors are products that are ready early; empty for 1.
 struct SumParts {
     CodeExpression outer = {}, inner = {};
     std::vector<SumTerm> terms = {};

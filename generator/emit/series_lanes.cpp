@@ -120,7 +120,7 @@ SeriesShape SeriesLanes::shape(int id) const {
         .exponent = {}};
     for (const auto& [weight, a, b] : x.bilinear) shape.numbers.push_back(a == b ? 1 : 0);
     if (x.kind == Kind::power) shape.exponent = x.exponent;
-    // Which positions hold the same argument: it is then from one pack in all lanes.
+    // The positions that have the same argument; this argument then comes from one pack in all lanes.
     shape.numbers.push_back(-1);
     const std::vector<int> list = positions(id);
     for (std::size_t k = 0; k < list.size(); ++k)
@@ -128,7 +128,7 @@ SeriesShape SeriesLanes::shape(int id) const {
     return shape;
 }
 
-/// Arguments by position: linear ones, bilinear ones, a, b, w.
+/// The arguments by position: those of linear terms, of bilinear terms, a, b, w.
 std::vector<int> SeriesLanes::positions(int id) const {
     const SeriesNode& x = node(id);
     std::vector<int> list;
@@ -153,7 +153,8 @@ bool SeriesLanes::can_be_packed(int id) const {
     }
 }
 
-/// What the solve needs stands below what needs the solve: they are never lanes of one pack.
+/// Nodes that the solution of the linear system needs are on lower levels than nodes that need the solution, so
+/// that they are never lanes of one pack.
 void SeriesLanes::find_levels() {
     levels_.assign(static_cast<std::size_t>(size()), 0);
     int solve = 0;
@@ -170,8 +171,8 @@ void SeriesLanes::find_levels() {
     }
 }
 
-/// The nodes of a group in parts: from the last level to the first, so that users decide the order of lanes;
-/// nobody shares an argument in a part.
+/// Divides the nodes of a group into parts, from the last level to the first, so that users decide the order of
+/// lanes. The nodes of a part have no argument in common.
 std::vector<std::vector<int>> SeriesLanes::parts_of(const std::vector<int>& group) const {
     std::vector<std::vector<int>> parts;
     std::vector<std::set<std::pair<std::size_t, int>>> taken;
@@ -203,7 +204,8 @@ void SeriesLanes::find_packs() {
         if (can_be_packed(id)) groups[{-levels_[id], shape(id)}].push_back(id);
     for (const auto& [key, group] : groups) {
         for (const std::vector<int>& part : parts_of(group)) {
-            const bool is_linear = products_[part[0]].empty();  // worth a pack only as an argument of one
+            // Linear sums are worth a pack only as arguments of one.
+            const bool is_linear = products_[part[0]].empty();
             if (part.size() >= processor::least_lanes && !is_linear) add_pack(part);
         }
         const int here = -key.first;
@@ -221,8 +223,8 @@ void SeriesLanes::find_packs() {
         if (!pack.is_copy) find_weights(pack);
 }
 
-/// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false:
-/// there is no such order. What both take from the lanes of a third pack then stands in one order for both.
+/// Reorders `part` so that each of its nodes shares an argument with the node of `leader` in the same lane; false
+/// if there is no such order. The arguments that both take from a third pack then have the same order for both.
 bool SeriesLanes::follow(const std::vector<int>& leader, std::vector<int>& part) const {
     if (leader.size() != part.size()) return false;
     const std::size_t count = positions(leader[0]).size();
@@ -248,11 +250,11 @@ int SeriesLanes::add_pack(const std::vector<int>& nodes) {
     return number;
 }
 
-/// Names, and where each argument's lanes come from.
+/// Numbers a pack and determines the packs from which its arguments come.
 void SeriesLanes::arrange(int number) {
     packs_[number].number = numbered_++;
     const std::vector<int> nodes = packs_[number].nodes;
-    std::vector<std::vector<int>> lists;  // by position, the lanes' arguments
+    std::vector<std::vector<int>> lists;  // the arguments of the lanes, by position
     for (const int id : nodes) {
         const std::vector<int> list = positions(id);
         lists.resize(list.size());
@@ -272,8 +274,8 @@ void SeriesLanes::arrange(int number) {
     packs_[number].sources = sources;
 }
 
-/// A pack with just these lanes: one that exists, a new one, or copies. −1: linear sums are better computed lane
-/// by lane.
+/// A pack with exactly these lanes: an existing one, a new one, or one of copies. −1 if these are linear sums,
+/// which are better computed lane by lane.
 int SeriesLanes::pack_of(const std::vector<int>& list, bool is_linear) {
     for (std::size_t p = 0; p < packs_.size(); ++p)
         if (packs_[p].nodes == list) return static_cast<int>(p);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which products of Taylor coefficients are computed side by side.
+/// Decides which products of Taylor coefficients are computed side by side.
 ///
 ///     const SeriesLanes lanes(recurrences);
 ///     lanes.packs();       // nodes of the same shape: one vector operation for all of them at each order
 ///     lanes.lanes();       // products of all other nodes: the sums over lower orders side by side, what follows
 ///     one by one
 ///
-/// Nothing here is text: names and C++ come from series_writer.hpp.
+/// This file makes no text; names and C++ are made in series_writer.hpp.
 
 #include <map>
 #include <vector>
@@ -27,51 +27,51 @@ struct SeriesProduct {
     bool is_square() const { return a == b && a_rate == b_rate; }
 };
 
-/// What is multiplied in one lane.
+/// The two factors in one lane.
 struct SeriesLane {
     int a, b;
     bool a_rate, b_rate;
     auto operator<=>(const SeriesLane&) const = default;
 };
 
-/// Nodes of the same shape whose arguments stand in lanes of the same order.
+/// Nodes of the same shape whose arguments are in lanes of the same order.
 struct SeriesPack {
     std::vector<int> nodes;
-    int number = -1;        ///< in the order in which packs were arranged
-    bool by_lanes = false;  ///< each lane computed, or copied from elsewhere, by itself
+    int number = -1;        ///< the position in the order in which packs were arranged
+    bool by_lanes = false;  ///< whether each lane is computed separately, or copied from elsewhere
     bool is_copy = false;
     bool needs_rates = false;
     std::map<int, int> sources = {};  ///< argument of the first lane → pack that has all lanes' arguments
-    std::vector<std::vector<Weight>> weights =
-        {};  ///< of linear, bilinear terms, then products; empty: all the same
+    std::vector<std::vector<Weight>> weights = {};  ///< the weights of linear and bilinear terms, then of
+                                                    ///< products; empty if they are the same in all lanes
     std::size_t padded() const {
         return (nodes.size() + processor::lanes - 1) / processor::lanes * processor::lanes;
     }
 };
 
-/// What must be equal for two nodes to be lanes of one pack.
+/// The properties that must be equal for two nodes to be lanes of one pack.
 struct SeriesShape {
     std::vector<int> numbers;
     Weight exponent;
 };
 
-/// Nodes that a coefficient needs of its own order.
+/// The nodes whose coefficients of the same order a coefficient needs.
 std::vector<int> arguments_of(const SeriesNode& node);
 
-/// Whose first coefficient a node is divided by; −1: none.
+/// The node by whose first coefficient a node is divided; −1 if there is none.
 int divisor_of(const Recurrences& recurrences, int id);
 
 class SeriesLanes {
 public:
-    /// The recurrences must outlive it.
+    /// The recurrences must outlive this object.
     explicit SeriesLanes(const Recurrences& recurrences);
 
     const std::vector<SeriesProduct>& products(int id) const { return products_[id]; }
     const std::vector<SeriesPack>& packs() const { return packs_; }
     bool is_packed(int id) const { return place_[id].pack >= 0; }
     int pack(int id) const { return place_[id].pack; }
-    int lane(int id) const { return place_[id].lane; }  ///< in its pack
-    /// The pack that has the lanes of an argument; `arg` is the first lane's.
+    int lane(int id) const { return place_[id].lane; }  ///< the lane in its pack
+    /// The pack that has the lanes of an argument; `arg` is the argument of the first lane.
     int source_of(const SeriesPack& pack, int arg) const;
 
     const std::vector<SeriesLane>& lanes() const { return lanes_; }
@@ -80,13 +80,13 @@ public:
     std::size_t padded() const {
         return (lanes_.size() + processor::lanes - 1) / processor::lanes * processor::lanes;
     }
-    /// The first and the last term of each sum are added one by one: the coefficients of the order before need not
-    /// come back from memory.
+    /// Whether the first and the last term of each sum are added one by one. The coefficients of the order before
+    /// then need not be read back from memory.
     bool has_edges() const { return lanes_.size() <= processor::most_edges; }
-    /// Order times coefficient is multiplied somewhere.
+    /// Whether the product of order and coefficient is a factor somewhere.
     bool needs_rate(int id) const { return rate_needed_[id] != 0; }
 
-    /// Multiplications of eight lanes in all sums of products, over the square of the order.
+    /// The number of multiplications of eight lanes in all sums of products, divided by the square of the order.
     double products_eight_wide() const;
 
 private:
@@ -111,7 +111,7 @@ private:
     void find_weights(SeriesPack& pack);
 
     const Recurrences& r_;
-    std::vector<std::vector<SeriesProduct>> products_;  // that each node sums up
+    std::vector<std::vector<SeriesProduct>> products_;  // the products in the sum of each node
     std::vector<SeriesPack> packs_;
     std::vector<Place> place_;  // of each node
     std::vector<int> levels_;

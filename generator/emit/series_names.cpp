@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Names of coefficients and arrays, and where the arrays stand in the work space.
+// The names of coefficients and arrays, and the places of the arrays in the work space.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The statements of order k: the state from the rates of the order before, all coefficients, what later orders
-// multiply.
+// The statements of order k: the state from the rates of the order before, all coefficients, and the factors that
+// later orders need.
 //
-// A statement's cost is the operations in it, addresses and the assignment among them, times the vectors that it
-// goes over.
+// The cost of a statement is the number of its operations, addresses and the assignment included, times the number
+// of its vectors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void SeriesWriter::schedule() {
     times_ = series_times(r_, lanes_, sums_);
 }
 
-/// Sums of products in packs: all of orders below k, needed by nothing but this order.
+/// Sums of products in packs, over all orders below k; only this order needs them.
 std::vector<std::string> SeriesWriter::gathering() {
     std::vector<std::string> lines;
     if (!lanes_.lanes().empty())
@@ -74,11 +74,11 @@ bool SeriesWriter::is_ready(int id, const std::vector<char>& done, bool solved) 
     if (node(id).kind == Kind::unknown) return solved;
     std::vector<int> list = arguments_of(node(id));
     for (const auto& [weight, m, a] : node(id).implied)
-        list.push_back(m);  // its first coefficient is met at order 0 by the solve
+        list.push_back(m);  // the solution of the linear system at order 0 gives its first coefficient
     return std::all_of(list.begin(), list.end(), [&](int arg) { return done[arg] != 0; });
 }
 
-/// The coefficients of a node, or of all lanes of its pack.
+/// Computes the coefficient of a node, or those of all lanes of its pack.
 void SeriesWriter::add_coefficients(std::vector<CodeStatement>& lines, int id) {
     const Kind kind = node(id).kind;
     if (!lanes_.is_packed(id)) {
@@ -135,7 +135,7 @@ std::vector<CodeStatement> SeriesWriter::chain() {
     return lines;
 }
 
-/// Copies that nothing has needed before, and rates.
+/// Adds the copies that have not been needed before, and the rates.
 void SeriesWriter::add_what_products_need(std::vector<CodeStatement>& lines) const {
     const std::vector<SeriesPack>& packs = lanes_.packs();
     for (std::size_t p = 0; p < packs.size(); ++p) {
@@ -186,7 +186,8 @@ std::vector<CodeStatement> SeriesWriter::storing(bool is_straight) const {
     return lines;
 }
 
-/// The first coefficients for the edges, half at order 1: the only term of order 2 is then counted once.
+/// The first coefficients for the edges. They are halved at order 1, so that the only term of order 2 is counted
+/// once.
 std::vector<std::string> SeriesWriter::ones() const {
     std::vector<std::string> lines;
     for (const auto& [id, edge] : edges_)
@@ -221,7 +222,7 @@ void SeriesWriter::add_copy(std::vector<CodeStatement>& lines, int number, bool 
     }
 }
 
-/// What a pack takes from lanes that stand elsewhere.
+/// Adds the copies that a pack takes from lanes of other packs.
 void SeriesWriter::add_copies(std::vector<CodeStatement>& lines, const SeriesPack& pack, bool at_zero) const {
     for (const auto& [arg, source] : pack.sources)
         if (lanes_.packs()[source].is_copy) add_copy(lines, source, at_zero);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The statements of order 0: values as the functions themselves give them, and the factors of the linear system.
+// The statements of order 0: values computed by the functions themselves, and the factors of the linear system.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ bool is_pair(Kind kind) {
 
 }  // namespace
 
-/// Small halves without `pow`.
+/// Powers with small whole or half exponents are written without `pow`.
 CodeExpression SeriesWriter::power_at_zero(const Weight& exponent, const CodeExpression& base) {
     const Rational size = cln::abs(exponent.number);
     if (exponent.constant >= 0 || !cln::equal(cln::denominator(size), 2) || size > 4)
@@ -97,7 +97,7 @@ void SeriesWriter::add_pack_at_zero(std::vector<CodeStatement>& lines, int numbe
         {.text = fmt::format("for (int l = 0; l < {}; ++l) {}[l] = {};", pack.padded(), column, value.text)});
 }
 
-/// Everything that is ready but sines; false: there was nothing.
+/// Adds everything that is ready, except sines; false if there was nothing.
 bool SeriesWriter::add_ready_at_zero(std::vector<CodeStatement>& lines, std::vector<char>& done, bool solved) {
     bool moved = false;
     const auto ready = [&](int id) {
@@ -120,7 +120,7 @@ bool SeriesWriter::add_ready_at_zero(std::vector<CodeStatement>& lines, std::vec
     return moved;
 }
 
-/// Everything that is ready, then all sines that are ready at once, until nothing is left.
+/// Adds everything that is ready, then all sines that are ready together, until nothing is left.
 std::vector<CodeStatement> SeriesWriter::order_zero() {
     std::vector<CodeStatement> lines;
     std::vector<char> done(r_.nodes.size(), 0);
@@ -141,7 +141,7 @@ std::vector<CodeStatement> SeriesWriter::order_zero() {
             solved = moved = true;
         }
     }
-    for (std::size_t p = 0; p < packs_.size(); ++p)  // those that only the products need
+    for (std::size_t p = 0; p < packs_.size(); ++p)  // the packs that only the products need
         if (lanes_.packs()[p].is_copy) add_copy(lines, static_cast<int>(p), true);
     add_inverses(lines);
     return lines;
@@ -180,7 +180,7 @@ std::string SeriesWriter::statement_at_zero(int id) {
     }
 }
 
-/// What is divided by at every order, and the weights of lanes.
+/// Adds the inverses of the divisors that every order uses, and the weights of lanes.
 void SeriesWriter::add_inverses(std::vector<CodeStatement>& lines) {
     const std::vector<SeriesPack>& packs = lanes_.packs();
     for (const SeriesPack& pack : packs) {
@@ -212,7 +212,7 @@ void SeriesWriter::add_inverses(std::vector<CodeStatement>& lines) {
     lines.insert(lines.begin(), weights.begin(), weights.end());
 }
 
-/// The linear system: factors at order 0, then a function of the residuals.
+/// The linear system: its factors at order 0, and a function that solves it for given residuals.
 std::vector<CodeStatement> SeriesWriter::solution_at_zero() {
     Program solver;
     std::map<int, std::string> leaves;
@@ -242,7 +242,7 @@ std::vector<CodeStatement> SeriesWriter::solution_at_zero() {
     const auto solution = solve_symmetric(solver, lower, right, r_.preferred);
     if (!solution)
         throw ModelError("the mass matrix is singular at every state: there are no accelerations to emit");
-    // What does not depend on the residuals is done once.
+    // Statements that do not depend on the residuals are executed once.
     std::set<int> fixed;
     for (const int id : solver.needed(*solution))
         if (!solver[id].is_constant())

@@ -20,7 +20,7 @@ std::string SeriesWriter::constant(int id) {
     return fmt::format("par[{}]", p_.parameters.size() + static_cast<std::size_t>(place - constants_.begin()));
 }
 
-/// A term of a sum: a weight times a factor; of weight 1, the factor alone.
+/// A term of a sum: a weight times a factor, or the factor alone if the weight is 1.
 Piece SeriesWriter::term(const Weight& weight, const CodeExpression& factor) {
     const Rational size = cln::abs(weight.number);
     CodeExpression value;
@@ -50,7 +50,7 @@ CodeExpression SeriesWriter::first(int id) const {
     return {fmt::format("{}[{}]", packs_[lanes_.pack(id)].column, lanes_.lane(id))};
 }
 
-/// The sum of a product over orders below k; where ends are added one by one, without these.
+/// The sum of a product over orders below k, without its ends if these are added one by one.
 CodeExpression SeriesWriter::inner_sum(const SeriesProduct& product) const {
     return fmt::format("gathered[{}]", lanes_.number_of(product));
 }

@@ -13,7 +13,7 @@ int coordinates_of(const Recurrences& r) {
     return static_cast<int>(r.program.coordinates.size());
 }
 
-/// The component of the state that a node is; −1: none.
+/// The component of the state that a node represents; −1 if it is none.
 int component_of(const Recurrences& r, const SeriesNode& x) {
     return x.kind == Kind::coordinate ? x.index : x.kind == Kind::speed ? coordinates_of(r) + x.index : -1;
 }
@@ -49,7 +49,7 @@ Times series_times(const Recurrences& r, const SeriesLanes& lanes, const std::ma
             if (x.kind == Kind::residual) solved = std::max(solved, here[id]);
         }
         for (const SeriesLane& lane : lanes.lanes()) stored = std::max({stored, here[lane.a], here[lane.b]});
-        here.back() = stored;  // a row is read as a whole, when the last of its lanes has been stored
+        here.back() = stored;  // a row is read as a whole, after the last of its lanes has been stored
     }
     return all;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// When each Taylor coefficient is ready, order after order, so that sums can take what is late last.
+/// The times at which each Taylor coefficient is ready, order after order, so that sums can add late terms last.
 
 #include <map>
 
@@ -10,11 +10,11 @@
 
 namespace alembert {
 
-/// The node of the rate of component i of the state: of q, then of u, then of the power's integral.
+/// The node of the rate of component i of the state: q, then u, then the integral of the power.
 int rate_node(const Recurrences& recurrences, int i);
 
-/// Cycles, of each node and then of a row of lanes; `sums` are those of nodes that stand alone, where sums have
-/// edges.
+/// The times in cycles for each node and then for a row of lanes. `sums` are those of nodes outside packs, if the
+/// ends of sums are added one by one.
 Times series_times(const Recurrences& recurrences, const SeriesLanes& lanes,
                    const std::map<int, ScheduledSum>& sums);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The coefficient of order k of each node. Sums of products are those over orders between; the ends are added
-// here, since 2 a_0 b_k needs no other order.
+// The coefficient of order k of each node. The sums of products cover the orders in between; the ends are added
+// here, because 2 a_0 b_k needs no other order.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace alembert {
 
 using Kind = SeriesNode::Kind;
 
-/// The coefficient of order k, sums of products being complete but for their ends.
+/// The coefficient of order k. The sums of products are complete except for their ends.
 CodeExpression SeriesWriter::value(int id, const View& v) {
     const SeriesNode& x = node(id);
     const auto now = [&](int arg) { return v.now(arg); };
@@ -57,8 +57,7 @@ CodeExpression SeriesWriter::value(int id, const View& v) {
     }
 }
 
-/// The coefficient of order k of a node that stands alone, where the ends of its sums of products are added one by
-/// one.
+/// The coefficient of order k of a node outside packs, if the ends of its sums of products are added one by one.
 SumParts SeriesWriter::sum_parts(int id) {
     const SeriesNode& x = node(id);
     SumParts sum;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The C++ of Taylor coefficients: names for what series_lanes.hpp has decided, statements of order 0 and of order
-/// k.
+/// Writes the C++ of Taylor coefficients: names for the packs and lanes of series_lanes.hpp, and the statements of
+/// order 0 and of order k.
 ///
 ///     SeriesWriter writer(recurrences, lanes);
 ///     writer.order_zero();      // first coefficients, factors of the linear system
@@ -11,7 +11,7 @@
 ///     writer.prepare();         // last: the constants that all of these have asked for
 ///
 /// series_names.cpp gives names and places; series_start.cpp writes order 0, series_order.cpp the statements of
-/// order k, series_values.cpp the values in them, series_text.cpp what values are made of.
+/// order k, series_values.cpp the values in them, series_text.cpp the terms of these values.
 
 #include <functional>
 #include <map>
@@ -26,7 +26,7 @@ namespace alembert {
 
 class SeriesWriter {
 public:
-    /// Both must outlive it.
+    /// Both must outlive this object.
     SeriesWriter(const Recurrences& recurrences, const SeriesLanes& lanes);
 
     std::vector<CodeStatement> order_zero();
@@ -34,7 +34,7 @@ public:
     std::vector<CodeStatement> given() const;
     std::vector<std::string> gathering();
     std::vector<CodeStatement> chain();
-    /// `is_straight`: all orders are straight-line code, where rows are stored as vectors.
+    /// With `is_straight` all orders are straight-line code, and rows are stored as vectors.
     std::vector<CodeStatement> storing(bool is_straight) const;
     std::vector<std::string> ones() const;
     std::vector<std::string> edges() const;
@@ -49,25 +49,28 @@ public:
     Arrays arrays() const;
 
     std::vector<std::string> prepare();
-    const std::vector<int>& constants() const { return constants_; }  ///< of the Program, in the order of `par`
+    const std::vector<int>& constants() const {
+        return constants_;
+    }  ///< the constants of the Program, in the order of `par`
     int width() const { return n_ + s_ + (r_.work >= 0 ? 1 : 0); }
 
 private:
     struct NodeNames {
-        std::string now, first;  ///< the coefficient of this order; of order 0
-        std::string rate;        ///< k times the coefficient of this order; empty: not needed
-        std::string inverse;     ///< of the first coefficient
+        std::string now, first;  ///< the coefficient of this order, and that of order 0
+        std::string rate;        ///< k times the coefficient of this order; empty if not needed
+        std::string inverse;     ///< the inverse of the first coefficient
     };
     struct PackNames {
         std::string column = {}, rates = {},
-                    inverse = {};               ///< arrays [order][padded]; rates and inverse where needed
-        std::vector<std::string> sums = {};     ///< of each product
-        std::vector<std::string> weights = {};  ///< of each term, where lanes differ
+                    inverse = {};               ///< arrays [order][padded]; rates and inverse only if needed
+        std::vector<std::string> sums = {};     ///< the sum of each product
+        std::vector<std::string> weights = {};  ///< the weights of each term, if the lanes have different ones
     };
     struct EdgeNames {
-        std::string one, before;  ///< the coefficient of order 1, with its rate's; of the order before
+        std::string one,
+            before;  ///< the coefficient of order 1, with the factor of its rate, and that of the order before
     };
-    /// How the text of a value names what it is made of: of one node, or of all lanes from l on.
+    /// How the text of a value names its arguments: for one node, or for all lanes from l on.
     struct View {
         std::function<CodeExpression(int)> now, first, inverse;
         std::function<Piece(std::size_t term, const Weight&, const CodeExpression&)> piece;
@@ -121,10 +124,10 @@ private:
     int n_, s_;
     Names names_;
     std::vector<NodeNames> names_of_;  // of each node
-    std::vector<PackNames> packs_;     // of each pack
-    std::map<int, EdgeNames> edges_;   // of the factors of lanes, where sums have edges
+    std::vector<PackNames> packs_;     // the names of each pack
+    std::map<int, EdgeNames> edges_;   // names for the factors of lanes, if sums have edges
     std::vector<int> constants_;
-    std::map<int, ScheduledSum> sums_;  // of nodes that stand alone, where sums have edges
+    std::map<int, ScheduledSum> sums_;  // the sums of nodes outside packs, if sums have edges
     Times times_;
 };
 

@@ -29,7 +29,7 @@ void add_goals(std::vector<Goal>& goals, const Program& p, Group group, const st
         if (root.group == group) goals.push_back({section, root.name, root.node});
 }
 
-/// To array[first], array[first + 1] …
+/// Adds results for array[first], array[first + 1] …
 void add_results(std::vector<FunctionResult>& results, const Program& p, Group group, const std::string& array,
                  std::size_t first = 0) {
     for (const int node : p.nodes_of(group))
@@ -42,7 +42,8 @@ std::vector<Goal> unnamed(const std::string& section, const std::vector<Function
     return goals;
 }
 
-/// Of M and f: what the solve takes as it stands, what it takes with the other sign, and what is there to be read.
+/// Prepares an entry of M or f: the solution uses it as it is, or with the opposite sign, or it is shown to
+/// readers only.
 Goal as_taken(const Program& p, Goal goal, const std::set<int>& needed) {
     goal.is_noted = true;
     const Node& node = p[goal.node];

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The functions of a solver (lib/alembert/abi.hpp): what each computes, under which titles.
+/// The functions of a solver (lib/alembert/abi.hpp): the values that each computes, and the titles of its
+/// sections.
 
 #include "emit/function.hpp"
 
 namespace alembert {
 
-/// rate = (q', u'): kinematics, M, f, constraints, solve.
+/// rate = (q', u'): kinematics, M, f, constraints, solution.
 FunctionTask right_hand_side(const Program& program, const Vocabulary& words);
 FunctionTask mass_forcing(const Program& program);
 FunctionTask energy(const Program& program);
@@ -15,7 +16,7 @@ FunctionTask outputs_at(const Program& program);
 FunctionTask events_at(const Program& program);
 FunctionTask constraints_at(const Program& program);
 FunctionTask multipliers_at(const Program& program);
-/// One step to the constraints; without results where there is none.
+/// One step of the projection to the constraints; it has no results if there is no such step.
 FunctionTask project(const Program& program);
 FunctionTask gamma_at(const Program& program);
 

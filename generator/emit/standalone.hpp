@@ -6,7 +6,7 @@
 ///     const SourceFile main = standalone(program, {.state = {0.5, 0, 0, 0}}, CodeLanguage::c);
 ///     main.name;    // "double_pendulum_main.c"
 ///
-/// Shape in templates/standalone.mustache.
+/// The template is templates/standalone.mustache.
 
 #include "emit/emit.hpp"
 
@@ -16,7 +16,7 @@ struct StandaloneStart {
     double t = 0;               ///< s
     std::vector<double> state;  ///< q, then u
     double duration = 10;       ///< s
-    double tolerance = 1e-9;    ///< of a step, relative to max(1, |y|)
+    double tolerance = 1e-9;    ///< the tolerance of a step, relative to max(1, |y|)
 };
 
 SourceFile standalone(const Program& program, const StandaloneStart& start, CodeLanguage language);

@@ -18,7 +18,7 @@ namespace {
 namespace mustache = kainjow::mustache;
 using Kind = SeriesNode::Kind;
 
-/// Those of order 0, and of the constants.
+/// The elementary functions that order 0 and the constants need.
 std::set<Op> elementary_functions(const Recurrences& r, const std::vector<int>& constants) {
     std::set<Op> functions;
     for (const int id : r.program.needed(constants))

@@ -31,7 +31,7 @@ Vocabulary::Vocabulary(const Program& program)
     find_constants();
 }
 
-/// Everything that depends on parameters alone and is wanted by something that does not.
+/// Finds the nodes that depend on parameters only and are used by nodes that depend on more.
 void Vocabulary::find_constants() {
     std::vector<int> wanted;
     for (const Root& root : p_.roots) wanted.push_back(root.node);
@@ -41,7 +41,7 @@ void Vocabulary::find_constants() {
         if (!node.is_constant() || node.args.empty()) return;
         const bool negation = node.is_scaled() && cln::equal(node.coefficients[0], -1);
         const int kept = negation ? node.args[0] : id;
-        if (!p_[kept].args.empty()) found.insert(kept);  // −p is read from p, which stands in `par` already
+        if (!p_[kept].args.empty()) found.insert(kept);  // −p is computed from p, which is in `par` already
     };
     for (const int id : p_.needed(wanted))
         if (!p_[id].is_constant())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What an emitted file calls the state, the parameters and the constants of a Program.
+/// The names of the state, the parameters and the constants of a Program in an emitted file.
 ///
 ///     const Vocabulary words(program);
 ///     words.leaves();                      // node → "theta", "l1", "k0"
@@ -18,7 +18,7 @@ namespace alembert {
 
 /// A name that a function takes from one of its arrays.
 struct ArrayInput {
-    enum class Array { state, rate, par };  ///< declared apart
+    enum class Array { state, rate, par };  ///< each array is declared separately
     std::string name;
     Array array;
     int place;
@@ -29,21 +29,21 @@ class Vocabulary {
 public:
     explicit Vocabulary(const Program& program);
 
-    /// Names of variables and constants, by node.
+    /// The names of variables and constants, by node.
     std::map<int, std::string> leaves() const;
-    /// Names of variables alone: for the function that makes the constants.
+    /// The names of variables only, for the function that computes the constants.
     std::map<int, std::string> variables() const;
-    /// Those variables and constants that are among the nodes used; with `rates_needed` all speeds besides.
+    /// The variables and constants among the used nodes; with `rates_needed` also all speeds.
     std::vector<ArrayInput> inputs(const std::map<int, int>& uses, bool rates_needed) const;
 
-    const Names& names() const { return names_; }  ///< with all of the following taken
+    const Names& names() const { return names_; }  ///< in which all of the following are taken
     const std::vector<std::string>& q() const { return q_; }
     const std::vector<std::string>& u() const { return u_; }  ///< speeds
     const std::vector<std::string>& a() const { return a_; }  ///< their rates
     const std::vector<std::string>& par() const { return par_; }
     const std::vector<int>& constants() const {
         return constants_;
-    }  ///< nodes that depend on parameters alone, in the order of `par`
+    }  ///< nodes that depend on parameters only, in the order of `par`
     const std::string& constant(int node) const { return constant_names_.at(node); }
 
 private:

@@ -16,8 +16,8 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t readable_statements = 60;  // beyond, sections give way to speed
-constexpr int widest_expression = 10;            // operations in one statement, so that it can be read
+constexpr std::size_t readable_statements = 60;  // with more statements, speed is more important than sections
+constexpr int widest_expression = 10;            // the most operations in one statement, so that it can be read
 
 bool is_negation(const Node& node) {
     return node.is_scaled() && cln::equal(node.coefficients[0], -1);
@@ -66,7 +66,7 @@ void Writer::shorten(int id, std::map<int, int>& length) {
 }
 
 void Writer::choose_statements(const std::vector<Goal>& goals) {
-    std::map<int, int> length;  // operations that stay in place, by node
+    std::map<int, int> length;  // operations that are written in place, by node
     for (const auto& [id, count] : uses_) {
         if (is_simple(id)) continue;
         shorten(id, length);
@@ -112,11 +112,12 @@ std::vector<Passage> Writer::write(const std::vector<Goal>& goals) {
     return passages;
 }
 
-/// What the last section ("solve") needs besides one other belongs to that other; no node comes after its users.
+/// A node that only the last section ("solve") and one other section need belongs to the other one. No node comes
+/// after its users.
 Writer::Sections Writer::sections_of(const std::vector<Goal>& goals) const {
     Sections sections{.titles = {"Trigonometry", "Shared terms"}, .place = {}};
     auto& [titles, place] = sections;
-    std::map<int, unsigned> needed_by;  // bits in the order of the goals' sections
+    std::map<int, unsigned> needed_by;  // one bit for each of the goals' sections, in their order
     std::map<std::string, std::vector<int>> roots_of;
     for (const Goal& goal : goals) {
         if (std::find(titles.begin(), titles.end(), goal.section) == titles.end()) titles.push_back(goal.section);
@@ -176,7 +177,7 @@ std::vector<Passage> Writer::in_order_of_time(const Sections& sections, const st
     return passages;
 }
 
-/// Goals that are a number or a parameter, or whose value has another name.
+/// Adds notes for goals that are a number or a parameter, or whose value has another name.
 void Writer::add_notes(std::vector<Passage>& passages, const std::vector<Goal>& goals) {
     const auto is_known = [&](int id) { return is_simple(id) || named_.contains(id) || negatives_.contains(id); };
     for (const Goal& goal : goals) {
@@ -199,7 +200,7 @@ void Writer::add_notes(std::vector<Passage>& passages, const std::vector<Goal>& 
     operations_ = 0;
 }
 
-/// Each statement with what stands in place in it.
+/// Orders statements for the registers; each includes the nodes that are written in place.
 std::vector<int> Writer::in_registers(const std::vector<int>& nodes) const {
     std::map<int, int> position;
     for (std::size_t k = 0; k < nodes.size(); ++k) position.emplace(nodes[k], static_cast<int>(k));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Writes one function's statements from a Program: what is used twice gets a name, the rest stays in place.
+/// Writes the statements of one function from a Program. Values that are used twice get a name, the others are
+/// written in place.
 ///
 ///     Writer writer(program, words.names(), words.leaves());
 ///     writer.write({{"Forcing f", "f0", node}});      // passages of statements
@@ -28,9 +29,9 @@ inline bool is_trigonometric(const Node& node) {
 
 class Writer {
 public:
-    /// `leaves`: nodes that have names already (variables, constants that `prepare` made).
-    /// `adds_angles`: sin(a + b) from the sines and cosines of a and b where these are there: two operations
-    /// instead of 30, as good to an ulp of 1, and further from the book.
+    /// `leaves` are the nodes that have names already (variables, and constants from `prepare`). With
+    /// `adds_angles`, sin(a + b) is computed from the sines and cosines of a and b if these exist. That takes two
+    /// operations instead of 30 and is accurate to an ulp of 1, but is less like a book.
     Writer(const Program& program, Names names, std::map<int, std::string> leaves, bool adds_angles = false,
            CodeLanguage language = CodeLanguage::cpp)
         : program_(program),
@@ -39,11 +40,11 @@ public:
           adds_angles_(adds_angles),
           language_(language) {}
 
-    /// The statements that lead to the goals, by section: trigonometry, what several sections share, then the
-    /// goals' own sections in their order.
+    /// The statements that lead to the goals, by section: trigonometry, values that several sections share, then
+    /// the goals' own sections in their order.
     std::vector<Passage> write(const std::vector<Goal>& goals);
 
-    /// After `write`: "to = value;" of a goal, where `to` is a place in `array`.
+    /// After `write`: the statement "to = value;" for a goal, where `to` is a place in `array`.
     CodeStatement assigned(const std::string& array, const std::string& to, int node);
     /// After `write`: an expression for a goal's value, and the leaves that were used.
     std::string value(int node) { return text(node, additive); }
@@ -57,8 +58,8 @@ private:
     };
     struct Sections {
         std::vector<std::string> titles;
-        std::map<int, std::size_t> place;  ///< of each node that the goals use
-        /// What stands below a leaf comes first, like sines.
+        std::map<int, std::size_t> place;  ///< the section of each node that the goals use
+        /// Arguments of leaves belong to the first section, like sines.
         std::size_t of(int node) const {
             const auto found = place.find(node);
             return found == place.end() ? 0 : found->second;
@@ -92,23 +93,23 @@ private:
     std::string product_text(int node);
 
     const Program& program_;
-    std::optional<Readiness> ready_;  // in `write`
+    std::optional<Readiness> ready_;  // set in `write`
     Names names_;
     std::map<int, std::string> named_;
-    std::map<int, std::string> negatives_;  // nodes whose negative has a name: that name
+    std::map<int, std::string> negatives_;  // for nodes whose negative has a name, that name
     std::map<int, std::string> leaves_;
     std::map<int, int> uses_;              // how often a needed node is used
     std::map<int, std::string> wanted_;    // nodes that get a statement, and the name they ask for ("" for any)
-    std::map<int, std::string> promised_;  // names that are theirs already
-    std::map<int, std::string>
-        wanted_negatives_;  // nodes that are written as their negative, and the name of that
-    std::map<int, std::string> argument_names_, sine_names_, cosine_names_;  // of an argument
+    std::map<int, std::string> promised_;  // names that are reserved for these nodes
+    std::map<int, std::string> wanted_negatives_;  // nodes of which the negative is written, and the name of that
+    // Names for an argument and its sine and cosine.
+    std::map<int, std::string> argument_names_, sine_names_, cosine_names_;
     bool adds_angles_;
     CodeLanguage language_;
     std::map<int, std::pair<int, int>> sines_;  // argument → its sine and cosine, −1 where not needed
 
-    std::set<std::string> reading_;  // names in the statement at hand
-    int operations_ = 0;             // in it
+    std::set<std::string> reading_;  // the names in the current statement
+    int operations_ = 0;             // the operations in it
 };
 
 }  // namespace alembert

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Values as C++: what has a name by its name, what stands in place with the brackets that it needs.
+// Values as C++: a value with a name is written by its name, a value in place with the brackets that it needs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace alembert {
 
-/// The statement whose text was just made, with what was met on the way.
+/// The statement for the text that was just made, with the names and operations in it.
 CodeStatement Writer::finished(std::vector<std::string> names, std::string text) {
     CodeStatement result{
         .names = std::move(names), .uses = std::move(reading_), .cost = operations_, .text = std::move(text)};
@@ -77,7 +77,8 @@ std::string Writer::text(int id, int precedence) {
     return own < precedence ? "(" + result + ")" : result;
 }
 
-/// A node whose negative has a name, or a product in place with an odd number of such factors.
+/// Whether the negative of a node has a name, or the node is a product in place with an odd number of such
+/// factors.
 bool Writer::is_negative(int id) const {
     if (named_.contains(id)) return false;
     if (negatives_.contains(id)) return true;
@@ -88,7 +89,7 @@ bool Writer::is_negative(int id) const {
     return negative;
 }
 
-/// Without the sign of what is negative.
+/// The text without the sign of a negative node.
 std::string Writer::unsigned_text(int id, int precedence) {
     if (!is_negative(id)) return text(id, precedence);
     if (const auto negative = negatives_.find(id); negative != negatives_.end()) {
@@ -123,7 +124,7 @@ std::string Writer::sum_text(int id, bool negated) {
         pieces.insert(ready_->is_ordered() ? pieces.begin() : pieces.end(),
                       {cln::minusp(node.number) != negated, number_text(cln::abs(node.number))});
     operations_ += static_cast<int>(pieces.size()) - 1;
-    // A positive term first, if there is one: b − a, not −a + b. But what is late stays last.
+    // A positive term first, if there is one: b − a, not −a + b. But a late term stays last.
     const auto positive = std::find_if(pieces.begin(), pieces.end(), [](const Piece& p) { return !p.negative; });
     const bool late =
         ready_->is_ordered() && pieces.size() > 2 && positive != pieces.end() && positive + 1 == pieces.end();

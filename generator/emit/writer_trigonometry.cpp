@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Sines and cosines: up to eight angles at once, those of sums from those of their terms where that is asked for.
+// Sines and cosines: up to eight angles are computed at once; on request, sines and cosines of sums are computed
+// from those of the terms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace alembert {
 
 std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
-    std::map<int, int> depth;  // how many sines of sines there are in a node
+    std::map<int, int> depth;  // the nesting depth of sines in a node
     int deepest = 0;
     for (const auto& [id, count] : uses_) {
         if (is_leaf(id)) continue;
@@ -22,7 +23,7 @@ std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
     for (int d = 0; d <= deepest; ++d) {
         for (const int id : nodes)
             if (!is_trigonometric(program_[id]) && depth[id] == d) statements.push_back(statement(id));
-        std::vector<int> arguments, first;  // and the first node of each
+        std::vector<int> arguments, first;  // the arguments, and the first node of each
         for (const int id : nodes)
             if (const int argument = program_[id].args.empty() ? -1 : program_[id].args[0];
                 is_trigonometric(program_[id]) && depth[id] == d + 1 &&
@@ -45,7 +46,7 @@ std::vector<CodeStatement> Writer::trigonometry(const std::vector<int>& nodes) {
     return statements;
 }
 
-/// Two to eight angles in one call; the values that somebody needs get names.
+/// Two to eight angles in one call; the values that are needed get names.
 CodeStatement Writer::sines_together(const std::vector<int>& arguments, const std::vector<AngleSum>& sums) {
     const std::string group = names_.numbered("trig");
     std::string of, values;
@@ -87,7 +88,7 @@ void Writer::add_angle_sum(std::vector<CodeStatement>& statements, const AngleSu
     add(cosine, "cos_", fmt::format("{} * {} {} {} * {}", ca, cb, sum.is_difference ? '+' : '-', sa, sb));
 }
 
-/// Of a single angle.
+/// The statement for the sine or cosine of a single angle.
 CodeStatement Writer::trigonometric_statement(int id) {
     const Node& node = program_[id];
     const int argument = node.args[0];
@@ -105,7 +106,7 @@ CodeStatement Writer::trigonometric_statement(int id) {
     return finished({named_[id]}, fmt::format("const Real {} = {}({});", named_[id], name_of(node.op), of));
 }
 
-/// Those angles that are sums or differences of two others, when these fit in one group; they leave the lists.
+/// Removes from the lists the angles that are sums or differences of two others, if those others fit in one group.
 std::vector<Writer::AngleSum> Writer::taken_out_sums(std::vector<int>& arguments, std::vector<int>& first) const {
     std::vector<AngleSum> sums;
     if (arguments.size() > processor::widest_sincos) return sums;

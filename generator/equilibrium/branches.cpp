@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_branches = 60;
 constexpr int places = 7;                  // values of the parameter at which all equilibria are searched
-constexpr long double on_branch = 2e-3L;   // of y: as near lies a curve between its points
+constexpr long double on_branch = 2e-3L;   // in y: how near a curve is to the points between which it was traced
 constexpr long double leave = 0.01L;       // first step away from a crossing
 constexpr long double same_point = 1e-5L;  // of y
 
@@ -36,7 +36,7 @@ public:
     void go() {
         const auto path = [this](double p) { return at(p); };
         for (int k = 0; k < places; ++k) {
-            // not in the order of the parameter, and not at round values, where curves like to cross
+            // not in the order of the parameter, and not at round values, where curves often cross
             const double part = k == 0 ? 0 : k == 1 ? 1 : std::fmod(0.381966 + 0.618034 * k, 1.0);
             const double p = options_.from + part * (options_.to - options_.from);
             if (options_.progress) options_.progress("searching", static_cast<double>(k) / places);
@@ -137,7 +137,7 @@ private:
         return {at.q.begin(), at.q.end()};
     }
 
-    /// Curves that cross meet the same point.
+    /// Crossing curves find the same point, which is reported once.
     bool is_told(const Tracer& tracer, const FollowedPoint& one) {
         const Column y = tracer.place(one.point.at, one.point.p);
         for (const auto& [kind, other] : told_)
@@ -155,7 +155,7 @@ private:
         return d;
     }
 
-    /// Does the point lie on a curve that was followed?
+    /// Is the point on a curve that was followed?
     bool is_known(const Column& y) const {
         for (const std::vector<Column>& curve : curves_)
             for (std::size_t k = 0; k + 1 < curve.size(); ++k) {

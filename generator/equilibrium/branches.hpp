@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How equilibria and steady motions change with a parameter: `equilibrium --follow`.
+/// The change of equilibria and steady motions with a parameter: `equilibrium --follow`.
 ///
 ///     const Branches found = branches(read_scene("scenes/textbook/rotating_hoop.toml"), {.name = "Omega",
 ///                                     .from = 0, .to = 10});
 ///     found.points[0].kind, found.points[0].parameter;       // pitchfork, sqrt(g/R)
 ///
-/// All equilibria are searched at several values of the parameter; each that lies on no curve yet is followed both
-/// ways, and so is what branches off. A closed curve between two of these values that nothing branches from to is
-/// not seen.
+/// All equilibria are searched at several values of the parameter; each one that is not on a known curve is
+/// followed in both directions, and so are the branches that leave it. A closed curve between two of these values
+/// to which no branch leads is not found.
 
 #include "equilibrium/crossing.hpp"
 #include "equilibrium/equilibria.hpp"
@@ -28,7 +28,7 @@ struct BranchPoint {
     double parameter = 0;
     std::vector<double> q;
     Stable stable = Stable::undecided;
-    std::optional<PointKind> kind = {};  ///< of a special point
+    std::optional<PointKind> kind = {};  ///< the kind of a special point
 };
 
 struct Branch {
@@ -40,20 +40,20 @@ struct SpecialPoint {
     PointKind kind;
     double parameter;
     std::vector<double> q;
-    std::size_t branch;  ///< on which it was found
+    std::size_t branch;  ///< the branch on which it was found
 };
 
 struct Branches : Derived {
     std::string parameter = {};
     double from = 0, to = 1;
     std::vector<Branch> branches = {};
-    std::vector<SpecialPoint> points = {};  ///< by parameter
+    std::vector<SpecialPoint> points = {};  ///< ordered by parameter
     std::vector<bool> is_angle = {}, essential = {};
-    bool cut = false;  ///< a curve was given up before its end
+    bool cut = false;  ///< whether a curve was abandoned before its end
 };
 
-/// Throws as `equilibria`, and ModelError for a name that is neither a parameter nor a cyclic rate, or a range of
-/// no length.
+/// Throws what `equilibria` throws, and ModelError for a name that is neither a parameter nor a cyclic rate, or a
+/// range of no length.
 Branches branches(Scene scene, const FollowOptions& options);
 
 }  // namespace alembert

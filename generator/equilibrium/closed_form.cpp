@@ -22,7 +22,7 @@ constexpr int most_coordinates = 4;
 constexpr double largest_tree = 3000;
 constexpr std::size_t most_terms = 40, most_roots = 64;
 
-/// One value that a coordinate may have, and what must hold for it to be real.
+/// One possible value of a coordinate, and the conditions for it to be real.
 struct RootChoice {
     std::size_t coordinate;
     ex value;
@@ -35,7 +35,7 @@ public:
                const std::function<bool(const ex&)>& vanishes)
         : m_(m), essential_(essential), vanishes_(vanishes) {}
 
-    /// False where something is not solved.
+    /// False if something cannot be solved.
     bool solve(const std::vector<ex>& equations, const std::vector<RootChoice>& chosen) {
         if (roots.size() > most_roots) return false;
         std::vector<ex> left;
@@ -74,7 +74,7 @@ private:
         return f ? text(readable(*f)) : std::string();
     }
 
-    /// All roots of all factors; nothing where one of them is not solved.
+    /// All roots of all factors; nothing if one of them cannot be solved.
     std::optional<std::vector<RootChoice>> choices_of(const ex& equation, bool others) const {
         const TrigonometricProduct product = product_of(equation, m_);
         std::vector<RootChoice> result;
@@ -94,7 +94,7 @@ private:
 
     std::optional<std::vector<RootChoice>> roots_of(const ex& base, const GiNaC::exmap& functions,
                                                     bool others) const {
-        std::vector<std::pair<ex, ex>> letters;  // that occur
+        std::vector<std::pair<ex, ex>> letters;  // the letters that occur
         for (const auto& [letter, call] : functions)
             if (base.has(letter)) letters.emplace_back(letter, call);
         for (const auto& [letter, call] : letters)
@@ -276,7 +276,7 @@ std::optional<std::vector<ClosedRoot>> closed_form(const Mechanism& m, const Equ
     ClosedForm closed(m, essential, vanishes);
     if (!closed.solve(equations, {})) return {};
     return std::move(closed.roots);
-} catch (const std::exception&) {  // a pole, or a function without a value: then numbers decide
+} catch (const std::exception&) {  // a pole, or a function without a value; then the numeric search decides
     return {};
 }
 

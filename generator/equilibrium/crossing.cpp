@@ -14,8 +14,8 @@ using Column = VectorOf<long double>;
 
 namespace {
 
-constexpr long double apart = 1e-3L;     // for second differences
-constexpr long double vertical = 1e-2L;  // the part that the parameter has in a tangent
+constexpr long double apart = 1e-3L;     // distance for second differences
+constexpr long double vertical = 1e-2L;  // a tangent is vertical if the parameter has a smaller part in it
 
 struct Kernel {
     std::array<Column, 2> right;

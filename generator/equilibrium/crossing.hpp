@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What happens where curves of equilibria cross.
+/// The kind of point at which curves of equilibria cross.
 ///
 ///     const BranchCrossing crossing = crossing_at(tracer, point);
 ///     crossing.kind, crossing.directions          // two tangents
 ///
-/// F_y has two null vectors v₁, v₂ there and one on the left, ψ. With b_ij = ψᵀ F_yy v_i v_j, the tangents α v₁ +
-/// β v₂ obey b₁₁ α² + 2 b₁₂ α β + b₂₂ β² = 0. One along which the parameter does not change belongs to a
-/// pitchfork. (Keller, Lectures on Numerical Methods in Bifurcation Problems (1987), §5.20.)
+/// There F_y has two null vectors v₁, v₂ and one left null vector ψ. With b_ij = ψᵀ F_yy v_i v_j, the tangents α
+/// v₁ + β v₂ obey b₁₁ α² + 2 b₁₂ α β + b₂₂ β² = 0. If the parameter does not change along one of them, the point
+/// is a pitchfork. (Keller, Lectures on Numerical Methods in Bifurcation Problems (1987), §5.20.)
 
 #include "equilibrium/tracer.hpp"
 

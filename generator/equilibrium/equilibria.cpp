@@ -18,7 +18,7 @@ namespace {
 
 constexpr double closed_gap = 1e-9;  // · max(1, |q|)
 
-/// Inputs keep still: an equilibrium under a force that changes is none.
+/// Checks that inputs are constant, because there is no equilibrium under a force that changes.
 void check_inputs(const Mechanism& m, const Residuals& residuals, const Start& start) {
     for (std::size_t k = 0; k < residuals.inputs.size(); ++k)
         for (const double later : {0.37, 1.0, 2.71}) {
@@ -59,7 +59,7 @@ std::vector<double> multipliers_at(const SteadyProblem& problem, const Instant<l
     return {here.tangent.lambda.data(), here.tangent.lambda.data() + here.tangent.lambda.size()};
 }
 
-/// Does the state pass through a contact?
+/// Is a gap negative at this state?
 bool penetrates(const Derived& d, const Start& start) {
     if (d.mechanism.unilateral.empty()) return false;
     Program program;
@@ -96,7 +96,7 @@ std::string searched(const Equilibria& found) {
     return text + ". This is no proof that there is none";
 }
 
-/// Throws where a force is the same at every state and nothing balances it.
+/// Throws if a force is the same at every state and nothing balances it.
 void check_balance(const Equilibria& found, const SteadyProblem& problem) {
     for (std::size_t i = 0; i < found.search.constant.size(); ++i)
         if (found.search.constant[i]) {
@@ -109,14 +109,14 @@ void check_balance(const Equilibria& found, const SteadyProblem& problem) {
         }
 }
 
-/// Where rates do not stay constant, Kane's speeds may: a sledge that runs on a circle.
+/// If rates do not stay constant, Kane's speeds may, as for a sledge that runs on a circle.
 bool may_try_kane(const Derived& d) {
     const auto& all = d.mechanism.constraints;
     return d.by.empty() && d.mechanism.speeds.empty() && masses_are_known(d.mechanism) &&
            std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });
 }
 
-/// Values of expressions in parameters and given rates.
+/// The values of expressions in parameters and given rates.
 std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& list, const Start& start) {
     Program program;
     const std::vector<int> nodes = lower_expressions(program, m, list);
@@ -126,8 +126,8 @@ std::vector<double> numbers(const Mechanism& m, const std::vector<GiNaC::ex>& li
     return result;
 }
 
-/// Holds the solutions in the parameters against those that Newton's method has found: each of these must be one
-/// of them, and each that is real at these parameters must be a root.
+/// Compares the solutions in the parameters with those that Newton's method has found: each of the latter must be
+/// one of the former, and each solution that is real at these parameters must be a root.
 void solve_in_symbols(Equilibria& result, const SteadyProblem& problem, const Start& start,
                       const std::function<void(const SteadyRoot&)>& add) {
     constexpr long double same = 1e-9L, same_if_multiple = 1e-4L;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `equilibrium`: where a mechanism can stay at rest, or move steadily.
+/// The verb `equilibrium`: the states at which a mechanism can stay at rest or move steadily.
 ///
 ///     const Equilibria found = equilibria(read_scene("scenes/textbook/rotating_hoop.toml"));
 ///     found.list[0].start.q, found.list[0].judgement.stable;
@@ -18,7 +18,7 @@
 namespace alembert {
 
 struct EquilibriumOptions {
-    std::string by = {};  ///< a formalism; empty: the program chooses
+    std::string by = {};  ///< a formalism; if empty, the program chooses
     Overrides at = {};
     std::function<void(std::string_view, double)> progress = {};
 };
@@ -27,8 +27,8 @@ struct EquilibriumOptions {
 struct Equilibrium {
     Start start;                      ///< coordinates, angles in (−π, π]; rates
     std::vector<std::string> moving;  ///< cyclic coordinates that move
-    double residual = 0;              ///< what is left of the forces, of what a change of all unknowns by 1 does
-    bool isolated = true;             ///< false: it stands for a continuum
+    double residual = 0;   ///< the unbalanced forces, relative to the effect of a change of all unknowns by 1
+    bool isolated = true;  ///< false if it represents a continuum
     std::vector<double> multipliers;  ///< of the constraints, in the order of Equations::lambda
     StabilityHint judgement;
     std::optional<ClosedRoot> exact = {};  ///< in the parameters
@@ -37,14 +37,15 @@ struct Equilibrium {
 struct Equilibria : Derived {
     std::vector<Equilibrium> list = {};
     SteadySearch search = {};
-    std::vector<std::string> cyclic = {};  ///< nothing depends on these: any value will do
-    bool closed = false;                   ///< solved in the parameters: the list is complete
-    std::vector<ClosedRoot> absent = {};   ///< solutions that are not real at these parameters
-    std::string nothing = {};              ///< why the list is empty, and what was searched
+    /// Coordinates on which nothing depends, so that they may have any value.
+    std::vector<std::string> cyclic = {};
+    bool closed = false;  ///< whether the equations were solved in the parameters, so that the list is complete
+    std::vector<ClosedRoot> absent = {};  ///< solutions that are not real at these parameters
+    std::string nothing = {};             ///< the reason why the list is empty, and what was searched
 };
 
-/// Throws ModelError where there can be none: an input that changes with time, a force that nothing balances;
-/// where contacts are closed at the state; and as the stages do.
+/// Throws ModelError if there can be no equilibrium (an input changes with time, or a force has no counterpart) or
+/// if contacts are closed at the state, and what the stages throw.
 Equilibria equilibria(Scene scene, const EquilibriumOptions& options = {});
 
 }  // namespace alembert

@@ -13,7 +13,7 @@ namespace {
 constexpr long double first_step = 0.004L, longest = 0.02L, shortest = 1e-7L;
 constexpr long double least_cosine = 0.99L;  // between tangents of neighbours
 constexpr int most_points = 4000;
-constexpr long double farthest = 1e3L;  // by scale
+constexpr long double farthest = 1e3L;  // in units of the scales
 
 class Following {
 public:
@@ -94,7 +94,7 @@ private:
             all.push_back(judged(*end));
     }
 
-    /// Where a function of the point vanishes between two points. The second was reached by `step` from the first.
+    /// The point at which a function vanishes between two points. The second was reached by `step` from the first.
     std::optional<TracedPoint> located(const TracedPoint& a, const TracedPoint& b,
                                        const std::function<long double(const TracedPoint&)>& f) const {
         long double low = 0, high = b.step, f_low = f(a), f_high = f(b);
@@ -104,7 +104,7 @@ private:
             long double middle = (low * f_high - high * f_low) / (f_high - f_low);  // false position, Illinois
             if (k % 3 == 2 || !(middle > low && middle < high)) middle = (low + high) / 2;
             auto point = tracer_.step(a, middle);
-            if (!point) {  // the very point where curves cross
+            if (!point) {  // this is the point at which curves cross
                 middle = (low + 2 * high) / 3;
                 point = tracer_.step(a, middle);
                 if (!point) break;
@@ -177,7 +177,7 @@ private:
         for (const auto& value : quiet.judgement.exact) size = std::max(size, std::abs(value));
         const long double before = real_part(quiet.judgement);
         if (!std::isfinite(before) || !std::isfinite(real_part((grows ? there : here).judgement))) return;
-        const bool on_axis = before > -1e-10L * size;  // pairs meet on the axis and leave it
+        const bool on_axis = before > -1e-10L * size;  // pairs of eigenvalues meet on the axis and leave it
         const long double level = on_axis ? 1e-8L * size : 0;
         const auto found = located(here.point, there.point, [&](const TracedPoint& point) {
             return real_part(judge(tracer_.problem(), conservative_, point.at)) - level;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One branch from end to end, with what happens on it.
+/// One branch from end to end, with the special points on it.
 ///
 ///     const Followed followed = follow(tracer, start, {.from = 0, .to = 10}, judged);
 
@@ -27,7 +27,8 @@ struct Followed {
     bool closed = false, cut = false;
 };
 
-/// From the start to where the parameter leaves the range, both ways; or once round.
+/// Follows a branch from the start in both directions until the parameter leaves the range, or once around a
+/// closed curve.
 Followed follow(const Tracer& tracer, const TracedPoint& start, const FollowRange& range,
                 const std::vector<bool>& is_angle, bool conservative);
 

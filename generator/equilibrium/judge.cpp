@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Routh: cyclic speeds eliminated by their momenta, M_cc δw_c = −M_ce δw_e − D_ce δr_e + constant, leave
+// Routh: if cyclic speeds are eliminated by their momenta, M_cc δw_c = −M_ce δw_e − D_ce δr_e + constant, there
+// remains
 //   K = P_ee − D_ec M_cc⁻¹ D_ce
 // as the stiffness of the reduced system. (Pars, A Treatise on Analytical Dynamics (1965), §9.6.)
 #include "equilibrium/judge.hpp"
@@ -18,11 +19,12 @@ using Matrix = MatrixOf<long double>;
 
 namespace {
 
-constexpr long double on_axis = 1e-8L;  // of the largest eigenvalue: double ones are known to the root of rounding
+// Relative to the largest eigenvalue; double eigenvalues are accurate only to the square root of rounding.
+constexpr long double on_axis = 1e-8L;
 
 struct Reduced {
     std::vector<Index> e;            ///< columns of essential coordinates
-    std::vector<Index> own, others;  ///< speeds: the rates of these, the rest
+    std::vector<Index> own, others;  ///< speeds: the rates of these coordinates, and the others
     Matrix A;
 };
 
@@ -57,7 +59,7 @@ Matrix part(const Matrix& m, const std::vector<Index>& rows, const std::vector<I
     return result;
 }
 
-/// Is the energy, cyclic momenta held, at a minimum to second order?
+/// Is the energy, with constant cyclic momenta, at a minimum to second order?
 bool is_minimum(const Reduced& r, const Tangent<long double>& t, Index nr) {
     if (r.own.size() != r.e.size() || r.e.empty()) return false;
     const Matrix D = t.force.middleCols(nr, t.mass.cols()), P = t.force.leftCols(nr);
@@ -74,7 +76,7 @@ bool is_minimum(const Reduced& r, const Tangent<long double>& t, Index nr) {
     return values.eigenvalues().minCoeff() > 1e-10L * size;
 }
 
-/// Is some inertia nothing here that is something beside this state, as at a pole of spherical coordinates?
+/// Does some inertia vanish here but not close to this state, as at a pole of spherical coordinates?
 bool is_singular(const SteadyProblem& problem, const Instant<long double>& at, const Matrix& mass) {
     constexpr long double beside = 0.1L, nothing = 1e-11L;
     const auto least = [](const Matrix& m) {
@@ -109,7 +111,7 @@ bool zeros_are_rates(const SteadyProblem& problem, const Reduced& r, const Stead
     return true;
 }
 
-/// Do the loads follow from a potential: functions Q(q) alone, with ∂Q_i/∂q_j = ∂Q_j/∂q_i?
+/// Do the loads follow from a potential, that is, are they functions Q(q) with ∂Q_i/∂q_j = ∂Q_j/∂q_i?
 bool loads_have_potential(const Mechanism& m) {
     constexpr double largest_tree = 2000;
     if (m.loads.empty()) return true;

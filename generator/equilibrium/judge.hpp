@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A first judgement of stability: what the eigenvalues or the energy say at once. The verb `stability` goes
-/// further.
+/// A first judgement of stability, from the eigenvalues or the energy. The verb `stability` goes further.
 ///
 ///     const StabilityHint is = judge(problem, mechanism, root.at);
 ///     is.stable == Stable::yes, is.because, is.eigenvalues
 ///
-/// Of the essential coordinates and all speeds. A cyclic rate that is given may be another one, to which the
-/// motion belongs as steadily: that many zero eigenvalues are not counted. On the imaginary axis energy decides
-/// where nothing but a potential acts: the motion is stable if V − T₀ + ½ Σ momenta²/inertia has a minimum
-/// (Lagrange and Dirichlet; Routh for steady motions).
+/// It concerns the essential coordinates and all speeds. There is also a steady motion for every other value of a
+/// given cyclic rate; the zero eigenvalues that belong to these rates are not counted. If eigenvalues lie on the
+/// imaginary axis, energy decides if only a potential acts: the motion is stable if V − T₀ + ½ Σ momenta²/inertia
+/// has a minimum (Lagrange and Dirichlet; Routh for steady motions).
 
 #include <complex>
 
@@ -25,14 +24,14 @@ struct StabilityHint {
     Stable stable = Stable::undecided;
     std::string because;
     std::vector<std::complex<double>> eigenvalues =
-        {};  ///< by real part, then imaginary part; no rounding as real part
+        {};  ///< by real part, then imaginary part; a real part that is only rounding is 0
     std::vector<std::complex<long double>> exact = {};  ///< as they were computed
 };
 
-/// Whether nothing acts but a potential and ideal holonomic constraints, so that the energy decides.
+/// Whether only a potential and ideal holonomic constraints act, so that the energy decides.
 bool is_conservative(const Mechanism& mechanism, const Residuals& residuals);
 
-/// Undecided, with the reason, where inertia is singular.
+/// Undecided, with the reason, if inertia is singular.
 StabilityHint judge(const SteadyProblem& problem, bool conservative, const Instant<long double>& at);
 
 }  // namespace alembert

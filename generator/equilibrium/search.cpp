@@ -14,10 +14,11 @@ namespace alembert {
 namespace {
 
 constexpr long double pi = 3.14159265358979323846264338327950288L, turn = 2 * pi;
-constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // by scale
+constexpr long double same = 1e-9L, same_if_singular = 1e-5L;  // in units of the scales
 constexpr int most_starts = 1500;
 
-/// The k-th of a sequence that fills (0, 1) evenly, for the i-th coordinate. (Halton, Numer. Math. 2 (1960) 84.)
+/// The k-th number, for the i-th coordinate, of a sequence that fills (0, 1) evenly. (Halton, Numer. Math. 2
+/// (1960) 84.)
 long double halton(int k, std::size_t i) {
     constexpr std::array primes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53};
     const int base = primes[i % primes.size()];
@@ -49,7 +50,7 @@ std::vector<long double> scales_of(const Mechanism& m, const Start& start, const
     return result;
 }
 
-/// Does a root belong to a curve of roots? Then one starts along the direction that the equations leave free.
+/// Does a root belong to a curve of roots? If so, a curve starts in the direction that the equations leave free.
 bool is_in_family(const SteadyProblem& problem, const std::vector<bool>& is_angle, const SteadyRoot& root,
                   Rates rates) {
     constexpr long double apart = 1e-3L;
@@ -76,7 +77,7 @@ void sort_roots(std::vector<SteadyRoot>& roots) {
     });
 }
 
-/// Keeps the forces that are left over where they are least.
+/// Keeps the smallest unbalanced forces.
 void note_failure(SteadySearch& found, const SteadyProblem& problem, Instant<long double> at, bool first) {
     try {
         if (!problem.settle_at(at)) return;
@@ -96,7 +97,7 @@ void note_failure(SteadySearch& found, const SteadyProblem& problem, Instant<lon
         if (!found.left_over.empty() && sum >= least) return;
         found.nearest = at;
         found.left_over.assign(here.residual.data(), here.residual.data() + p);
-    } catch (const IntegrationError&) {  // constraints without rank there
+    } catch (const IntegrationError&) {  // the constraints lose rank there
     }
 }
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr int most_steps = 12;
 constexpr long double converged = 1e-15L, good_enough = 1e-12L;
-constexpr double difference = 1e-6;  // of the span, for the derivative by the parameter
+constexpr double difference = 1e-6;  // relative to the span, for the derivative with respect to the parameter
 
-/// Least squares with rows of like size.
+/// Least squares with rows scaled to similar size.
 Column solved(Matrix M, Column right) {
     for (Index i = 0; i < M.rows(); ++i) {
         const long double row = M.row(i).cwiseAbs().maxCoeff();

@@ -22,7 +22,7 @@ namespace alembert {
 struct TracedPoint {
     Instant<long double> at;
     double p = 0;
-    VectorOf<long double> tangent;  ///< of y: coordinates, then the parameter; of length 1
+    VectorOf<long double> tangent;  ///< the tangent in y (coordinates, then the parameter), of length 1
     Split split;
     long double turn = 0;  ///< det [F_y; Tᵀ]: it changes sign where curves cross; NaN if unknown
     long double step = 0;  ///< σ from the point before
@@ -31,35 +31,35 @@ struct TracedPoint {
 /// F_y at a point.
 struct TracedSystem {
     SteadySystem system;
-    MatrixOf<long double> by;    ///< by the unknowns, then by p/span
-    MatrixOf<long double> lift;  ///< what a change of these does to y
+    MatrixOf<long double> by;    ///< the derivatives with respect to the unknowns, then p/span
+    MatrixOf<long double> lift;  ///< the change of y for a change of these
 };
 
 class Tracer {
 public:
-    /// `path`: parameters, given speeds and inputs at a value of the parameter.
+    /// `path` gives parameters, given speeds and inputs at a value of the parameter.
     Tracer(const SteadyProblem& problem, std::function<Instant<long double>(double)> path, double span)
         : problem_(problem), path_(std::move(path)), span_(span) {}
 
     const SteadyProblem& problem() const { return problem_; }
     double span() const { return span_; }
 
-    /// The root at this value of the parameter to which Newton's method leads, with its tangent toward larger p.
+    /// The root at this value of the parameter that Newton's method reaches, with its tangent toward larger p.
     std::optional<TracedPoint> at_parameter(const Instant<long double>& guess, double p) const;
 
-    /// From a point along `direction`, its tangent where that is missing, by a length σ. Nothing where Newton's
-    /// method does not converge.
+    /// A step of length σ from a point along `direction`, or along its tangent if that is missing. Nothing if
+    /// Newton's method does not converge.
     std::optional<TracedPoint> step(const TracedPoint& from, long double sigma,
                                     const VectorOf<long double>* direction = nullptr) const;
 
-    /// `turn` of a point by the independent coordinates of another.
+    /// `turn` of a point, computed with the independent coordinates of another.
     long double turn_by(const TracedPoint& point, const Split& split) const;
 
     TracedSystem linearized_at(const Instant<long double>& at, double p, const Split* split = nullptr) const;
-    /// Rows of F_y but those of cyclic coordinates' forces, which vanish by themselves.
+    /// The rows of F_y except those of the forces of cyclic coordinates, which vanish identically.
     MatrixOf<long double> independent_rows(const TracedSystem& system) const;
     VectorOf<long double> place(const Instant<long double>& at, double p) const;  ///< y
-    /// These rows of F where the unknowns and p/span have moved by `change`, the constraints kept.
+    /// These rows of F after the unknowns and p/span have changed by `change` along the constraints.
     std::optional<VectorOf<long double>> moved(const TracedPoint& point,
                                                const VectorOf<long double>& change) const;
 

@@ -7,7 +7,7 @@ namespace alembert {
 
 namespace {
 
-/// number + half_turns·π + Σ c·v.
+/// The terms of number + half_turns·π + Σ c·v.
 struct Terms {
     Rational number = 0, half_turns = 0;
     std::map<std::pair<Variable::Kind, int>, Rational> variables{};
@@ -44,7 +44,7 @@ bool is_sum_of_variables(const Program& program, int condition) {
     return collect(program, condition, 1, terms);
 }
 
-// v = Σ c·x + number + half_turns·π, from v + … = 0.
+// Solves v + … = 0 for v = Σ c·x + number + half_turns·π.
 std::optional<AngleSum> angle_sum(const Program& program, int condition, const Variable& unknown) {
     Terms terms;
     if (!collect(program, condition, 1, terms)) return std::nullopt;

@@ -13,7 +13,7 @@ Prime cleared(bool turned, Prime x, std::size_t degree) {
     return turned ? (x * x + 1).power(degree / 2) : Prime(1);
 }
 
-/// f(x, ·) and g(x, ·); nothing where they have more than this degree.
+/// f(x, ·) and g(x, ·); nothing if their degree is higher than allowed.
 std::optional<Pair> in_second(const TwoConditions& conditions, const ZerosOptions& options, Prime x,
                               std::size_t degree) {
     std::vector<Prime> y;
@@ -49,7 +49,7 @@ CommonZeros common_zeros(const TwoConditions& conditions, const ZerosOptions& op
         }
         PrimePolynomial eliminated = interpolate(x, y);
         if (eliminated.size() > highest + 1) continue;
-        const PrimePolynomial circle{1, 0, 1};  // what was multiplied by too often
+        const PrimePolynomial circle{1, 0, 1};  // the factor by which may have been multiplied too often
         while (options.turned[0] && eliminated.size() > 3 &&
                prime_polynomial::remainder(eliminated, circle).empty())
             eliminated = prime_polynomial::quotient(eliminated, circle);

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The common zeros of two conditions in two unknowns, modulo 2⁶¹ − 1: a four-bar linkage of given lengths.
+/// The common zeros of two conditions in two unknowns, modulo 2⁶¹ − 1, as for a four-bar linkage with given
+/// lengths.
 ///
 ///     const CommonZeros at = common_zeros(values, {.turned = {true, true}, .seed = 7});
 ///     at.list[0]           // {tan(beta/2), tan(gamma/2)}
 ///
 /// y is eliminated: Res_y(f(x, y), g(x, y)) is interpolated over x, its roots are found, and at each the common
 /// roots of f(x, ·) and g(x, ·) (Cox, Little & O'Shea, Ideals, Varieties, and Algorithms, 3rd ed., §3.6,
-/// proposition 3). What depends on a sine and a cosine is a fraction over powers of 1 + x², in the tangent of the
-/// half angle, and is multiplied by these.
+/// proposition 3). A condition with a sine and a cosine is a fraction over powers of 1 + x², where x is the
+/// tangent of the half angle, and is multiplied by these powers.
 
 #include <array>
 #include <functional>
@@ -20,7 +21,7 @@
 
 namespace alembert {
 
-/// Both conditions at (x, y); nothing at a pole.
+/// The values of both conditions at (x, y); nothing at a pole.
 using TwoConditions = std::function<std::optional<std::array<Prime, 2>>(Prime x, Prime y)>;
 
 struct ZerosOptions {
@@ -30,10 +31,11 @@ struct ZerosOptions {
 
 struct CommonZeros {
     std::vector<std::array<Prime, 2>> list;
-    std::size_t degree = 0;  ///< of the eliminated equation; 0 where there is none
+    std::size_t degree = 0;  ///< degree of the eliminated equation; 0 if there is none
 };
 
-/// Nothing found where the degrees are too high, the conditions depend on each other, or no zero is in the field.
+/// The list is empty if the degrees are too high, if the conditions depend on each other, or if no zero is in the
+/// field.
 CommonZeros common_zeros(const TwoConditions& conditions, const ZerosOptions& options);
 
 }  // namespace alembert

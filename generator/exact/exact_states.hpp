@@ -5,7 +5,7 @@
 
 namespace alembert {
 
-/// Exact states one after the other, made when first asked for; null once no more are found.
+/// Exact states one after the other. Each is computed when it is first asked for; null if no more are found.
 class ExactStates {
 public:
     ExactStates(const Mechanism& m, const Equations& e, Motions::At at, int halves, int halvings,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A node of a program as an expression again, for people to read.
+/// Converts a node of a program back to an expression, for people to read.
 ///
 ///     const auto e = expression_of(program, node, mechanism, {"lambda_rod"});
 ///
-/// In the symbols of the mechanism whose program it is; variables of kind `unknown` are the symbols given for
-/// them.
+/// The expression is in the symbols of the program's mechanism; variables of kind `unknown` become the symbols
+/// with the given names.
 
 #include <optional>
 
@@ -15,8 +15,8 @@
 
 namespace alembert {
 
-/// Nothing for a node that takes more than `largest` operations when written out, or a function that the scene
-/// language has no name for.
+/// Nothing if the node takes more than `largest` operations when written out, or contains a function for which the
+/// scene language has no name.
 std::optional<GiNaC::ex> expression_of(const Program& program, int node, const Mechanism& mechanism,
                                        const std::vector<GiNaC::symbol>& unknown = {}, double largest = 500);
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Constraints whose rows depend on each other leave their multipliers open; the program takes the least ones that
-/// give the same forces, Σ rowᵀ λ (docs/scene-language.md). With A all rows, K those that are kept, B = A Kᵀ, the
-/// least are λ̂ = B w with BᵀB w = Bᵀ λ, for any λ that gives the forces.
+/// If the rows of constraints depend on each other, their multipliers are not determined; the program takes those
+/// of least norm that give the same forces Σ rowᵀ λ (docs/scene-language.md). With A all rows, K the rows that are
+/// kept and B = A Kᵀ, they are λ̂ = B w with BᵀB w = Bᵀ λ, for any λ that gives the forces.
 ///
 ///     const auto least = least_shares(rows, kept, lambda, solve);   // rows: kept ones first
 ///
-/// `solve` takes the rows of a square system with its right sides last, and gives its solution, if there is one.
+/// `solve` takes the rows of a square system, with the right-hand side as the last column, and returns the
+/// solution, if there is one.
 
 #include <optional>
 #include <vector>

@@ -40,7 +40,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     const std::size_t own = list.size();
     for (const Mechanism::Constraint& c : m.redundant)
         if (c.position) list.push_back(*c.position);
-    // A contact's multiplier is whatever its bodies press with: a variable like any other.
+    // The multiplier of a contact may have any value, so it is a variable like any other.
     std::vector<std::pair<GiNaC::symbol, int>> given;
     int next_unknown = m_;
     for (const Mechanism::Constraint* c : m.undetermined())
@@ -65,7 +65,7 @@ Motions::Motions(const Mechanism& mechanism, const Equations& e, At at, int halv
     implied_.assign(nodes.begin() + static_cast<std::ptrdiff_t>(own), nodes.end());
 
     if (at == At::rest) {
-        // f(q, 0) + Σ λ_k A_k = 0, and the rates' equations with q' = q'' = 0.
+        // f(q, 0) + Σ λ_k A_k = 0, and the equations of the rates with q' = q'' = 0.
         GiNaC::exmap still;
         for (const GiNaC::symbol& rate : m.qdot) still[rate] = 0;
         std::vector<ex> balance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Gauss-Jordan elimination over the intermediate symbols, and beside it in numbers modulo the prime.
+// Gauss-Jordan elimination with intermediate symbols and, in parallel, with numbers modulo the prime.
 #include "exact/null_fields.hpp"
 
 #include <algorithm>

@@ -18,9 +18,9 @@ struct NullFields {
     std::vector<std::size_t> pivots;             ///< one for each form; never the last variable
 };
 
-/// `forms` are independent without their last entry, `values[point][form][variable]` are their values at random
-/// points. What is zero at all of them counts as zero, also where the points are those of a variety: the fields
-/// are then right on that variety. Nothing where a point is unusable.
+/// `forms` must be independent without their last entry; `values[point][form][variable]` are their values at
+/// random points. Expressions that are zero at all points count as zero. If the points belong to a variety, the
+/// fields are right on that variety. Nothing if a point is unusable.
 std::optional<NullFields> null_fields(std::vector<std::vector<GiNaC::ex>> forms,
                                       std::vector<std::vector<std::vector<Prime>>> values, Intermediates& z);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Key = RealState::Key;
 
-/// Variables in angles, and those outside.
+/// Finds the variables inside angles, and those outside.
 void find_variables(const Program& p, const std::vector<int>& roots, std::set<Key>& angles, std::set<Key>& plain) {
     std::set<std::pair<int, bool>> seen;
     std::vector<std::pair<int, bool>> stack;
@@ -32,15 +32,15 @@ void find_variables(const Program& p, const std::vector<int>& roots, std::set<Ke
     }
 }
 
-/// Small numbers first, odder ones with the seed.
+/// Small numbers for the first seeds, less simple ones for larger seeds.
 class Numbers {
 public:
     explicit Numbers(unsigned seed)
         : random_(seed), spread_(3 + std::min(seed, 400U) / 20), below_(pick(3, 4 + spread_)) {}
     numeric positive() { return numeric(pick(1, spread_)) / numeric(pick(1, 1 + spread_ / 4)); }
     numeric any() { return pick(0, 1) != 0 ? positive() : -positive(); }
-    /// Within (−1, 1), all over one denominator: so are the components of a unit quaternion, which rarely is found
-    /// otherwise.
+    /// Numbers within (−1, 1) with a common denominator. The components of a unit quaternion are of this kind, and
+    /// otherwise one is rarely found.
     numeric small() { return numeric(pick(1, below_ - 1)) / numeric(pick(0, 1) != 0 ? below_ : -below_); }
     numeric tangent() {
         const int below = pick(2, 2 + spread_ / 2);
@@ -56,8 +56,8 @@ private:
     int spread_, below_;
 };
 
-/// A root of a polynomial through the values at −1, 0, 1 (and 2, to see that it is none higher), a fraction where
-/// there is one. `seed` chooses among several.
+/// A root of the polynomial through the values at −1, 0, 1 (and at 2, to check that its degree is not higher), a
+/// fraction if there is one. `seed` chooses among several.
 std::optional<numeric> root_of(const std::function<std::optional<numeric>(const numeric&)>& f, bool floats,
                                unsigned seed) {
     std::array<numeric, 4> y;
@@ -81,7 +81,7 @@ std::optional<numeric> root_of(const std::function<std::optional<numeric>(const 
         return (seed % 4 < 2 ? root - b : -root - b) / (2 * a);
     }
     if (!floats) return std::nullopt;
-    // Secants, from two guesses, in 50 digits.
+    // The secant method from two guesses, with 50 digits.
     numeric x0 = numeric(1, 3) + numeric(static_cast<int>(seed % 7)), x1 = x0 + numeric(1, 15);
     auto f0 = f(x0), f1 = f(x1);
     for (int step = 0; step < 60 && f0 && f1; ++step) {
@@ -107,8 +107,8 @@ void put(RealState& state, const Key& key, const numeric& x) {
         state.value[key] = x;
 }
 
-/// Newton's method in 50 digits from `x`: derivatives from differences of 1e-25, steps of least length where there
-/// are more unknowns than conditions. Angles are moved by the tangent of their half.
+/// Newton's method with 50 digits from `x`. Derivatives are differences over 1e-25; if there are more unknowns
+/// than conditions, steps have least length. Angles are changed by the tangent of their half.
 bool solve_together(const Motions& motions, RealState& state, const std::vector<int>& conditions,
                     const std::vector<Key>& keys, std::vector<numeric> x) {
     const std::size_t rows = conditions.size();
@@ -121,7 +121,7 @@ bool solve_together(const Motions& motions, RealState& state, const std::vector<
     for (int round = 0; round < 60; ++round) {
         const auto f = at(keys.size());
         if (!f) return false;
-        std::vector<std::vector<numeric>> slopes;  // by unknown
+        std::vector<std::vector<numeric>> slopes;  // for each unknown
         for (std::size_t i = 0; i < keys.size(); ++i) {
             auto moved = at(i);
             if (!moved) return false;
@@ -156,7 +156,7 @@ bool solve_two(const Motions& motions, RealState& state, const SolvingStep& step
         {numeric(1 + static_cast<int>(seed % 5), 4), numeric(static_cast<int>(seed % 7) - 3, 3)});
 }
 
-/// All loose conditions together, for all coordinates in them.
+/// Solves all loose conditions together for all coordinates in them.
 bool solve_loose(const Motions& motions, RealState& state, unsigned seed) {
     std::set<Key> angles, plain;
     find_variables(motions.program(), motions.loose(), angles, plain);
@@ -202,8 +202,8 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     const Motions::System& s = motions.entries();
     for (std::size_t i = 0; i < n; ++i) state.value[{Variable::Kind::rate, static_cast<int>(i)}] = numbers.any();
     if (m > 0) {
-        // Rates nearest to the chosen ones would be fractions of large numbers; the pivots' rates are solved for
-        // instead.
+        // The rates nearest to the chosen ones would be fractions of large numbers. Therefore the equations are
+        // solved for the rates of the pivots.
         const auto A = evaluate(motions.program(), state, s.A), b = evaluate(motions.program(), state, s.drift);
         if (!A || !b) return false;
         std::vector<std::size_t> pivots;
@@ -260,7 +260,7 @@ bool solve_motion(const Motions& motions, RealState& state, Numbers& numbers) {
     return true;
 }
 
-/// The least multipliers that give the same forces, where constraints depend on each other.
+/// Takes the multipliers of least norm that give the same forces, if constraints depend on each other.
 bool share_out(const Motions& motions, RealState& state, Numbers& numbers) {
     const auto n = static_cast<std::size_t>(motions.size()), m = static_cast<std::size_t>(motions.constraints());
     std::vector<int> wanted = motions.entries().A;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// States of a mechanism in numbers that anyone can substitute (exact/real_values.hpp), with accelerations and
-/// multipliers that follow from them exactly.
+/// States of a mechanism in numbers that a reader can substitute (exact/real_values.hpp), with the accelerations
+/// and multipliers that follow from them exactly.
 ///
 ///     for (unsigned seed = 0; seed < 100; ++seed)
 ///         if (const auto state = real_state(motions, claims, roots, seed))
@@ -16,10 +16,10 @@ namespace alembert {
 
 inline constexpr unsigned first_float_seed = 400;
 
-/// A state that obeys the constraints; the larger the seed, the odder the numbers, and only from first_float_seed
-/// on floats where a constraint has no fraction as a solution. `claims`, `roots`: what will be asked of it;
-/// variables that stand in sines and cosines alone, there and in the equations, are angles. Nothing at an unusable
-/// seed.
+/// A state that obeys the constraints. The larger the seed, the less simple are the numbers; from first_float_seed
+/// on, floats are used if a constraint has no fraction as a solution. `roots` of `claims` will be evaluated at the
+/// state; variables that occur only in sines and cosines, in them and in the equations, are angles. Nothing for an
+/// unusable seed.
 std::optional<RealState> real_state(const Motions& motions, const Program& claims, const std::vector<int>& roots,
                                     unsigned seed);
 

@@ -22,7 +22,7 @@ Turned operator*(const Turned& a, const Turned& b) {
     return {a.cos * b.cos - a.sin * b.sin, a.cos * b.sin + a.sin * b.cos};
 }
 
-/// Σ c·variable + c·π, where an expression is that.
+/// An expression of the form Σ c·variable + c·π.
 struct Linear {
     std::map<Key, Rational> angles;
     Rational pi = 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Programs in numbers that anyone can substitute: fractions as long as the arithmetic stays in the rationals,
-/// otherwise floats of 50 digits. Angles are such as 2·atan(1/3), whose sines and cosines are fractions.
+/// Evaluates programs in numbers that a reader can substitute: fractions as long as the results are rational,
+/// otherwise floats with 50 digits. Angles have values such as 2·atan(1/3), so that their sines and cosines are
+/// fractions.
 ///
 ///     if (const auto r = evaluate(program, state, roots)) r->front().is_zero()
 ///     text_of(state, key)                                                           // "2*atan(1/3)"
@@ -21,15 +22,15 @@ namespace alembert {
 struct RealState {
     using Key = std::pair<Variable::Kind, int>;
     struct Angle {
-        GiNaC::numeric tangent;  ///< of the half
-        bool half_turn = false;  ///< the angle is π itself
+        GiNaC::numeric tangent;  ///< the tangent of the half angle
+        bool half_turn = false;  ///< whether the angle is π
     };
     std::map<Key, GiNaC::numeric> value;
     std::map<Key, Angle> angle;  ///< variables that are angles; `value` holds them as floats
-    bool exact = true;           ///< constraints hold exactly, accelerations are fractions
+    bool exact = true;           ///< whether constraints hold exactly and accelerations are fractions
 };
 
-/// Fifty digits, for as long as it lives.
+/// Sets the precision to fifty digits during its lifetime.
 class Precision {
 public:
     Precision() : former_(GiNaC::Digits) { GiNaC::Digits = 50; }
@@ -41,14 +42,14 @@ private:
     long former_;
 };
 
-/// The variable is this angle.
+/// Sets the variable to this angle.
 void put_angle(RealState& state, const RealState::Key& key, const RealState::Angle& angle);
 
-/// The values of `roots`; nothing where one is not a finite real number.
+/// The values of `roots`; nothing if one is not a finite real number.
 std::optional<std::vector<GiNaC::numeric>> evaluate(const Program& program, const RealState& state,
                                                     const std::vector<int>& roots);
 
-/// As a person types it: "3/7", "2*atan(1/3)", a decimal.
+/// The value as a person would type it: "3/7", "2*atan(1/3)", a decimal.
 std::string text_of(const RealState& state, const RealState::Key& key);
 std::string text_of(const GiNaC::numeric& value);
 

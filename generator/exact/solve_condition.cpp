@@ -60,7 +60,7 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         else
             state.point.given[key] = x;
     };
-    // Polynomials of growing degree, until one goes through more points than it needs.
+    // Polynomials of growing degree are tried until one passes through further points.
     for (const std::size_t degree : {2UL, 4UL, 8UL, 16UL, 24UL}) {
         std::vector<Prime> x, y;
         for (std::size_t k = 0; k < degree + 3; ++k) {
@@ -73,12 +73,12 @@ Solved solve_condition(const Program& program, const SolvingStep& step, ExactSta
         const PrimePolynomial f = interpolate(x, y);
         if (f.size() > degree + 1) continue;
         if (f.empty()) {
-            put(x.back());  // holds for every value
+            put(x.back());  // the condition holds for every value
             return {true, 1};
         }
         std::vector<Prime> found = roots(f, state.point.seed);
         std::vector<std::optional<Prime>> all(found.begin(), found.end());
-        if (step.turned) {  // half a turn is the root at infinity
+        if (step.turned) {  // a half turn corresponds to a root at infinity
             state.point.given_angles[plain] = PrimeTurn{-1, 0};
             if (value_of(program, step.node, state) == Prime(0)) all.emplace_back();
         }

@@ -15,8 +15,9 @@ namespace {
 
 /// How a variable occurs in an expression.
 struct Occurrence {
-    bool plain = false, turned = false;  // outside sines and cosines; in them
-    bool rooted = false;                 // under a root: no polynomial in it goes to zero where the condition does
+    bool plain = false, turned = false;  // outside and inside of sines and cosines
+    // Under a root, so that no polynomial in the variable has the zeros of the condition.
+    bool rooted = false;
 };
 using Occurrences = std::map<std::pair<Variable::Kind, int>, Occurrence>;
 using TakenVariables = std::set<std::pair<Variable::Kind, int>>;
@@ -42,7 +43,7 @@ Occurrences occurrences(const Program& p, int root) {
     return result;
 }
 
-/// Two conditions that alone hold two variables, both of them.
+/// Two conditions, each with two variables that no other condition contains.
 struct Coupled {
     std::size_t first, second;
     SolvingStep step;
@@ -64,17 +65,18 @@ std::optional<Coupled> coupled(const std::vector<Occurrences>& held, const Taken
             std::vector<SolvedUnknown> found;
             for (const auto& [variable, how] : held[a])
                 if (usable(variable, a, b)) found.push_back({0, {variable.first, variable.second}, how.turned});
-            // The last declared: drivers come first.
+            // The variables that were declared last are taken, because driving coordinates are usually declared
+            // first.
             if (found.size() >= 2) return Coupled{a, b, {{found[found.size() - 2]}, found.back()}};
         }
     return std::nullopt;
 }
 
-/// The position of a condition that is solved next to last, and how.
+/// The position of the condition that is solved before those chosen so far, and how it is solved.
 using ChosenStep = std::pair<std::size_t, SolvingStep>;
 
-/// A condition with a variable that no other holds; of a sum of angles first what can be had from the turns of the
-/// others, under a root only where nothing else is left.
+/// A condition with a variable that no other contains. In a sum of angles, a variable that follows from the turns
+/// of the others is preferred; a variable under a root is the last choice.
 std::optional<ChosenStep> with_own_variable(const Program& program, const std::vector<int>& conditions,
                                             const std::vector<Occurrences>& held, const TakenVariables& taken) {
     constexpr std::array kinds{Variable::Kind::unknown, Variable::Kind::coordinate, Variable::Kind::parameter};
@@ -132,7 +134,7 @@ SolvingOrder solving_order(const Program& program, std::vector<int> conditions) 
             conditions.erase(conditions.begin() + static_cast<std::ptrdiff_t>(c));
             held.erase(held.begin() + static_cast<std::ptrdiff_t>(c));
         };
-        if (partner) drop(*partner);  // the later one
+        if (partner) drop(*partner);  // the one that stands later
         drop(chosen->first);
     }
     result.left = std::move(conditions);

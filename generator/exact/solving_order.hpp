@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The order in which conditions can be solved one after the other, each for a variable that no later one holds.
+/// The order in which conditions can be solved one after the other, each for a variable that no earlier one
+/// contains.
 ///
 ///     const SolvingOrder order = solving_order(program, conditions);
-///     order.left.empty();         // all of them have their place
+///     order.left.empty();         // true if all conditions have a place
 ///
-/// It is found from the last step to the first: a variable that no other condition contains can be found when all
-/// else is known. Multipliers come first, then coordinates, then parameters. Where no condition has a variable of
-/// its own, two conditions that alone hold two variables are solved together.
+/// It is found from the last step to the first: a variable that no other condition contains can be found when
+/// everything else is known. Multipliers are preferred, then coordinates, then parameters. If no condition has
+/// such a variable, two conditions that are the only ones with two certain variables are solved together.
 
 #include <optional>
 #include <vector>
@@ -17,24 +18,24 @@
 
 namespace alembert {
 
-/// A condition and the variable that it is solved for.
+/// A condition and the variable for which it is solved.
 struct SolvedUnknown {
     int node = 0;  ///< the condition
     Variable variable{};
-    bool turned = false;  ///< as an angle in sines and cosines
+    bool turned = false;  ///< whether the variable is an angle in sines and cosines
 };
 
-/// One such pair, or two that are solved together.
+/// One such pair, or two pairs that are solved together.
 struct SolvingStep : SolvedUnknown {
     std::optional<SolvedUnknown> second = {};
 };
 
 struct SolvingOrder {
     std::vector<SolvingStep> steps;  ///< in the order of solving
-    std::vector<int> left;           ///< conditions that have no place in it
+    std::vector<int> left;           ///< conditions that have no place in the order
 };
 
-/// `conditions`: nodes of the program that are to be zero.
+/// `conditions` are nodes of the program that must be zero.
 SolvingOrder solving_order(const Program& program, std::vector<int> conditions);
 
 }  // namespace alembert

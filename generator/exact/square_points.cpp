@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The order of drawing, from its end: the last variable is one that the fewest roots hold, and these are what it
-// decides; among the other roots the next to last likewise. No root then holds a variable that is drawn after the
-// one that decides it.
+// The order of drawing is found from its end. The last variable is one that occurs in the fewest roots, and it
+// decides whether these exist; the one before is chosen in the same way from the other roots. So no root contains
+// a variable that is drawn after the one that decides it.
 #include "exact/square_points.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace alembert {
 
 namespace {
 
-/// The power of two in the denominators of a value's terms, at most.
+/// The highest power of two in the denominators of a value's terms.
 int denominators_power(const Program& program, int id, std::map<int, int>& known) {
     if (const auto found = known.find(id); found != known.end()) return found->second;
     const Node& node = program[id];
@@ -68,7 +68,8 @@ SquarePoints::SquarePoints(const std::vector<Part>& parts, const std::set<Key>& 
         }
     }
     while (!roots.empty()) {
-        std::map<Key, std::set<std::set<Key>>> held;  // programs may share a root: counted by what it holds
+        // Programs may share a root, so roots are counted by the variables in them.
+        std::map<Key, std::set<std::set<Key>>> held;
         for (const Root& root : roots)
             for (const Key& key : root.holds) held[key].insert(root.holds);
         const Key last = std::min_element(held.begin(), held.end(), [](const auto& a, const auto& b) {

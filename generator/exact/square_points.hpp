@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Points at which square roots exist. A random value is a square modulo the prime for half of the points, twenty
-/// of them are squares for one point in a million. Variables are therefore drawn one after the other, each until
-/// the roots that it is the last to decide exist: a body among n others takes 2ⁿ draws and not 2^(n²/2).
+/// Points at which square roots exist. A random value is a square modulo the prime for half of the points, and
+/// twenty values are all squares for one point in a million. Therefore variables are drawn one after the other,
+/// each until the roots exist for which it is the last missing variable. A body among n others then takes 2ⁿ draws
+/// instead of 2^(n²/2).
 ///
 ///     const SquarePoints usable({{&program, roots}}, {});
 ///     if (const auto point = usable.at({.seed = 7})) evaluate_mod(program, *point, roots);
 ///
-/// Every drawn value is uniform among those that the conditions leave; ModularValues::conditions counts these.
+/// Every drawn value is uniformly distributed among those that the conditions allow; ModularValues::conditions
+/// counts the conditions.
 
 #include <set>
 #include <span>
@@ -19,7 +21,7 @@
 namespace alembert {
 
 /// The largest k such that a half to the k-th divides a coefficient in an angle that the roots need: 3 for
-/// sin(0.375 t). Multiples of π are left aside.
+/// sin(0.375 t). Multiples of π do not count.
 int halvings(const Program& program, std::span<const int> roots);
 
 class SquarePoints {
@@ -29,18 +31,18 @@ public:
         std::vector<int> roots;
     };
     using Key = std::pair<Variable::Kind, int>;
-    /// `solved`: variables that get their values later; roots that hold them are left to luck. The programs must
-    /// outlive this.
+    /// `solved` are variables that get their values later; whether roots with them exist is left to chance. The
+    /// programs must outlive this object.
     SquarePoints(const std::vector<Part>& parts, const std::set<Key>& solved);
 
-    /// The point with values of its own for some variables; nothing where they were not found in some thousand
-    /// draws, or some root has no variable that is free.
+    /// The point with new values for some variables. Nothing if these were not found in some thousand draws, or if
+    /// some root has no free variable.
     std::optional<ModularPoint> at(ModularPoint point) const;
 
 private:
     struct Draw {
         Key key;
-        std::vector<Part> decides;  ///< nodes that are square roots
+        std::vector<Part> decides;  ///< the nodes with square roots for which the variable is the last missing one
     };
     std::vector<Draw> draws_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// f at four values of one unknown: the third difference of a quadratic vanishes. In τ = tan(v/2) a function that
-// is linear in cos v and sin v is a quadratic over 1 + τ².
+// f is evaluated at four values of one unknown; if it is quadratic, the third difference vanishes. In τ = tan(v/2)
+// a function that is linear in cos v and sin v is a quadratic over 1 + τ².
 #include "exact/variety.hpp"
 
 #include <algorithm>
@@ -25,14 +25,14 @@ enum class How {
 struct Unknown {
     Key key;
     How how = How::plain;
-    AngleSum sum = {};  ///< what a sum is made of
+    AngleSum sum = {};  ///< the terms of a sum
 };
 
-/// An equation and the unknown that it gives.
+/// An equation and the unknown for which it is solved.
 struct Step {
     int position;
     Unknown unknown;
-    std::optional<Key> spare = {};  ///< a variable of this equation that none solved before it holds
+    std::optional<Key> spare = {};  ///< a variable of this equation that does not occur in those solved before it
     double degree = 1;
 };
 
@@ -110,7 +110,8 @@ private:
         return std::array{value[0], value[1] - value[0] - second, second};
     }
 
-    /// Who is solved for what, the last to be solved first (a constraint whose unknown no other one needs).
+    /// Decides for which unknown each constraint is solved, beginning with the one solved last (whose unknown no
+    /// other constraint needs).
     void plan() {
         std::set<int> left;
         for (std::size_t k = 0; k < positions_.size(); ++k) left.insert(static_cast<int>(k));
@@ -154,7 +155,7 @@ private:
                 step.unknown.sum = *sum;
             }
             const int former = halves_;
-            if (how == How::turn) halves_ = 0;  // then sin(v/2), v given, makes every point unusable
+            if (how == How::turn) halves_ = 0;  // sin(v/2) with a given v would then make every point unusable
             for (std::uint64_t seed = 1; seed <= 3; ++seed)
                 if (const auto c = quadratic(step.position, step.unknown, start(seed), &step.degree);
                     c && !((*c)[1].is_zero() && (*c)[2].is_zero())) {
@@ -173,7 +174,7 @@ private:
         ModularPoint point = std::move(*chosen);
         for (const Step& step : steps_) {
             std::optional<Prime> root = root_of(step, point, seed);
-            // No square: another value of what the steps before do not hold.
+            // If the number is no square, the variable that the steps before do not contain gets another value.
             for (std::uint64_t turn = 1; !root && step.spare && turn < most_turns; ++turn) {
                 point.given[*step.spare] = point.random(400, static_cast<std::uint64_t>(step.position), turn);
                 root = root_of(step, point, seed);
@@ -203,7 +204,7 @@ private:
     std::vector<int> positions_, all_;
     std::map<Key, Prime> given_;
     std::vector<std::set<Key>> depends_;
-    std::set<Key> inside_;  ///< variables inside angles, exponents and the like
+    std::set<Key> inside_;  ///< variables inside angles, exponents and similar functions
     std::vector<Step> steps_;
     bool turns_, solvable_ = true;
     int halves_ = 2, halvings_ = 0;

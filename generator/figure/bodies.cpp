@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Bodies with the shapes that their points and moments of inertia tell. For a homogeneous
+/// Bodies are drawn with shapes that follow from their points and moments of inertia. For a homogeneous
 ///   rod of length 2h:        J/m = h²/3 about its centre,
 ///   disc of radius r:        J/m = r²/2 about its axis, r²/4 about a diameter,
 ///   ball of radius r:        J/m = 2r²/5,
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    /// Places of the scene that move with the body, but for its mass centre.
+    /// Points of the scene that move with the body, except its mass centre.
     std::vector<int> held_places() const {
         std::vector<int> held;
         for (const Sketch::Site& site : s_.sites)
@@ -49,8 +49,8 @@ private:
         return held;
     }
 
-    /// A body of joints carries its own joints' points and what is given from it: other places may lie on the axis
-    /// about which it turns, and move with it by chance.
+    /// A body with joints carries the points of these joints and points that are given relative to it. Other
+    /// points may lie on the axis about which it turns and move with it by chance.
     bool is_own(const Sketch::Site& place) const {
         bool has_joints = false;
         for (const Sketch::Site& site : s_.sites) {
@@ -63,7 +63,7 @@ private:
 
     Vector3d arm(int place) const { return s_.at(0, place) - s_.at(0, body_->centre); }
 
-    /// The point of the body at `own`, along its axes.
+    /// The point of the body at `own`, given along its axes.
     int spot_at(const Vector3d& own) {
         const MassElement& mass = s_.m.masses[body_->mass];
         Vector3 place = mass.position;
@@ -83,7 +83,8 @@ private:
         s_.add({.kind = kind, .points = std::move(points), .label = label, .size = size, .owner = body_->mass});
     }
 
-    /// As the scene's rolling says; or, in the plane, from a constraint between a way of the centre and a turn.
+    /// The radius from the scene's rolling condition or, in the plane, from a constraint between a displacement of
+    /// the centre and a rotation.
     std::optional<double> wheel_radius() const {
         for (std::size_t k = 0; k < s_.scene.rolling.size(); ++k)
             if (s_.scene.rolling[k].body.text == body_->name) {
@@ -105,7 +106,7 @@ private:
         return {};
     }
 
-    /// By a row a_x x' + a_phi phi', in which x alone moves the centre and phi alone turns the body.
+    /// The radius from a row a_x x' + a_phi phi' in which only x moves the centre and only phi turns the body.
     std::optional<double> radius_by(const std::vector<int>& row, int state) const {
         double way = 0, turn = 0;
         for (std::size_t k = 0; k < row.size(); ++k) {
@@ -127,7 +128,8 @@ private:
         return turn / way;
     }
 
-    /// The axis of a body that turns alike about all lines across it; -1 if there is none.
+    /// The axis of symmetry of a body, about which the inertia is the same in all perpendicular directions; -1 if
+    /// there is none.
     int axis_of_symmetry() const {
         if (s_.is_plane) return s_.normal;
         const Vector3d& I = body_->inertia;
@@ -144,7 +146,7 @@ private:
         element(Kind::ring, {centre(), spot_at(u), spot_at(v)}, radius);
     }
 
-    /// In the plane the ground lies below the wheel, at a place that does not move.
+    /// In the plane the ground lies below the wheel, at a fixed position.
     void add_ground(double radius) {
         std::optional<Vector3d> along;
         for (int state = 1; state < Sketch::at_one_time; ++state) {
@@ -183,7 +185,7 @@ private:
                 return;
             }
             Vector3d end = Vector3d::Zero();
-            // An axle lies across the direction of its wheels.
+            // An axle is perpendicular to the direction of its wheels.
             const int x = s_.normal == 0 ? 1 : 0, y = s_.normal == 2 ? 1 : 2;
             end[body_->weight > 0 ? x : y] = half;
             element(Kind::bar, {spot_at(-end), spot_at(end)});
@@ -202,7 +204,7 @@ private:
                            [&](int place) { return arm(place).cross(first).norm() <= 1e-6 * s_.scale; });
     }
 
-    /// A rod through places in line with the mass centre.
+    /// A rod through points on a line with the mass centre.
     void add_line(const std::vector<int>& held, double square) {
         const Vector3d along = arm(held[0]).normalized();
         const auto less = [&](int a, int b) { return arm(a).dot(along) < arm(b).dot(along); };
@@ -228,7 +230,7 @@ private:
     }
 
     void add_plate(const std::vector<int>& held) {
-        // The convex hull of the places and the mass centre, by gift wrapping in the plane.
+        // The convex hull of the points and the mass centre, by gift wrapping in the plane.
         std::vector<int> places = held;
         places.push_back(body_->centre);
         const int x = s_.normal == 0 ? 1 : 0, y = s_.normal == 2 ? 1 : 2;

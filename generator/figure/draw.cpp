@@ -7,9 +7,10 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t small = 12;  // coordinates of a scene whose velocity constraints are looked into for wheels
+// The most coordinates of a scene whose velocity constraints are searched for wheels.
+constexpr std::size_t small = 12;
 
-/// Nothing but energies: no mass has a place.
+/// Whether the scene has geometry; if it gives only energies, no mass has a position.
 bool has_geometry(const Mechanism& m) {
     return !m.masses.empty() && !m.given_lagrangian;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A mechanism as a figure: what is to be drawn, and where it stands at a state.
+/// A mechanism as a figure: the elements to draw, and their positions at a state.
 ///
 ///     const Drawing figure = draw(scene, mechanism);
 ///     const Pose pose = pose_at(figure, start_of(mechanism).state());
 ///     pose[figure.elements[0].points[1]];          // x, y, z along N, in the scene's unit of length
 ///
-/// An element names what it is and the points to which it is attached; the points are functions of the state. How
-/// an element looks is the business of the one who draws it.
+/// An element has a kind and the points to which it is attached; the points are functions of the state. The look
+/// of an element is decided where it is drawn.
 
 #include <Eigen/Core>
 #include <string>
@@ -19,23 +19,24 @@
 
 namespace alembert {
 
-/// One thing to draw. `points` are indices into a Pose; those called a direction are vectors, not places.
+/// One element to draw. `points` are indices into a Pose; points called a direction are vectors, not positions.
 struct FigureElement {
     enum class Kind {
-        disc,     ///< centre: a particle, or a body of which no size is known; `size` is its mass
-        block,    ///< centre, a point at the distance one along its guide: a particle that slides
-        rod,      ///< two ends: a constant distance without a mass of its own
+        disc,     ///< centre: a particle, or a body of unknown size; `size` is its mass
+        block,    ///< centre, and a point at distance one along its guide: a particle that slides
+        rod,      ///< two ends: a constant distance, without mass
         bar,      ///< two ends: a body along a line
         plate,    ///< corners: a body through several points
-        ring,     ///< centre, two points of its rim at right angles: a wheel or a disc
-        ball,     ///< centre, then points of its surface in directions at right angles; label "cage": seen through
-        box,      ///< centre, the middles of three faces: a body of which only the inertia is known
+        ring,     ///< centre, and two points of its rim in perpendicular directions: a wheel or a disc
+        ball,     ///< centre, then points of its surface in perpendicular directions; with the label "cage" it is
+                  ///< transparent
+        box,      ///< centre, and the centres of three faces: a body of which only the inertia is known
         pin,      ///< point: a hinge
         support,  ///< point: a hinge on the ground
-        guide,    ///< where the block is at the start, a point at the distance one along the way, the block
-        floor,    ///< a point of it, others at the distance one along it and out of the ground, what touches it;
-                  ///< `size` is 1 where that always touches it
-        wall,     ///< point, direction away from it: the end of a spring that is held
+        guide,    ///< the place of the block at the start, a point at distance one along its path, and the block
+        floor,    ///< a point of it, points at distance one along it and out of the ground, and the point that
+                  ///< touches it; `size` is 1 if that always touches it
+        wall,     ///< point, direction away from it: the fixed end of a spring
         spring,   ///< two ends
         coil,     ///< point: a spring along an angle
         damper,   ///< two ends
@@ -47,46 +48,47 @@ struct FigureElement {
         impulse,  ///< point, direction
         gravity,  ///< direction
         axes,     ///< origin, three directions of unit length
-        angle,    ///< vertex, the side where the coordinate is zero, the side where it is now
-        length,   ///< foot, end, and where it ends if it is longer by one; the last only for a fixed direction
-        mark,     ///< a point with a name alone
+        angle,    ///< vertex, the side at which the coordinate is zero, and the present side
+        length,   ///< foot, end, and the end if the length were larger by one; the last only for a fixed direction
+        mark,     ///< a point with only a name
     };
     Kind kind;
     std::vector<int> points;
     std::string label = {};  ///< a name of the scene or an expression in such names; may be empty
     double size = 0;
-    int coordinate = -1;  ///< of angles and lengths: the position in Mechanism::q
-    int owner = -1;       ///< the body or particle that it belongs to: its position in Mechanism::masses
+    int coordinate = -1;  ///< for angles and lengths, the position in Mechanism::q
+    int owner = -1;       ///< the body or particle to which it belongs, as a position in Mechanism::masses
 };
 
-/// Of each point of a drawing.
+/// The position of each point of a drawing.
 using Pose = std::vector<Eigen::Vector3d>;
 
 struct Drawing {
     std::vector<FigureElement> elements = {};
-    std::string obstacle = {};            ///< why there is nothing to draw; empty where there is
-    std::vector<std::string> notes = {};  ///< what the figure does not show, in words
+    std::string obstacle = {};            ///< the reason why there is nothing to draw; empty if there is something
+    std::vector<std::string> notes = {};  ///< sentences about what the figure does not show
     bool is_plane = false;
-    int normal = 2;                 ///< of a plane figure: the axis of N across it
+    int normal = 2;                 ///< for a plane figure, the axis of N perpendicular to it
     Eigen::Vector3d down{0, 0, 0};  ///< along gravity at the start; zero without gravity
-    std::vector<int> traced = {};   ///< points of masses, in the order of Mechanism::masses
+    /// The points of masses whose paths are drawn, in the order of Mechanism::masses.
+    std::vector<int> traced = {};
     std::vector<std::string> traced_names = {};
 
-    /// Where a point is: the value of three roots of `program`, at the state with some coordinates set to zero,
-    /// moved by a constant.
+    /// The position of a point: the values of three roots of `program` at the state, perhaps with a coordinate set
+    /// to zero, plus a constant.
     struct Spot {
         int root = 0;
-        int zeroed = -1;  ///< this coordinate is taken as zero
+        int zeroed = -1;  ///< the coordinate that is set to zero
         Eigen::Vector3d shift{0, 0, 0};
     };
     std::vector<Spot> spots = {};
     Program program = {};
 };
 
-/// Where all points are. The state counts q and q' as the scene does.
+/// The positions of all points. q and q' in the state are in the order of the scene.
 Pose pose_at(const Drawing& drawing, const State<double>& state);
 
-/// From the geometry of a scene. A scene that has none gives a drawing with an `obstacle`.
+/// Makes the drawing from the geometry of a scene. A scene without geometry gives a drawing with an `obstacle`.
 Drawing draw(const Scene& scene, const Mechanism& mechanism);
 
 }  // namespace alembert

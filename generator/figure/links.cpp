@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Kind = FigureElement::Kind;
 
-/// Two places whose distance is that of a spring along an expression, up to a constant.
+/// Two points whose distance is, up to a constant, the expression along which a spring acts.
 std::optional<std::pair<int, int>> ends_of(const Sketch& s, int along) {
     for (std::size_t i = 0; i < s.sites.size(); ++i)
         for (std::size_t j = i + 1; j < s.sites.size(); ++j) {
@@ -27,7 +27,7 @@ std::optional<std::pair<int, int>> ends_of(const Sketch& s, int along) {
     return {};
 }
 
-/// The coordinate that a value is.
+/// The coordinate that is equal to a value.
 int coordinate_of(const Sketch& s, int along) {
     for (int k = 0; k < s.m.size(); ++k) {
         const auto line = s.shifted([&](int state) { return s.at(state, along)[0]; },
@@ -45,7 +45,7 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Does coordinate k turn the way from `pivot` to `end` by its own value, about the pivot?
+/// Does coordinate k turn the line from `pivot` to `end` about the pivot by its own value?
 bool turns_by(const Sketch& s, int k, int pivot, int end) {
     for (int state = 0; state < Sketch::states; ++state) {
         const Vector3d still = s.with(state, pivot, k, 0), there = s.with(state, end, k, 0);
@@ -56,7 +56,7 @@ bool turns_by(const Sketch& s, int k, int pivot, int end) {
     return true;
 }
 
-/// Does coordinate k shift the place by its own value?
+/// Does coordinate k shift the point by its own value?
 bool shifts_by(const Sketch& s, int k, int place) {
     for (int state = 0; state < Sketch::states; ++state) {
         const double way = (s.at(state, place) - s.with(state, place, k, 0)).norm();
@@ -69,7 +69,7 @@ bool shifts_by(const Sketch& s, int k, int place) {
     return (twice - 2 * once).norm() <= 1e-7 * s.scale;
 }
 
-/// Where the coordinate shifts the place, if that is always the same direction.
+/// The direction in which the coordinate shifts the point, if it is always the same.
 std::optional<Vector3d> direction_of(const Sketch& s, int k, int place) {
     std::optional<Vector3d> along;
     for (int state = 0; state < Sketch::states; ++state) {
@@ -80,7 +80,7 @@ std::optional<Vector3d> direction_of(const Sketch& s, int k, int place) {
     return along;
 }
 
-/// How many coordinates move the place.
+/// The number of coordinates that move the point.
 int movers(const Sketch& s, int place) {
     int count = 0;
     for (int k = 0; k < s.m.size(); ++k)
@@ -88,7 +88,7 @@ int movers(const Sketch& s, int place) {
     return count;
 }
 
-/// Between a mass and the place that it reaches where the coordinate is zero: a rope, a radius.
+/// Adds a rope or a radius between a mass and the point that it reaches when the coordinate is zero.
 void add_rope(Sketch& s, int k, const Sketch::Site& end) {
     if (end.mass < 0 || direction_of(s, k, end.track)) return;
     for (const Sketch::Site& site : s.sites) {
@@ -142,7 +142,7 @@ void add_springs(Sketch& s, const Asked& asked) {
 }
 
 void add_hinges(Sketch& s) {
-    std::vector<std::pair<int, int>> uses;  // canonical track, elements that end there
+    std::vector<std::pair<int, int>> uses;  // a canonical track, and the number of elements that end there
     const std::vector<FigureElement> elements = s.elements;
     for (const Sketch::Site& site : s.sites) {
         if (&s.canonical(site.track) != &site || !s.is_finite(site.track)) continue;
@@ -166,7 +166,7 @@ void add_hinges(Sketch& s) {
 }
 
 void add_coordinates(Sketch& s) {
-    // Segments that may turn: rods and bars between places, then the first axes of bodies.
+    // Segments that may turn: rods and bars between points, then the first axes of bodies.
     struct Segment {
         int pivot, end;
         int pivot_spot, end_spot;
@@ -181,7 +181,7 @@ void add_coordinates(Sketch& s) {
                 segments.push_back({ends->first, ends->second, e.points[0], e.points[1]});
                 segments.push_back({ends->second, ends->first, e.points[1], e.points[0]});
             }
-    // Bodies turn with their centre about the places that they hold.
+    // Bodies turn with their centres about the points that they carry.
     for (const Sketch::Frame3& body : s.bodies)
         for (const Sketch::Site& site : s.sites)
             if (&s.canonical(site.track) == &site && !s.same(site.track, body.centre) &&
@@ -201,7 +201,8 @@ void add_coordinates(Sketch& s) {
                              .coordinate = k});
             continue;
         }
-        // Masses before points, and what fewer coordinates move before what more of them do.
+        // Masses are preferred to points, and points that fewer coordinates move to those that more coordinates
+        // move.
         const Sketch::Site* moved = nullptr;
         const auto rank = [&](const Sketch::Site& site) {
             return (site.mass >= 0 ? 0 : 1000) + movers(s, site.track);
@@ -247,7 +248,7 @@ void add_coordinates(Sketch& s) {
     }
     const auto lengths =
         std::count_if(found.begin(), found.end(), [](const FigureElement& e) { return e.kind == Kind::length; });
-    constexpr int readable = 6;  // dimension lines beside each other
+    constexpr int readable = 6;  // the most dimension lines side by side
     for (FigureElement& e : found)
         if (lengths <= readable || e.kind != Kind::length) s.add(std::move(e));
     if (lengths > readable) s.notes.emplace_back("Coordinates that are lengths are too many to be shown.");
@@ -294,7 +295,7 @@ void add_loads(Sketch& s, const Asked& asked) {
         const Torque& t = s.scene.torques[k];
         const Sketch::Site* const site = s.site(t.on.text);
         int at = site != nullptr && site->mass >= 0 ? site->track : -1;
-        for (const Sketch::Site& other : s.sites) {  // a torque on a frame acts on what turns with it
+        for (const Sketch::Site& other : s.sites) {  // a torque on a frame acts on the point that turns with it
             if (at >= 0) break;
             if (other.mass >= 0) at = other.track;
         }

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Kind = FigureElement::Kind;
 
-/// The direction in which a place always moves, if it is one.
+/// The direction in which a point moves, if it is always the same.
 std::optional<Vector3d> straight_way(const Sketch& s, int track) {
     std::optional<Vector3d> along;
     for (int state = 1; state < Sketch::states; ++state) {
@@ -32,11 +32,12 @@ bool is_part_of_a_body(const Sketch& s, int track) {
     });
 }
 
-/// Places on which the particle turns at a constant distance: one of each group that moves as one.
+/// The points about which the particle turns at a constant distance, one for each group of points that move
+/// together.
 std::vector<const Sketch::Site*> pivots(const Sketch& s, const Sketch::Site& particle) {
     std::vector<const Sketch::Site*> found;
     for (const Sketch::Site& site : s.sites) {
-        // Between two particles the later one has the rod.
+        // A rod between two particles belongs to the later one.
         const bool is_later =
             &site >= &particle && site.mass >= 0 && s.m.masses[site.mass].origin.kind == Origin::Kind::particle;
         if (is_later || &site == &particle) continue;

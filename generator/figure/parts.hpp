@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The parts of a figure, each added to the sketch by a function of its own. Of draw.cpp alone; in this order, as
-/// later ones look at the elements of earlier ones.
+/// The parts of a figure; each function adds one of them to the sketch. Only draw.cpp uses these functions, in
+/// this order, because later parts depend on the elements of earlier ones.
 
 #include "figure/sketch.hpp"
 
 namespace alembert {
 
-/// What is asked for before the sketch is sampled: tracks of loads, springs and constraints.
+/// The tracks of loads, springs and constraints that are requested before the sketch is sampled.
 struct Asked {
-    std::vector<int> spring_along, damper_along;  ///< scalars; -1 where two points are given, -2: drawn already
-    std::vector<int> forces, torques, impulses;   ///< vectors along N
-    std::vector<int> constraints;                 ///< scalars, of holonomic ones; -1 of others
-    std::vector<std::vector<int>> rows;           ///< of velocity constraints of small plane scenes, by coordinate
-    std::vector<int> gaps;                        ///< scalars
-    std::vector<int> contacts;                    ///< vectors, of rollings
+    std::vector<int> spring_along,
+        damper_along;  ///< scalars; -1 if two points are given, -2 if it is drawn already
+    std::vector<int> forces, torques, impulses;  ///< vectors along N
+    std::vector<int> constraints;                ///< scalars for holonomic constraints, -1 for others
+    std::vector<std::vector<int>> rows;  ///< rows of velocity constraints of small plane scenes, by coordinate
+    std::vector<int> gaps;               ///< scalars
+    std::vector<int> contacts;           ///< vectors of rolling conditions
 };
 Asked asked(Sketch& sketch);
 
 /// Masses that move on one line would cover each other: they are drawn apart, with the springs between them and
-/// the walls. Does nothing in other scenes. Springs and dampers that it has drawn are marked as such in `asked`.
+/// the walls. For other scenes it does nothing. Springs and dampers that it has drawn are marked in `asked`.
 void spread(Sketch& sketch, Asked& asked);
 
 void add_bodies(Sketch& sketch, const Asked& asked);

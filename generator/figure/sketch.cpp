@@ -14,7 +14,7 @@ namespace alembert {
 
 namespace {
 
-constexpr double near = 1e-7;  // of the scale: rounding is far below, a change of shape far above
+constexpr double near = 1e-7;  // relative to the scale; rounding is far smaller, and a change of shape far larger
 
 std::vector<double> moved(std::vector<double> values, std::mt19937_64& random, double floor) {
     std::uniform_real_distribution<double> part(0.15, 0.45);
@@ -23,7 +23,7 @@ std::vector<double> moved(std::vector<double> values, std::mt19937_64& random, d
     return values;
 }
 
-/// The start as the program finds it; where it cannot be assembled, the numbers of the scene.
+/// The assembled initial state; if it cannot be assembled, the numbers of the scene.
 Start assembled(const Mechanism& m) {
     Start start = start_of(m);
     try {

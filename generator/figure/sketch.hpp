@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The places of a scene at some states, and what they tell: which distances never change, what a body carries,
-/// what turns by which coordinate.
+/// The positions of a scene's points at some states, and what follows from them: which distances are constant,
+/// which points a body carries, which coordinate turns what.
 ///
-/// All questions are answered by numbers at random states (rates zero), with the program's own expressions: a
-/// distance is constant if it is the same at all of them. Of draw.cpp and the files beside it.
+/// All questions are answered by numbers at random states (with zero rates), from the program's own expressions: a
+/// distance is constant if it is the same at all of them. Only draw.cpp and the files beside it use this header.
 
 #include <functional>
 #include <optional>
@@ -16,53 +16,54 @@
 
 namespace alembert {
 
-/// A number of a figure as expressions need it: its first twelve digits.
+/// A number of a figure for use in expressions: its first twelve digits.
 GiNaC::ex exactly(double value);
 
 class Sketch {
 public:
     Sketch(const Scene& scene, const Mechanism& mechanism);
 
-    /// A place or a direction, as three numbers at each sampled state.
+    /// A position or a direction, as three numbers at each sampled state.
     using Track = std::vector<Eigen::Vector3d>;
-    static constexpr int states = 6;       ///< with the scene's parameters; the first is the initial state
-    static constexpr int at_one_time = 4;  ///< the first of these are at the initial time
+    /// Number of states with the scene's parameters; the first is the initial state.
+    static constexpr int states = 6;
+    static constexpr int at_one_time = 4;  ///< this many of the first states are at the initial time
 
-    /// A named place of the scene.
+    /// A named point of the scene.
     struct Site {
         enum class Of { origin, point, mass, joint } of;
         std::string name;
         int track;
         int mass = -1;     ///< position in Mechanism::masses
-        std::string from;  ///< the place from which the scene gives it
+        std::string from;  ///< the point relative to which the scene gives it
     };
 
-    /// A new place, made of expressions; its numbers are there after `sample`.
+    /// Adds a position, given by expressions; its numbers are known after `sample`.
     int track(const Vector3& value);
-    /// A new scalar, as the first component of a track.
+    /// Adds a scalar, as the first component of a track.
     int scalar(const GiNaC::ex& value) { return track({value, 0, 0}); }
     void sample();
 
     const Eigen::Vector3d& at(int state, int track) const { return numbers_[state][track]; }
     bool is_finite(int track) const;
     bool is_fixed(int track) const;
-    bool is_driven(int track) const;                     ///< moves with time alone
-    bool same(int a, int b) const;                       ///< the same place at all states
+    bool is_driven(int track) const;                     ///< whether it moves with time only
+    bool same(int a, int b) const;                       ///< whether the positions are the same at all states
     std::optional<double> distance(int a, int b) const;  ///< if it is constant
-    /// Is the place fixed in the body with these axes (three tracks) and this mass centre?
+    /// Is the point fixed in the body with these axes (three tracks) and this mass centre?
     bool is_fixed_in(const std::array<int, 3>& axes, int centre, int place) const;
-    /// f = sign·g + constant at all states, f and g being functions of the state's number. Gives sign and
-    /// constant.
+    /// f = sign·g + constant at all states, where f and g are functions of the number of the state. Returns sign
+    /// and constant.
     std::optional<std::pair<double, double>> shifted(const std::function<double(int)>& f,
                                                      const std::function<double(int)>& g) const;
     double coordinate(int state, int k) const { return at_[state].q[k]; }
-    /// The parameter that equals a distance, or half of it, whatever the parameters' values; empty if there is
+    /// The parameter that equals a distance, or half of it, for any values of the parameters; empty if there is
     /// none.
     std::string name_of_length(int a, int b) const;
     /// The value of a track at the initial state with coordinate k changed.
     Eigen::Vector3d with(int state, int track, int k, double value) const;
 
-    /// The first site of those at the same place.
+    /// The first of all sites at the same position.
     const Site& canonical(int track) const;
     const Site* site(const std::string& name) const;
     /// A site of the scene: point, mass or origin.
@@ -83,19 +84,19 @@ public:
         std::array<int, 3> axes;
         int centre;
         int mass;
-        Eigen::Vector3d inertia{0, 0, 0};  ///< per unit of mass, where there is a mass
+        Eigen::Vector3d inertia{0, 0, 0};  ///< per unit of mass, if there is a mass
         double weight = 0;                 ///< its mass
         std::string name;
     };
     std::vector<Frame3> bodies;
-    std::vector<int> free_track;  ///< of mass centres, by the position in Mechanism::masses
-    std::vector<double> masses;   ///< numbers, by the position in Mechanism::masses
+    std::vector<int> free_track;  ///< tracks of mass centres, by position in Mechanism::masses
+    std::vector<double> masses;   ///< the masses as numbers, by position in Mechanism::masses
     bool is_plane = false;
     int normal = 2;
     double scale = 1;  ///< the size of the figure
     std::vector<FigureElement> elements;
     std::vector<std::string> notes;
-    /// Tracks that are drawn away from their place: masses that move on one line, drawn apart.
+    /// Tracks that are drawn away from their positions: masses that move on one line are drawn apart.
     std::vector<std::pair<int, Eigen::Vector3d>> displaced;
     Eigen::Vector3d down{0, 0, 0};
 
@@ -106,7 +107,7 @@ private:
 
     std::vector<Vector3> values_;
     std::vector<State<double>> at_;  ///< `states`, then one with other parameters
-    std::vector<Track> numbers_;     ///< by state
+    std::vector<Track> numbers_;     ///< the tracks at each state
     Program program_;
     std::vector<int> nodes_;
     std::vector<int> mass_tracks_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Masses that all move on one line: a chain of oscillators whose coordinates count from the places at rest, the
-/// weights of a pulley.
+/// Treats masses that all move on one line: a chain of oscillators whose coordinates count from their positions at
+/// rest, or the weights on a pulley.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Kind = FigureElement::Kind;
 
-/// The direction of the one line on which all masses are at all states.
+/// The direction of the line on which all masses are at all states.
 std::optional<Vector3d> one_line(const Sketch& s) {
     std::optional<Vector3d> along;
     const Vector3d first = s.at(0, s.free_track[0]);
@@ -42,7 +42,7 @@ public:
             s_.displaced.emplace_back(s_.free_track[k], (static_cast<double>(k) + 1) * space_ * along_);
     }
 
-    /// From a wall to a mass, or between two masses. False where the expression is neither.
+    /// Adds an element from a wall to a mass, or between two masses. False if the expression is neither.
     bool add(Kind kind, int value, const std::string& label) {
         const auto ends = masses_of(value);
         if (!ends) return false;
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Which masses lie so far apart, up to a constant; −1 is the wall.
+    /// The two masses whose distance is this value up to a constant; −1 is the wall.
     std::optional<std::pair<int, int>> masses_of(int value) const {
         const auto place = [&](int mass, int state) {
             return mass < 0 ? 0.0 : s_.at(state, s_.free_track[mass]).dot(along_);

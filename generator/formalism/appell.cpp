@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// S = Σ ½ m a·a + ½ α·I α + α·(ω × I ω),   ∂S/∂u̇_r = Q_r   (Pars, A Treatise on Analytical Dynamics (1965)).
-// I is the central inertia, α and ω are along the body's axes, in which I is constant: α is the derivative of the
-// components of ω. Terms of S that hold no acceleration are left out: they have no derivative. ∂S/∂u̇ is linear in
-// u̇:
+// S = Σ ½ m a·a + ½ α·I α + α·(ω × I ω), ∂S/∂u̇_r = Q_r (Pars, A Treatise on Analytical Dynamics (1965)). I is the
+// central inertia, α and ω are along the body's axes, in which I is constant: α is the derivative of the
+// components of ω. Terms of S without accelerations are left out, because their derivatives are zero. ∂S/∂u̇ is
+// linear in u̇:
 //   M = ∂²S/∂u̇²,   own = Q − ∂S/∂u̇ at u̇ = 0.
 #include "formalism/appell.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* appell_title = "The Gibbs-Appell equations";
 
-/// S of all bodies, in q, u, u', t.
+/// S of all bodies as a function of q, u, u', t.
 ex acceleration_energy(const Mechanism& m, const InSpeeds& motion) {
     Intermediates& z = *m.z;
     const auto derivative = [&](const Vector3& v) {
@@ -70,7 +70,7 @@ Equations appell(const Mechanism& mechanism) {
     motion.attach_kept(equations);
     if (equations.eliminated.empty()) return equations;
 
-    // With all rates as speeds the constraints' forces are what ∂S/∂q̈ and the other forces leave.
+    // With all rates as speeds, the constraint forces are the difference between ∂S/∂q̈ and the other forces.
     const InSpeeds in_rates(m, rates_as_speeds(m));
     const std::vector<ex> inertia = z.pull_back({{acceleration_energy(m, in_rates), 1}}, m.qddot);
     const std::vector<ex> active = in_rates.conservative(), damping = in_rates.loads(true),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With s = sin x, c = cos x the ring is polynomials modulo s² + c² − 1. With c reduced to its first power a
-// numerator N₀ + N₁ c is divisible by s^k if and only if N₀ and N₁ are; the same with s and c exchanged.
+// With s = sin x, c = cos x the ring consists of polynomials modulo s² + c² − 1. If c is reduced to its first
+// power, a numerator N₀ + N₁ c is divisible by s^k if and only if N₀ and N₁ are; the same with s and c exchanged.
 #include "formalism/cancel.hpp"
 
 #include "formalism/elements.hpp"
@@ -27,7 +27,7 @@ bool has_circular(const ex& e) {
     return false;
 }
 
-/// What `e` divides by: a sine or cosine, and sums of such, which are no powers to be cancelled.
+/// The divisors in `e`: powers of a sine or cosine, which may be cancelled, and sums of these, which are not.
 struct Divisors {
     bool wave = false, sum = false;
 };
@@ -44,7 +44,8 @@ int size(const ex& e) {
     return sum;
 }
 
-/// Sines and cosines as variables s, c, one pair for each angle; those of whole multiples by the angle's.
+/// Sines and cosines as variables s, c, one pair for each angle; functions of whole multiples of an angle are
+/// written in its pair.
 class Circle {
 public:
     ex in_letters(const ex& e) {
@@ -74,12 +75,13 @@ public:
         if (GiNaC::is_a<GiNaC::add>(e)) return GiNaC::add(std::move(parts));
         if (GiNaC::is_a<GiNaC::mul>(e)) return GiNaC::mul(std::move(parts));
         if (GiNaC::is_a<GiNaC::power>(e)) return pow(parts[0], parts[1]);
-        return e;  // other functions keep their angles
+        return e;  // angles inside other functions are not replaced
     }
 
     ex in_angles(const ex& e) const { return e.subs(back_, GiNaC::subs_options::no_pattern); }
 
-    /// Powers of one letter that numerator and denominator share, the other reduced to its first power.
+    /// Cancels the powers of one letter that numerator and denominator share; the other letter is first reduced to
+    /// its first power.
     void cancel(ex& above, ex& below) const {
         for (const auto& [angle, letters] : pairs_)
             for (const auto& [s, c] : {letters, std::pair(letters.second, letters.first)}) {
@@ -122,7 +124,7 @@ ex cancelled(const ex& e, const Mechanism& m) {
         const ex result = circle.in_angles(above / below);
         if (size(result) >= size(plain)) return e;
         return short_form(m.z->name(result), m);
-    } catch (const std::exception&) {  // not a quotient of polynomials
+    } catch (const std::exception&) {  // `e` is not a quotient of polynomials
         return e;
     }
 }

@@ -12,12 +12,12 @@ using GiNaC::ex;
 
 namespace {
 
-/// What moves, and the inertia force on it: −Σ m r̈ in components.
+/// The positions that move and the inertia forces on them, −Σ m r̈, in components.
 struct Moving {
-    std::vector<ex> places, accelerations;  ///< accelerations with q'' in them
-    std::vector<std::pair<ex, ex>> pairs;   ///< place, inertia force
+    std::vector<ex> places, accelerations;  ///< the accelerations contain q''
+    std::vector<std::pair<ex, ex>> pairs;   ///< position, inertia force
     std::vector<std::array<std::size_t, 2>> couples;
-    std::vector<ex> masses;  ///< of couples of places: mass·a(first)·δ(second)
+    std::vector<ex> masses;  ///< of pairs of positions, whose virtual work is mass·a(first)·δ(second)
 };
 
 Moving moving(const Mechanism& m) {
@@ -86,7 +86,8 @@ Equations dalembert(const Mechanism& mechanism) {
     Equations equations = equations_without_terms("dalembert", m);
     equations.dissipative = work.dissipative;
     equations.applied = work.applied;
-    // The work of inertia forces is linear in q'': its part with q'' is −M q'', the rest is what it is at q'' = 0.
+    // The work of inertia forces is linear in q'': the part with q'' is −M q'', and the rest is its value at q'' =
+    // 0.
     GiNaC::exmap still;
     for (const GiNaC::symbol& a : m.qddot) still[a] = 0;
     for (int j = 0; j < n; ++j) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Force of a spring on its end P₂:  −k (1 − d₀/|d|) d,   d = r₂ − r₁, and the opposite on P₁.
-// Steiner (Zhang & Qin, chapter 2):  I_C = I_P − m (d·d E − d dᵀ),   d from P to C along the body's axes.
+// The force of a spring on its end P₂ is −k (1 − d₀/|d|) d, d = r₂ − r₁, and the opposite on P₁. Steiner (Zhang &
+// Qin, chapter 2): I_C = I_P − m (d·d E − d dᵀ), d from P to C along the body's axes.
 #include "formalism/elements.hpp"
 
 #include <fmt/format.h>
@@ -92,7 +92,7 @@ std::optional<std::string> masses_unknown(const Mechanism& m, const std::string&
 std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, const GiNaC::exmap& by) {
     GiNaC::exmap full = by;
     const auto options = GiNaC::subs_options::no_pattern;
-    // Only what the values need; definitions refer to earlier ones only.
+    // Only the entries that the values need are replaced; definitions refer to earlier ones only.
     std::vector<char> needed(z.entries().size(), 0);
     const auto mark = [&](const ex& e) {
         std::vector<ex> stack{e};
@@ -108,7 +108,8 @@ std::vector<ex> substitute(Intermediates& z, const std::vector<ex>& values, cons
     for (const ex& value : values) mark(value);
     for (std::size_t k = needed.size(); k-- > 0;)
         if (needed[k] != 0) mark(z.entries()[k].definition);
-    // GiNaC walks through the whole map at every sum and product: it is given what the expression holds.
+    // GiNaC goes through the whole map at every sum and product, so it is given only the symbols in the
+    // expression.
     const auto substituted = [&](const ex& e) {
         GiNaC::exmap here;
         std::vector<ex> stack{e};

@@ -2,52 +2,53 @@
 #pragma once
 
 /// What Kane's and d'Alembert's equations share: forces on points instead of V, inertia about the mass centre, and
-/// the refusal of scenes whose energies are given without the bodies that have them.
+/// the obstacle of scenes whose energies are given without the bodies that have them.
 
 #include "formalism/equations.hpp"
 #include "formalism/obstacle.hpp"
 
 namespace alembert {
 
-/// A force and the place that it acts on, both along N; or a generalized force along an expression.
+/// A force and the position of the point on which it acts, both along N; or a generalized force along an
+/// expression.
 struct PlacedForce {
     Origin origin;
-    GiNaC::ex place, force;  ///< one component
+    GiNaC::ex place, force;  ///< if along an expression, one component
 };
 
-/// Gravity on each mass and springs, as forces: between points a pair of opposite ones, k (d − d₀) along the line;
-/// `along` an expression −k (d − d₀) on it. In place of the gradient of V.
+/// The forces of gravity on each mass and of springs, which replace the gradient of V. A spring between two points
+/// gives two opposite forces k (d − d₀) along the line; a spring `along` an expression gives −k (d − d₀) along it.
 std::vector<PlacedForce> conservative_forces(const Mechanism& mechanism);
 
-/// −∂V/∂q of [energy] potential, which no force is known of.
+/// −∂V/∂q of [energy] potential, whose forces are not known.
 std::vector<GiNaC::ex> potential_without_forces(const Mechanism& mechanism);
 
-/// Q_i of the loads, by virtual displacements ∂r/∂q of what they act on; by ∂ω/∂q' where only a turning is known
-/// (torques).
+/// Q_i of the loads by the virtual displacements ∂r/∂q of the points on which they act; for torques, where only an
+/// angular velocity is known, by ∂ω/∂q'.
 std::vector<GiNaC::ex> work_of_loads(const Mechanism& mechanism, bool dissipative);
 
-/// Elements xx yy zz xy yz zx about the mass centre: Steiner's theorem where the scene gives them about another
-/// point.
+/// The elements xx yy zz xy yz zx of the inertia about the mass centre, by Steiner's theorem if the scene gives
+/// them about another point.
 std::array<GiNaC::ex, 6> central_inertia(const MassElement& body, Intermediates& z);
 
 /// Does all kinetic energy belong to particles and bodies?
 bool masses_are_known(const Mechanism& mechanism);
 
-/// Why a formalism does not apply to a scene without coordinates. `who`: "Kane's equations".
+/// Why a formalism does not apply to a scene without coordinates. `who` is its name, such as "Kane's equations".
 std::optional<std::string> no_coordinates(const Mechanism& mechanism, const std::string& who);
 
-/// The same, and for [energy] kinetic or lagrangian, of one that starts from the velocities of particles and
-/// bodies.
+/// The same for a formalism that starts from the velocities of particles and bodies, which also does not apply if
+/// the scene has [energy] kinetic or lagrangian.
 std::optional<std::string> masses_unknown(const Mechanism& mechanism, const std::string& who);
 
 /// `values` with symbols replaced, through the definitions of intermediate symbols.
 std::vector<GiNaC::ex> substitute(Intermediates& z, const std::vector<GiNaC::ex>& values, const GiNaC::exmap& by);
 
-/// `e` as a textbook writes it where that is short, itself otherwise: what is divided by it, and what is
-/// differentiated, stays short too.
+/// `e` as a textbook writes it if that is short, otherwise `e` itself. Quotients by the result and its derivatives
+/// are then short too.
 GiNaC::ex short_form(const GiNaC::ex& e, const Mechanism& mechanism);
 
-/// Symbols and an n×n matrix of zeros; no forces, no constraints.
+/// Equations with symbols and an n×n matrix of zeros, without forces and constraints.
 Equations equations_without_terms(const std::string& formalism, const Mechanism& mechanism);
 
 /// A, γ and λ of the scene's constraints.

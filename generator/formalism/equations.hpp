@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What every formalism gives: q' = h(q,u,t), M u' = f + Aᵀλ, A u' = γ (no A without constraints).
+/// The result of every formalism: q' = h(q,u,t), M u' = f + Aᵀλ, A u' = γ (without constraints there is no A).
 ///
 ///     const Equations equations = lagrange(mechanism);
 ///     equations.M(0, 1); equations.f[0];
 ///
-/// The speeds are the rates, h = u, or others: then constraints whose rates they leave out are eliminated; those
-/// have no row of A, and their multipliers are recovered from the motion.
+/// The speeds are the rates, h = u, or other speeds. The latter may eliminate constraints; such constraints have
+/// no row in A, and their multipliers are recovered from the motion.
 ///
-/// For the readable form f is kept in three parts, as a textbook writes the equation:
-/// M u' − own − dissipative = applied + Aᵀλ.
+/// f is kept in three parts, so that the equation can be printed as in a textbook: M u' − own − dissipative =
+/// applied + Aᵀλ.
 
 #include <algorithm>
 #include <string>
@@ -22,8 +22,8 @@ namespace alembert {
 
 struct JointTree;
 
-/// Are all rates q' = h speeds, each u being its own form? A scene's [speeds] are symbols of their own, whatever
-/// they stand for.
+/// Are the speeds u the rates q'? The speeds of a scene's [speeds] are never counted as rates, whatever their
+/// definition.
 inline bool speeds_are_rates(const std::vector<GiNaC::symbol>& u, const std::vector<GiNaC::ex>& form,
                              const std::vector<GiNaC::ex>& h) {
     return u.size() == h.size() &&
@@ -35,16 +35,17 @@ struct Equations {
     std::string formalism;            ///< its name: "lagrange"
     std::vector<GiNaC::symbol> q, u;  ///< coordinates; speeds
     std::vector<GiNaC::symbol> udot;  ///< the unknowns
-    GiNaC::matrix M;                  ///< n×n, symmetric; no rows where it is left out (recursive_without_matrix)
-    std::vector<GiNaC::ex> own;       ///< velocity terms and potential forces
+    GiNaC::matrix M;             ///< n×n, symmetric; without rows if it is left out (recursive_without_matrix)
+    std::vector<GiNaC::ex> own;  ///< velocity terms and potential forces
     std::vector<GiNaC::ex> dissipative;     ///< generalized forces of dampers
     std::vector<GiNaC::ex> applied;         ///< all other generalized forces
     std::vector<std::vector<GiNaC::ex>> A;  ///< m rows of n
     std::vector<GiNaC::ex> gamma;           ///< m
     std::vector<GiNaC::symbol> lambda;      ///< m
-    /// Whose terms row i holds, as labels; only where no intermediate symbol is left to tell.
+    /// The labels of the parts whose terms are in row i; only needed if no intermediate symbol is left that shows
+    /// them.
     std::vector<std::vector<std::string>> row_sources;
-    std::shared_ptr<Intermediates> z;  ///< what the intermediate symbols stand for: a table of their own
+    std::shared_ptr<Intermediates> z;  ///< the table of the intermediate symbols, which belongs to these equations
 
     std::vector<GiNaC::ex> h = {};     ///< q' in q, u, t
     std::vector<GiNaC::ex> form = {};  ///< u in q, q', t
@@ -53,11 +54,12 @@ struct Equations {
         GiNaC::ex multiplier;  ///< in q, q', q'', t and the lambdas above
     };
     std::vector<Eliminated> eliminated = {};
-    std::vector<GiNaC::ex> poles = {};           ///< where one of these vanishes h has no value
-    std::shared_ptr<const JointTree> tree = {};  ///< of the recursive formalism: what its programs are made from
+    std::vector<GiNaC::ex> poles = {};  ///< h has no value where one of these vanishes
+    /// Set by the recursive formalism, whose programs are made from it.
+    std::shared_ptr<const JointTree> tree = {};
 
     int size() const { return static_cast<int>(u.size()); }
-    /// u = q', symbol by symbol.
+    /// Whether u = q', symbol by symbol.
     bool speeds_are_rates() const { return alembert::speeds_are_rates(u, form, h); }
     /// Positions in Mechanism::constraints of the rows of A.
     std::vector<int> kept(const Mechanism& mechanism) const {
@@ -72,12 +74,12 @@ struct Equations {
     GiNaC::ex forcing(int i) const { return own[i] + dissipative[i] + applied[i]; }
 };
 
-/// The same mechanism with a copy of its table of intermediate symbols. What a derivation names goes into the
-/// copy, and the mechanism that it was asked for stays as it is.
+/// The same mechanism with a copy of its table of intermediate symbols. The intermediate symbols of a derivation
+/// go into the copy, so that the given mechanism does not change.
 Mechanism with_own_intermediates(const Mechanism& mechanism);
 
-/// The mechanism with the table of the equations, which takes over what the mechanism's own has beyond it: the
-/// expressions of both can be used with the result.
+/// The mechanism with the table of the equations, to which the further entries of the mechanism's own table are
+/// added. The expressions of both can be used with the result.
 Mechanism in_terms_of(const Equations& equations, const Mechanism& mechanism);
 
 }  // namespace alembert

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// All formalisms: one row each.
+/// The table of all formalisms, with one row for each.
 ///
 ///     const Formalism& kane = formalism("kane");
 ///     if (const auto reason = kane.obstacle(mechanism)) …   // it does not apply, and why
 ///     const Equations equations = kane.derive(mechanism);
 ///
-/// Whoever adds one writes its file and its row in formalisms.cpp; help, messages, `agree` and the tests follow
+/// To add a formalism, write its file and its row in formalisms.cpp; help, messages, `agree` and the tests follow
 /// from the row.
 
 #include "formalism/equations.hpp"
@@ -17,20 +17,21 @@ namespace alembert {
 
 struct Formalism {
     std::string name, title;  ///< "kane", "Kane's equations"
-    /// Why it does not apply to a scene; nothing where it does.
+    /// The reason why it does not apply to a scene, or nothing if it applies.
     std::optional<std::string> (*obstacle)(const Mechanism&);
-    /// Throws ModelError with the obstacle where there is one. The mechanism stays as it is; what the derivation
-    /// names is in a table of the equations, Equations::z.
+    /// Throws ModelError with the obstacle if there is one. The mechanism does not change; the intermediate
+    /// symbols of the derivation are in the equations' own table, Equations::z.
     Equations (*derive)(const Mechanism&);
-    /// What it shows on its way, at readable size, from a mechanism in terms of the equations (`in_terms_of`);
-    /// null: nothing but the energies and forces that all show.
+    /// The steps of its derivation, for equations of readable size and a mechanism in terms of the equations
+    /// (`in_terms_of`). If null, it shows only the energies and forces that all formalisms show.
     OwnSteps (*steps)(const Mechanism&, const Equations&) = nullptr;
-    /// What it shows at any size; null: nothing.
+    /// Sections that it shows for equations of any size; may be null.
     std::vector<Section> (*outline)(const Mechanism&) = nullptr;
-    bool independent = false;  ///< it needs independent coordinates
-    bool in_momenta = false;   ///< its steps end in first-order equations, which are shown instead of `derive`'s
+    bool independent = false;  ///< whether it needs independent coordinates
+    /// Whether its steps end in first-order equations, which are shown instead of those of `derive`.
+    bool in_momenta = false;
     std::string without_constraints =
-        {};  ///< the formalism that it is, word for word, where there are no constraints
+        {};  ///< the formalism with which it is identical if there are no constraints
 };
 const std::vector<Formalism>& formalisms();
 

@@ -17,8 +17,8 @@ using GiNaC::ex;
 
 namespace {
 
-/// The order in which rows are eliminated: first those whose diagonal is shortest, as C of a symmetric top, whose
-/// elimination leaves A sin² θ of A sin² θ + C cos² θ.
+/// The order in which rows are eliminated: those with the shortest diagonal element first. For a symmetric top
+/// this is C, whose elimination turns A sin² θ + C cos² θ into A sin² θ.
 std::vector<int> elimination_order(const GiNaC::matrix& M, const Mechanism& m) {
     std::vector<int> order(M.rows());
     std::iota(order.begin(), order.end(), 0);
@@ -64,7 +64,7 @@ Possible<std::vector<ex>> solve_named(const GiNaC::matrix& M, const std::vector<
 
 namespace {
 
-constexpr int most_inverted = 8;  // coordinates; M⁻¹ of more is longer than anybody reads
+constexpr int most_inverted = 8;  // the most coordinates; for more, M⁻¹ is too long to be read
 
 /// L = ½ q̇ᵀ M q̇ + bᵀ q̇ + L₀.
 struct SecondDegree {

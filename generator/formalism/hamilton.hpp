@@ -6,7 +6,8 @@
 ///     const CanonicalEquations c = canonical(mechanism).value();      // c.H in q, p_<coordinate> and t
 ///     const Equations equations = hamilton(mechanism);
 ///
-/// `hamilton` eliminates the momenta again by p = ∂L/∂q', so that the result compares with the other formalisms.
+/// `hamilton` eliminates the momenta again by p = ∂L/∂q', so that its result can be compared with the other
+/// formalisms.
 
 #include "formalism/obstacle.hpp"
 #include "formalism/steps.hpp"
@@ -22,16 +23,17 @@ struct CanonicalEquations {
     std::vector<GiNaC::ex> force;       ///< −∂H/∂q alone
 };
 
-/// An obstacle are constraints, an L that is not of second degree in the rates, and one whose matrix is singular.
+/// There is an obstacle if the scene has constraints, if L is not of second degree in the rates, or if its mass
+/// matrix is singular.
 Possible<CanonicalEquations> canonical(const Mechanism& mechanism);
 std::optional<std::string> obstacle_to_hamilton(const Mechanism& mechanism);
 
-/// Throws ModelError with the obstacle where there is one.
+/// Throws ModelError with the obstacle if there is one.
 Equations hamilton(const Mechanism& mechanism);
-/// H, and the canonical equations.
+/// The steps shown: H and the canonical equations.
 OwnSteps steps_of_hamilton(const Mechanism& mechanism, const Equations& equations);
 
-/// X with M X = right, by symbolic elimination on a symmetric M; an obstacle is a pivot that is zero.
+/// X with M X = right, by symbolic elimination for a symmetric M; there is an obstacle if a pivot is zero.
 Possible<std::vector<GiNaC::ex>> solve_named(const GiNaC::matrix& M, const std::vector<GiNaC::ex>& right,
                                              const Mechanism& mechanism);
 

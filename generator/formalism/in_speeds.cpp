@@ -28,7 +28,8 @@ Vector3 InSpeeds::short_in_speeds(const Vector3& v) const {
 }
 
 ex InSpeeds::shortened(const ex& value) const {
-    if (m_.z->tree_size(value) > 400) return value;  // beyond, looking for a short form costs more than it wins
+    // For larger values the search for a short form costs more than it saves.
+    if (m_.z->tree_size(value) > 400) return value;
     return k_.poles.empty() ? short_form(value, m_) : cancelled(short_form(value, m_), m_);
 }
 

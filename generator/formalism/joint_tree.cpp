@@ -34,10 +34,10 @@ bool same_axis(const Vector3& a, const Vector3& b) {
     return a[0].is_equal(b[0]) && a[1].is_equal(b[1]) && a[2].is_equal(b[2]);
 }
 
-/// Where a point is: in a link's own axes, and those of a frame beside them.
+/// The position of a point in a link's own axes, and the orientation of a frame relative to these.
 struct Seat {
     int link = -1;
-    Rotation3 to_link = unity();  ///< components along the frame's axes → along the link's
+    Rotation3 to_link = unity();  ///< converts components along the frame's axes to components along the link's
     NamedVector at{0, 0, 0};
 };
 
@@ -60,7 +60,7 @@ private:
     NamedVector named(const Vector3& v) { return {named(v[0]), named(v[1]), named(v[2])}; }
     bool moves(const ex& e) const { return m_.z->depends(e, moving_); }
 
-    /// The first obstacle is kept; what is made of the body after it is of no consequence, and left as it is.
+    /// Only the first obstacle is kept; what is computed afterwards does not matter any more.
     void refuse(const std::string& why) {
         if (!obstacle_)
             obstacle_ = Obstacle{"the recursive formalism goes from body to body along joints: " + why};
@@ -85,7 +85,7 @@ private:
         return R;
     }
 
-    /// LinkAxes whose z is `a`, by columns.
+    /// Axes whose z axis is `a`, as columns.
     Rotation3 axes_along(const Vector3& a) {
         for (int k = 0; k < 3; ++k) {
             if (!a[k].is_equal(1)) continue;
@@ -94,7 +94,7 @@ private:
             return C;
         }
         const ParameterValues values(m_);
-        int across = 0;  // the letter that the axis is farthest from
+        int across = 0;  // the letter from whose direction the axis is farthest
         for (int k = 1; k < 3; ++k)
             if (std::abs(values.number(z_.expand(a[k]))) < std::abs(values.number(z_.expand(a[across]))))
                 across = k;
@@ -107,8 +107,8 @@ private:
     }
 
     struct Fixed {
-        int frame;    ///< the moving one that this one is fixed in; 0 for N
-        Rotation3 R;  ///< components along this one → along that
+        int frame;    ///< the moving frame in which this one is fixed; 0 for N
+        Rotation3 R;  ///< converts components along this frame to components along that one
     };
     const Fixed& fixed(int f) {
         if (const auto found = fixed_.find(f); found != fixed_.end()) return found->second;
@@ -133,7 +133,8 @@ private:
         return list;
     }
 
-    /// The position, its rate, and what is not due to q''; refuses what is not linear in the coordinates.
+    /// Sets the position of a joint, its rate, and the part of its acceleration that does not come from q''.
+    /// Refuses positions that are not linear in the coordinates.
     void set_motion(TreeJoint& joint, const ex& position, const std::string& what) {
         const ex plain = z_.expand(position);
         ex rest = plain;
@@ -156,7 +157,8 @@ private:
         joint.drift = m_.explicit_time_derivative({first})[0];
     }
 
-    /// A turn about `axis` after `seat`; `R` from the frame in which the axis stands to that of the seat.
+    /// The seat after a further turn about `axis`; `R` converts from the frame in which the axis is given to that
+    /// of the seat.
     Seat turned(const Seat& seat, const Rotation3& R, const Vector3& axis, const ex& angle) {
         Vector3 a = axis;
         ex by = angle;
@@ -175,12 +177,12 @@ private:
         return {static_cast<int>(tree_.joints.size()) - 1, transposed(C), {0, 0, 0}};
     }
 
-    /// The turns that lead from one frame to another that does not come after it: up to the first common frame,
-    /// then down.
+    /// Applies the turns that lead from one frame to another that does not come after it: up to the first common
+    /// frame, then down.
     Seat turned_across(Seat seat, int from, int to) {
         struct Move {
             Vector3 axis;
-            ex angle;  ///< nothing of it: a rotation R
+            ex angle;  ///< if there is none, the turn is a constant rotation R
             std::optional<Rotation3> R;
         };
         std::vector<Move> moves;
@@ -223,7 +225,8 @@ private:
         return seat;
     }
 
-    /// The point itself, by the step that leads to it, and the moving frame that this is along.
+    /// The seat of a point, from the step that leads to it, and the moving frame along whose axes that step is
+    /// given.
     std::pair<int, Seat> own_seat(int point) {
         if (point == 0) return {0, Seat{}};
         const Skeleton::Step& step = m_.skeleton.points[point];
@@ -232,7 +235,7 @@ private:
             return {along.frame, found->second};
         Seat seat = seat_of(along.frame, step.from);
         NamedVector constant{0, 0, 0};
-        std::vector<std::pair<NamedVector, ex>> slides;  // direction along the frame's axes, position
+        std::vector<std::pair<NamedVector, ex>> slides;  // direction along the frame's axes, and position
         std::array<ex, 3> rest;
         for (int k = 0; k < 3; ++k) rest[k] = moves(step.offset[k]) ? z_.expand(step.offset[k]) : step.offset[k];
         std::array<bool, 3> is_moved{};
@@ -283,7 +286,7 @@ private:
         return {along.frame, seat};
     }
 
-    /// The point as it moves with the frame.
+    /// The seat of a point as a part of the frame.
     Seat seat_of(int frame, int point) {
         if (const auto found = seats_.find({frame, point}); found != seats_.end()) return found->second;
         const auto [own, seat] = own_seat(point);
@@ -338,7 +341,7 @@ Possible<JointTree> joint_tree(const Mechanism& m) {
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
     std::vector<Dress> result(tree.joints.size());
     if (axes == LinkAxes::own) return result;
-    std::vector<char> turns(result.size(), 1);  // the link turns against the ground
+    std::vector<char> turns(result.size(), 1);  // whether the link turns relative to the ground
     for (std::size_t j = 0; j < result.size(); ++j) {
         const TreeLink<Named>& link = tree.joints[j].link;
         const bool rooted = link.parent < 0 || turns[static_cast<std::size_t>(link.parent)] == 0;
@@ -358,7 +361,7 @@ std::vector<Dress> dress(const JointTree& tree, LinkAxes axes) {
         result[j].base = counted ? base : -1;
         result[j].absolute = !link.slides && counted;
     }
-    // An axis that no parallel one follows keeps its own axes.
+    // A link whose axis is not followed by a parallel one keeps its own axes.
     std::vector<char> followed(result.size(), 0);
     for (std::size_t j = 0; j < result.size(); ++j)
         if (result[j].continues) followed[static_cast<std::size_t>(tree.joints[j].link.parent)] = 1;

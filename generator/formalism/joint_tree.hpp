@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A mechanism as a tree of links with one joint each, found in how its frames and points hang together.
+/// A mechanism as a tree of links with one joint each, found from how its frames and points are connected.
 ///
 ///     const JointTree tree = joint_tree(mechanism);
 ///     const BodyTree<Named> still = dressed<Named>(tree, LinkAxes::still, value);
 ///
-/// A link is whatever keeps its place against a frame that turns or a point that is shifted; each turn whose angle
-/// moves and each coordinate in an offset is a joint. Joints' rates are w = S q' + w₀ with rational S: a frame
-/// that is turned against N, on a body that itself turns, has w = θ₂' − θ₁'. Where axes that stay parallel follow
-/// each other from the ground on, the angles and rates from the ground may be taken instead (`LinkAxes::still`).
+/// A link consists of everything that is fixed to a turning frame or to a shifted point. Each turn with a variable
+/// angle and each coordinate in an offset is a joint. The rates of joints are w = S q' + w₀ with rational S: a
+/// frame whose angle θ₂ counts from N, on a body that turns by θ₁, has w = θ₂' − θ₁'. In a chain of parallel axes
+/// that begins at the ground, angles and rates relative to the ground may be used instead (`LinkAxes::still`).
 
 #include <functional>
 
@@ -22,10 +22,10 @@
 namespace alembert {
 
 struct TreeJoint {
-    TreeLink<Named> link;             ///< without what depends on the state
+    TreeLink<Named> link;             ///< without the values that depend on the state
     GiNaC::ex position, rate, drift;  ///< angle or shift, w, w' at q'' = 0
-    std::vector<GiNaC::numeric> row;  ///< of S
-    bool parallel = false;            ///< its axes are those of the parent, but for a turn about z
+    std::vector<GiNaC::numeric> row;  ///< the joint's row of S
+    bool parallel = false;            ///< whether its axes differ from those of the parent by a turn about z only
 };
 
 struct JointTree {
@@ -33,27 +33,27 @@ struct JointTree {
     Triple<Named> gravity;
     int coordinates = 0;
     std::vector<GiNaC::ex> forces =
-        {};  ///< generalized forces but for gravity and inertia, where the formalism has set them
+        {};  ///< generalized forces without gravity and inertia, if the formalism has set them
 };
 
-/// The obstacle of a scene that is no such tree: what is missing, and where.
+/// The tree, or the obstacle if the scene is no such tree: what is missing, and where.
 Possible<JointTree> joint_tree(const Mechanism& mechanism);
 
-/// S as it belongs to `axes`: row by joint.
+/// S for these `axes`, one row for each joint.
 std::vector<std::vector<GiNaC::numeric>> rate_rows(const JointTree& tree, LinkAxes axes);
 
-/// Which links count from the ground, and along whose axes components are taken.
+/// Whether the angle of a link counts from the ground, and along which axes its components are taken.
 struct Dress {
     bool still = false, continues = false, absolute = false;
-    int base = -1;  ///< the link whose turns add up to this one's, where axes continue; −1: none
+    int base = -1;  ///< where axes continue, the link to whose turn this one's is added; −1 if there is none
 };
 std::vector<Dress> dress(const JointTree& tree, LinkAxes axes);
 /// Is there a chain of parallel axes?
 bool has_parallel_axes(const JointTree& tree);
-/// Is all of it one, each link on the one before (planar_chain.hpp)?
+/// Is the whole tree such a chain, each link attached to the one before (planar_chain.hpp)?
 bool is_planar_chain(const JointTree& tree);
 
-/// Over another scalar: `value` takes an expression there.
+/// The tree over another scalar; `value` converts an expression to it.
 template <typename S>
 BodyTree<S> dressed(const JointTree& joints, LinkAxes axes, Intermediates& z,
                     const std::function<S(const GiNaC::ex&)>& value) {

@@ -48,7 +48,7 @@ KaneForces forces_of(const InSpeeds& motion, const Mechanism& m) {
     const PartialVelocities partial = partials(motion, m);
 
     std::vector<GiNaC::exvector> mass(n * n);
-    std::vector<GiNaC::exvector> inertia(n);  // −Σ of what does not hold u̇
+    std::vector<GiNaC::exvector> inertia(n);  // minus the sum of the terms without u̇
     for (std::size_t b = 0; b < m.masses.size(); ++b) {
         const MassElement& body = m.masses[b];
         SourceScope source(z, label(body.origin));
@@ -91,7 +91,7 @@ KaneForces forces_of(const InSpeeds& motion, const Mechanism& m) {
     return result;
 }
 
-/// What the constraints' forces are along each coordinate: M q'' − f, with all rates as speeds.
+/// The constraint forces along each coordinate: M q'' − f, with all rates as speeds.
 std::vector<ex> reaction_along_coordinates(const Mechanism& m) {
     const KaneForces all = forces_of(InSpeeds(m, rates_as_speeds(m)), m);
     std::vector<ex> reaction;

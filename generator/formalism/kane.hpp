@@ -5,21 +5,21 @@
 ///
 ///     const Equations equations = kane(build(scene));
 ///
-/// A route of its own: neither T nor the gradient of V is used. ([energy] potential alone, of which no force is
-/// known, enters as −∂V/∂q.) The speeds are those of the scene, or the rates (kinematics.hpp). Constraints that
-/// the speeds leave no room for are eliminated: partial velocities along them do not exist, and no multiplier
-/// appears. The others enter with their multipliers.
+/// This is an independent route: neither T nor the gradient of V is used. (Only [energy] potential, whose forces
+/// are not known, enters as −∂V/∂q.) The speeds are those of the scene, or the rates (kinematics.hpp). Constraints
+/// that the speeds satisfy by themselves are eliminated: there are no partial velocities that violate them, and
+/// their multipliers do not appear. The others enter with their multipliers.
 
 #include "formalism/steps.hpp"
 
 namespace alembert {
 
-/// What Kane & Levinson's procedure shows on the way.
+/// The intermediate results of Kane & Levinson's procedure.
 struct PartialVelocities {
     struct Of {
         std::string label;
         std::vector<Vector3> velocity,
-            angular;  ///< for each speed: ∂v/∂u_r along N, ∂ω/∂u_r along the body's axes
+            angular;  ///< for each speed ∂v/∂u_r along N and ∂ω/∂u_r along the body's axes
     };
     std::vector<Of> bodies;
 };
@@ -34,12 +34,12 @@ struct KaneForces {
 KaneForces kane_forces(const Mechanism& mechanism);
 
 /// F_r + F*_r = 0 (Zhang & Qin, §1.8; Kane & Levinson, Dynamics (1985), chapter 6). Throws ModelError with the
-/// obstacle where there is one.
+/// obstacle if there is one.
 Equations kane(const Mechanism& mechanism);
-/// A scene without coordinates, one with [energy] kinetic or lagrangian: its velocities are not known, and those
-/// of `kinematics`.
+/// Why the equations do not apply to a scene: it has no coordinates, or it has [energy] kinetic or lagrangian, so
+/// that velocities are not known, or `kinematics` has an obstacle.
 std::optional<std::string> obstacle_to_kane(const Mechanism& mechanism);
-/// Partial velocities, F and F*.
+/// The steps shown: partial velocities, F and F*.
 OwnSteps steps_of_kane(const Mechanism& mechanism, const Equations& equations);
 
 }  // namespace alembert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// [W; A] q̇ = (u − w, −b)  (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), A being the constraints that u
-// leaves out. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det  (Cramer's rule).
+// [W; A] q̇ = (u − w, −b) (Kane & Levinson, Dynamics (1985), §2.12 and §2.13), where A are the rows of the
+// constraints that u eliminates. x_c = Σ_r (−1)^(r+c) minor_rc right_r / det (Cramer's rule).
 #include "formalism/kinematics.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using GiNaC::matrix;
 namespace {
 
 constexpr const char* dependent_constraints = "the nonholonomic constraints depend on each other";
-constexpr std::size_t largest_block = 10;  // minors of a block of k rows: k 2^k
+constexpr std::size_t largest_block = 10;  // a block of k rows has k 2^k minors
 
 bool is_number(const ex& e) {
     return GiNaC::is_a<GiNaC::numeric>(e);
@@ -70,7 +70,7 @@ private:
             std::count_if(columns_.begin(), columns_.end(), [&](unsigned c) { return !S_(row, c).is_zero(); }));
     }
 
-    /// The pivot that is a number in the row with the fewest entries.
+    /// Eliminates with a pivot that is a number, in the row with the fewest entries.
     bool eliminate_number() {
         std::optional<std::pair<unsigned, unsigned>> best;
         for (const unsigned r : rows_)
@@ -92,7 +92,7 @@ private:
         return true;
     }
 
-    /// The rows and columns that are tied to the first row.
+    /// Solves the block of the rows and columns that are connected with the first row.
     std::optional<std::string> solve_block() {
         std::vector<unsigned> block{rows_.front()}, columns;
         for (std::size_t i = 0; i < block.size(); ++i)
@@ -127,7 +127,7 @@ private:
         return std::nullopt;
     }
 
-    /// 2 l cos²φ vanishes where cos φ does.
+    /// The factors of a determinant that can vanish: 2 l cos²φ vanishes where cos φ does.
     ex moving_factors(const ex& det) const {
         const ex plain = z_.tree_size(det) < 300 ? z_.expand(det) : det;
         if (!GiNaC::is_a<GiNaC::mul>(plain) && !GiNaC::is_a<GiNaC::power>(plain)) return det;
@@ -170,7 +170,7 @@ private:
     unsigned n_;
     matrix x_;
     std::vector<ex> poles_;
-    std::vector<unsigned> rows_, columns_;  // not yet solved for
+    std::vector<unsigned> rows_, columns_;  // the rows and columns that have not been solved yet
     std::vector<std::pair<unsigned, unsigned>> pivots_;
     std::map<std::pair<std::vector<unsigned>, std::vector<unsigned>>, ex> minors_;
 };
@@ -182,7 +182,7 @@ std::vector<int> nonholonomic(const Mechanism& m) {
     return result;
 }
 
-/// h for these speeds: [W; A] q' = (u − w, −b), columns of the right side for each u and for 1.
+/// h for these speeds, from [W; A] q' = (u − w, −b); the right side has a column for each u and one for 1.
 Possible<Kinematics> solved_for_rates(const Mechanism& m, const std::vector<Mechanism::Speed>& speeds,
                                       const std::vector<int>& eliminated, const std::string& message) {
     const int n = m.size(), count = static_cast<int>(speeds.size());
@@ -230,8 +230,8 @@ Possible<Kinematics> with_given_speeds(const Mechanism& m) {
                             "the speeds, with the constraints, do not determine the rates of the coordinates");
 }
 
-/// The rate that each constraint is solved for: rows are reduced in floating point at the start, pivots as the
-/// header says.
+/// The rate for which each constraint is solved. The rows are reduced in floating point at the start, with the
+/// pivots that the header describes.
 Possible<std::vector<int>> dependent_rates(const Mechanism& m, const std::vector<int>& constraints) {
     const ParameterValues values(m);
     GiNaC::exmap start{{m.t, m.run.start.value_or(0)}};
@@ -297,7 +297,8 @@ Mechanism::Speed rate_as_speed(const Mechanism& m, int i) {
     return speed;
 }
 
-/// u1, u2 … with their rates, but for names that the scene has; the same each time.
+/// The symbols of a new speed u1, u2 … and of its derivative. Names that the scene has are skipped. Every call
+/// gives the same symbols.
 std::pair<GiNaC::symbol, GiNaC::symbol> fresh_speed(const Mechanism& m, int& number) {
     for (;;) {
         const std::string name = "u" + std::to_string(++number);
@@ -317,8 +318,9 @@ std::pair<GiNaC::symbol, GiNaC::symbol> fresh_speed(const Mechanism& m, int& num
     }
 }
 
-/// Constraints and coordinates that hang together: k rows in k + 1 rates leave one combination of these, Σ N_j
-/// q'_j with N_j the minors of the rows. It is a speed wherever the rows are independent.
+/// Treats groups of connected constraints and coordinates: k rows in k + 1 rates leave one combination of the
+/// rates free, Σ N_j q'_j with N_j the minors of the rows. It can serve as a speed wherever the rows are
+/// independent.
 std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vector<int>& constraints) {
     std::vector<Mechanism::Speed> speeds;
     std::vector<char> done(m.q.size(), 0);
@@ -349,7 +351,7 @@ std::optional<Kinematics> with_null_vectors(const Mechanism& m, const std::vecto
         std::tie(speed.u, speed.udot) = fresh_speed(m, number);
         speed.row.assign(m.q.size(), 0);
         GiNaC::exvector terms;
-        int sign = 0;  // the first coefficient begins with a plus
+        int sign = 0;  // chosen so that the first coefficient begins with a plus
         for (unsigned j = 0; j <= k; ++j) {
             matrix minor(k, k);
             for (unsigned r = 0; r < k; ++r)

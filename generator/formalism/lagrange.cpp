@@ -37,7 +37,7 @@ Equations lagrange_operator(const Mechanism& mechanism) {
     equations.dissipative = mechanism.generalized_forces(true);
     equations.applied = mechanism.generalized_forces(false);
     for (int j = 0; j < n; ++j) {
-        // M is symmetric: only the rows from j on.
+        // M is symmetric, so only the rows from j on are computed.
         const std::vector<ex> rows(p.begin() + j, p.end());
         const std::vector<ex> column = z.push_forward(rows, {{mechanism.qdot[j], 1}});
         for (int i = j; i < n; ++i) equations.M(i, j) = equations.M(j, i) = column[i - j];

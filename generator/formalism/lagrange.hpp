@@ -9,11 +9,12 @@
 
 namespace alembert {
 
-/// d/dt ∂L/∂q' − ∂L/∂q = Q (Zhang & Qin, §1.5, equations (1-45) and (1-54)).
-/// Throws ModelError with the obstacle where there is one.
+/// d/dt ∂L/∂q' − ∂L/∂q = Q (Zhang & Qin, §1.5, equations (1-45) and (1-54)). Throws ModelError with the obstacle
+/// if there is one.
 Equations lagrange(const Mechanism& mechanism);
 
-/// A scene without coordinates, or with constraints: then its coordinates are not independent.
+/// Why the equations do not apply to a scene: it has no coordinates, or it has constraints, so that its
+/// coordinates are not independent.
 std::optional<std::string> obstacle_to_lagrange(const Mechanism& mechanism);
 
 /// The left side and the forces of Lagrange's equations, whether the coordinates are independent or not.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// m r̈ = F + Σ λ ∂f/∂r  (Zhang & Qin (1-82)): M is diagonal, and nothing depends on the rates but the forces.
+// m r̈ = F + Σ λ ∂f/∂r (Zhang & Qin (1-82)): M is diagonal, and only the forces depend on the rates.
 #include "formalism/lagrange1.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ std::string advice(const MassElement& particle, const Mechanism& m) {
         label(particle.origin), position, planar ? "x, y" : "x, y, z");
 }
 
-/// The particle that each coordinate belongs to.
+/// The particle to which each coordinate belongs.
 Possible<std::vector<const MassElement*>> owners(const Mechanism& m) {
     if (const auto unknown = masses_unknown(m, "Lagrange's equations of the first kind"))
         return Obstacle{*unknown};
@@ -84,7 +84,8 @@ Equations lagrange1(const Mechanism& mechanism) {
     Equations equations = equations_without_terms("lagrange1", m);
     for (int i = 0; i < m.size(); ++i) equations.M(i, i) = owner[i]->mass;
 
-    // In these coordinates a force's generalized force is the force; along an expression it acts by its gradient.
+    // In these coordinates the generalized force of a force is the force itself; a force along an expression acts
+    // along the gradient of that expression.
     std::vector<GiNaC::exvector> own(m.q.size());
     for (const PlacedForce& force : conservative_forces(m)) {
         const std::optional<int> i = coordinate_of(force.place, m);

@@ -3,10 +3,10 @@
 
 namespace alembert {
 
-/// Along which axes a recursion takes its components.
+/// The axes along which a recursion takes its components.
 enum class LinkAxes {
-    own,   ///< those that turn with each link
-    still  ///< those that do not turn within a chain of parallel ones
+    own,   ///< axes that turn with each link
+    still  ///< in a chain of parallel axes, axes that do not turn
 };
 
 }  // namespace alembert

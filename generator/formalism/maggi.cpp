@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Bᵀ E = Bᵀ Aᵀ λ,   E = d/dt ∂L/∂q̇ − ∂L/∂q − Q,   B = ∂q̇/∂u  (Neimark & Fufaev, Dynamics of Nonholonomic Systems
-// (1972)). A B = 0 for the constraints that the speeds leave out. With E = M_L q̈ − f_L and q̈ = B u̇ + c:
+// Bᵀ E = Bᵀ Aᵀ λ, E = d/dt ∂L/∂q̇ − ∂L/∂q − Q, B = ∂q̇/∂u (Neimark & Fufaev, Dynamics of Nonholonomic Systems
+// (1972)). A B = 0 for the constraints that the speeds eliminate. With E = M_L q̈ − f_L and q̈ = B u̇ + c:
 //   M = Bᵀ M_L B,   f = Bᵀ (f_L − M_L c),   q̇ = h in both.
 #include "formalism/maggi.hpp"
 
@@ -52,7 +52,7 @@ std::vector<ex> times(const GiNaC::matrix& M, const std::vector<ex>& x, Intermed
     return result;
 }
 
-/// E of each coordinate in q, q', q'', t.
+/// Lagrange's expression E of each coordinate, in q, q', q'', t.
 std::vector<ex> expressions_of(const Equations& lagrange, const Mechanism& m) {
     std::vector<ex> E = times(lagrange.M, {m.qddot.begin(), m.qddot.end()}, *m.z);
     for (int i = 0; i < m.size(); ++i) E[i] = m.z->name(E[i] - lagrange.forcing(i));

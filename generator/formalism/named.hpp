@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// An expression as a scalar: every result gets an intermediate symbol, so that nothing grows beyond a line.
+/// An expression as a scalar type. Every result gets an intermediate symbol, so that no expression grows beyond a
+/// line.
 
 #include "symbolic/intermediates.hpp"
 
@@ -12,7 +13,7 @@ struct Named {
     Named(const GiNaC::ex& value, Intermediates& table) : e(table.name(value)), z(&table) {}
 
     GiNaC::ex e;
-    Intermediates* z = nullptr;  ///< null of a number
+    Intermediates* z = nullptr;  ///< null for a number
 
     friend Named operator+(const Named& a, const Named& b) { return of(a.e + b.e, a, b); }
     friend Named operator-(const Named& a, const Named& b) { return of(a.e - b.e, a, b); }

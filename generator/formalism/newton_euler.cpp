@@ -23,7 +23,7 @@ Equations projected(const std::string& formalism, const Mechanism& m, const std:
         const MassElement& body = m.masses[b];
         const BodyMotion& motion = bodies[b];
         SourceScope source(z, label(body.origin));
-        // The rows J of one kind, their block of M̄, and what stands beside them on the right.
+        // Adds the rows J of translation or rotation, with their block of M̄ and their right-hand side.
         const auto add_rows = [&](const std::vector<Vector3>& J, const auto& block, const Vector3& right) {
             for (int r = 0; r < n; ++r) {
                 if (is_zero(J[r])) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Newton's and Euler's equations of all bodies, stacked, and their projection on the coordinates: what multibody
-/// formalisms share once each has its Jacobians and accelerations.
+/// Newton's and Euler's equations of all bodies, stacked, and their projection on the coordinates. Multibody
+/// formalisms share this once each has its Jacobians and accelerations.
 ///
 /// For body i with mass m, central inertia I (along the body's axes), velocity and angular velocity linear in the
 /// rates,
@@ -17,7 +17,7 @@
 
 namespace alembert {
 
-/// One body's rows of J̄ and of the accelerations that are left at q'' = 0.
+/// One body's rows of J̄ and its accelerations at q'' = 0.
 struct BodyMotion {
     std::vector<Vector3> J_T;  ///< for each coordinate, along N
     std::vector<Vector3> J_R;  ///< for each coordinate, along the body's axes; empty for a particle
@@ -25,8 +25,9 @@ struct BodyMotion {
     Vector3 w, alpha_bar;      ///< along the body's axes
 };
 
-/// In the order of Mechanism::masses. Gravity acts on the bodies and comes by J_T; other loads by the Jacobians of
-/// the points and expressions that they act on. Constraints enter with their multipliers.
+/// `motions` are in the order of Mechanism::masses. Gravity acts on the bodies and is projected by J_T, other
+/// loads by the Jacobians of the points and expressions on which they act. Constraints enter with their
+/// multipliers.
 Equations projected(const std::string& formalism, const Mechanism& mechanism,
                     const std::vector<BodyMotion>& bodies);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// ∂L̇/∂q̇ − 2 ∂L/∂q = M q̈ − own:   M = ∂/∂q̈ of the left side,   own its negative at q̈ = 0.
+// ∂L̇/∂q̇ − 2 ∂L/∂q = M q̈ − own: M is ∂/∂q̈ of the left-hand side, and own is its negative at q̈ = 0.
 #include "formalism/nielsen.hpp"
 
 #include "formalism/elements.hpp"

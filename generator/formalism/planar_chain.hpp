@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// M w' = f of a chain of links in a plane, from both of its ends at once.
+/// Solves M w' = f for a planar chain of links, from both of its ends at once.
 ///
 ///     // f = Q − n; for trees that are one: is_planar_chain
 ///     const std::vector<double> wdot = from_both_ends(tree, f);
@@ -10,24 +10,24 @@
 /// leads from link i's origin to the next one's, h_j is link j's first moment, J_j its polar second moment.
 /// Eliminating the last link leaves a matrix of this kind,
 ///     h_b → c_b = h_b + X r_b,   J_b → D_b = J_b + r_b · X r_b,   X ← X − c_b c_bᵀ / D_b,
-/// which is what articulated bodies do; eliminating the first one does, too, with r and h exchanged. Each half of
-/// the chain is eliminated from its own end; both wait for half as many divisions. In the middle stand two
-/// equations with two unknowns,
+/// which is the recursion over articulated bodies. Eliminating the first link also leaves a matrix of this kind,
+/// with r and h exchanged. Each half of the chain is eliminated from its own end, so that each waits for half as
+/// many divisions. In the middle remain two equations with two unknowns,
 ///     p = Σ h_b w'_b over the outer half = p₀ + X r,   r = Σ r_a w'_a over the inner half = r₀ + Y p,
-/// and then each half is solved outwards from there. The number of operations is that of one side. (For
-/// tridiagonal matrices this is the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707,
-/// section 2.) J and D are positive, as M is definite.
+/// and then each half is solved outwards from there. The number of operations is that of elimination from one end.
+/// (For tridiagonal matrices this is the twisted factorization: Meurant, SIAM J. Matrix Anal. Appl. 13 (1992) 707,
+/// section 2.) J and D are positive because M is definite.
 
 #include "formalism/tree_recursions.hpp"
 
 namespace alembert {
 
-/// One half: what is eliminated, and what it leaves.
+/// One half of the chain: the eliminated links, and the quantities that remain.
 template <typename S>
 struct ChainHalf {
     struct Link {
         int index;
-        std::array<S, 2> u, v;  ///< as the others see it, as it sees the others
+        std::array<S, 2> u, v;  ///< u couples it with the links that are eliminated after it, v with those before
         S J, f;
     };
     explicit ChainHalf(const std::vector<Link>& links) {
@@ -43,7 +43,7 @@ struct ChainHalf {
             eliminated.push_back({link.index, over, link.v, inverse * f});
         }
     }
-    /// w' of these links, where the others give `s`.
+    /// w' of these links, if the other half contributes `s`.
     void solve(std::array<S, 2> s, std::vector<S>& result) const {
         for (auto link = eliminated.rbegin(); link != eliminated.rend(); ++link) {
             const S x = link->f - (link->over[0] * s[0] + link->over[1] * s[1]);
@@ -61,11 +61,11 @@ struct ChainHalf {
     std::array<S, 2> w{S(0), S(0)};
 };
 
-/// `tree` regrouped, f_j = Q_j − n_j.
+/// `tree` must be regrouped, and f_j = Q_j − n_j.
 template <typename S>
 std::vector<S> from_both_ends(const BodyTree<S>& tree, const std::vector<S>& f) {
     const int n = tree.size();
-    const int inner = n / 2 + n / 16;  // whose angles are sums of fewer
+    const int inner = n / 2 + n / 16;  // the inner half is longer, because its angles are sums of fewer terms
     std::vector<typename ChainHalf<S>::Link> from_ground, from_tip;
     for (int j = 0; j < n; ++j) {
         const RigidBody<S> b = tree.body(tree.links[j]);

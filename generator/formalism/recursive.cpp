@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With w = S q' + w₀:  M = Sᵀ M_w S,   f = Q − Sᵀ n,   n the loads that the joints bring at q'' = 0.
+// With w = S q' + w₀: M = Sᵀ M_w S, f = Q − Sᵀ n, where n are the loads that the joints must apply at q'' = 0.
 #include "formalism/recursive.hpp"
 
 #include "formalism/elements.hpp"
@@ -11,7 +11,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// Gravity is an acceleration of the ground here; all other potentials are forces.
+/// The forces of all potentials except gravity, which enters as an acceleration of the ground.
 std::vector<ex> potential_forces(const Mechanism& m) {
     std::vector<std::pair<ex, ex>> targets;
     for (const Part& part : m.potential)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The condition of rest: Σ F·δr = 0 with the inertia forces of the motion that is prescribed (Zhang & Qin,
-// equation (20) of example 1-1), as a product; a factor a cos x + b or a sin x + b that is linear in it gives its
-// root.
+// The condition of rest: Σ F·δr = 0 with the inertia forces of the prescribed motion (Zhang & Qin, equation (20)
+// of example 1-1), written as a product. A factor a cos x + b or a sin x + b gives its roots.
 #include "formalism/rest.hpp"
 
 #include <algorithm>
@@ -21,7 +20,7 @@ namespace {
 ex name_functions(const ex& e, Symbols& symbols, GiNaC::exmap& letters, GiNaC::exmap& functions) {
     if (GiNaC::is_a<GiNaC::function>(e)) {
         if (const auto found = letters.find(e); found != letters.end()) return found->second;
-        // GiNaC's factor orders by symbol: the name is of no consequence.
+        // GiNaC's factor orders by symbol, so the name does not matter.
         const GiNaC::symbol s = symbols.declare("f" + std::to_string(letters.size()), SymbolInfo::Kind::other);
         letters[e] = s;
         functions[s] = e;
@@ -69,7 +68,7 @@ Phrase leading_positive(const Fourier& factor) {
 
 namespace {
 
-/// The conditions of rest as products, and the roots that their factors have.
+/// The conditions of rest as products, and the roots of their factors.
 struct RestSteps {
     explicit RestSteps(const Mechanism& mechanism) : m(mechanism) {}
 
@@ -96,7 +95,7 @@ struct RestSteps {
             return std::tuple(simple_a, text(a.first), text(a.second)) <
                    std::tuple(simple_b, text(b.first), text(b.second));
         });
-        // Parameters alone: no factor of theirs vanishes, and there is no rest.
+        // If there are parameters only, no factor vanishes, and rest is impossible.
         const Phrase left = found.vanishes ? phrases::number(0) : atoms.empty() ? sum : phrases::product(atoms);
         products.equalities.emplace_back(left, phrases::number(0));
     }
@@ -117,7 +116,7 @@ private:
                 roots.equalities.emplace_back(readable(*arg), name == "sin" ? phrases::number(0) : half_turn);
                 if (name == "sin") roots.equalities.emplace_back(readable(*arg), phrases::pi());
             } else if (normal(-rest / slope)) {
-                // numerator and denominator apart: a quotient of two readable sums
+                // numerator and denominator are written separately: a quotient of two readable sums
                 const ex sign = normal(slope)->terms()[0].coefficient < 0 ? -1 : 1;
                 roots.equalities.emplace_back(
                     phrases::call(name, {readable(*arg)}),

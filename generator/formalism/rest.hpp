@@ -13,12 +13,12 @@
 
 namespace alembert {
 
-/// An expression as a product, its sines and cosines counting as variables. Numbers and parameters that stand
-/// alone are left out: they never vanish.
+/// An expression as a product in which sines and cosines count as variables. Factors that are numbers or single
+/// parameters are left out, because they never vanish.
 struct TrigonometricProduct {
-    std::vector<GiNaC::ex> bases;  ///< in letters
+    std::vector<GiNaC::ex> bases;  ///< the factors, in letters
     GiNaC::exmap functions;        ///< letter → sine, cosine …
-    bool vanishes = false;         ///< the expression is zero
+    bool vanishes = false;         ///< whether the expression is zero
 };
 TrigonometricProduct product_of(const GiNaC::ex& e, const Mechanism& mechanism);
 
@@ -29,7 +29,8 @@ struct RestFactor {
 /// The factors of all equations of rest that can be factored.
 std::vector<RestFactor> rest_factors(const Mechanism& mechanism, const Equations& equations);
 
-/// The factor with a plus before its first sine or cosine, or before its first term where there is none.
+/// The factor with the sign that puts a plus before its first sine or cosine, or before its first term if it has
+/// none.
 Phrase leading_positive(const Fourier& factor);
 
 }  // namespace alembert

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Arc a turns its outer body against its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it with
-// σ_a = Σ k_aj q'_j. The outer bodies of a are those i with T_ai ≠ 0, so that
+// Arc a turns its outer body relative to its inner one with Ω_a = Σ p_aj q'_j about the pivot P_a and shifts it
+// with σ_a = Σ k_aj q'_j. The outer bodies of a are those i with T_ai ≠ 0, so that
 //   ω_i = Σ_a |T_ai| Ω_a,   J_R,ij = Σ_a |T_ai| p_aj,   J_T,ij = Σ_a |T_ai| (p_aj × (r_i − P_a) + k_aj)
-// (Wittenburg, Dynamics of Multibody Systems (2008), chapter 5: ω = −(p T)ᵀ q', signs by the arcs' sense).
-// Accelerations at q'' = 0 go outwards along the paths: with (·)° the derivative in the body where an arc's axes
-// are fixed, and ρ = r_o − P,
-//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,   a_o = a_P + α_o ×
-//   ρ + ω_o × ρ'
-// where the arc points outwards; where it points to the ground, −σ is fixed in the outer body and beyond the
-// pivot.
+// (Wittenburg, Dynamics of Multibody Systems (2008), chapter 5: ω = −(p T)ᵀ q', with signs from the direction of
+// the arcs). Accelerations at q'' = 0 are computed outwards along the paths: with (·)° the derivative in the body
+// where an arc's axes are fixed, and ρ = r_o − P,
+//   α_o = α_i + Ω° + ω_i × Ω,   a_P = a_i + α_i × (P − r_i) + ω_i × (P − r_i)' + σ° + ω_i × σ,
+//   a_o = a_P + α_o × ρ + ω_o × ρ'
+// if the arc points outwards. If it points to the ground, −σ is given along axes fixed in the outer body and is
+// added beyond the pivot.
 #include "formalism/roberson_wittenburg.hpp"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ std::string name_of(const Mechanism& m, int body) {
     return body < 0 ? "N" : m.masses[body].origin.name;
 }
 
-/// What one coordinate does to all bodies beyond an arc.
+/// The motion that one coordinate gives to all bodies beyond an arc.
 struct Mode {
     int coordinate;
     Vector3 turn, shift;  ///< p, k along N
@@ -89,7 +89,7 @@ public:
 private:
     Vector3 plus(const Vector3& a, const Vector3& b) const { return add(a, b, z_); }
     Vector3 minus(const Vector3& a, const Vector3& b) const { return add(a, scale(-1, b, z_), z_); }
-    /// Components along N of one that has these along `axes`.
+    /// The components along N of a vector with components `v` along `axes`.
     Vector3 to_N(const std::array<Vector3, 3>& axes, const Vector3& v) const {
         return plus(plus(scale(v[0], axes[0], z_), scale(v[1], axes[1], z_)), scale(v[2], axes[2], z_));
     }
@@ -114,7 +114,7 @@ private:
         return modes;
     }
 
-    /// A body on its own: by its position and frame.
+    /// A body without a joint, given by its position and frame.
     void start(std::size_t a, int body) {
         const MassElement& element = m_.masses[body];
         SourceScope source(z_, label(element.origin));
@@ -140,8 +140,8 @@ private:
         outer.alpha =
             plus(inner.alpha, plus(to_N(joint.axes, derivative(joint.turning)), cross(inner.w, turning, z_)));
 
-        // The child's point slides along axes that are fixed in the parent: in the inner body, or backwards in the
-        // outer one.
+        // The child's point slides along axes that are fixed in the parent: this is the inner body, or the outer
+        // one if the arc points to the ground.
         const Vector3 slide = scale(forwards ? 1 : -1, to_N(joint.slide_axes, joint.sliding), z_),
                       slide_rate =
                           plus(scale(forwards ? 1 : -1, to_N(joint.slide_axes, derivative(joint.sliding)), z_),

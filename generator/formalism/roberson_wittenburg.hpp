@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Roberson and Wittenburg's formalism: the system graph, its matrices, and the equations written with them.
+/// Roberson and Wittenburg's formalism: the system graph, its matrices, and the equations in terms of them.
 ///
 ///     const SystemGraph graph = system_graph(mechanism);
 ///     graph.S[i][a], graph.T[a][i];
 ///     const Equations equations = roberson_wittenburg(mechanism);
 ///
 /// Vertices are the bodies, arcs the joints, each from its parent to its child. Joints that close loops are chords
-/// and enter by their constraints. A body that no joint places hangs on the ground by an arc of its own, moved as
-/// its position and frame say; particles too. The equations are in the rates.
+/// and enter by their constraints. A body that no joint places, or a particle, is connected with the ground by an
+/// arc of its own, whose motion follows from its position and frame. The speeds are the rates.
 
 #include "formalism/newton_euler.hpp"
 #include "formalism/steps.hpp"
@@ -23,12 +23,12 @@ namespace alembert {
 struct SystemGraph {
     struct Arc {
         std::string name;
-        int from, to;    ///< bodies as in Mechanism::masses, −1 the ground
-        bool outwards;   ///< `to` is the farther one from the ground
+        int from, to;    ///< positions in Mechanism::masses; −1 is the ground
+        bool outwards;   ///< whether `to` is farther from the ground than `from`
         int joint = -1;  ///< position in Mechanism::joints; −1 for a body that no joint places
     };
     std::vector<std::string> bodies;
-    std::vector<Arc> arcs;            ///< as many as bodies, each after the arcs of its path
+    std::vector<Arc> arcs;            ///< as many as bodies; each comes after the other arcs of its path
     std::vector<std::string> chords;  ///< "rocker: coupler -> arm"
     std::vector<int> S_0;
     std::vector<std::vector<int>> S;  ///< bodies × arcs
@@ -36,9 +36,9 @@ struct SystemGraph {
 };
 SystemGraph system_graph(const Mechanism& mechanism);
 
-/// Throws ModelError with the obstacle where there is one.
+/// Throws ModelError with the obstacle if there is one.
 Equations roberson_wittenburg(const Mechanism& mechanism);
-/// That of `schiehlen`, and a scene without joints, which has no graph.
+/// Why the equations do not apply: the obstacle of `schiehlen`, or a scene without joints, which has no graph.
 std::optional<std::string> obstacle_to_roberson_wittenburg(const Mechanism& mechanism);
 /// The graph in words, S and T.
 std::vector<Section> outline_of_roberson_wittenburg(const Mechanism& mechanism);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// With S = (e₁ e₂ e₃) the body's axes along N, the columns of J_R and the rest of ω come from S alone:
+// With S = (e₁ e₂ e₃), the body's axes along N, the columns of J_R and the rest of ω follow from S only:
 //   (Sᵀ ∂S/∂q_j)  =  ũ_j,   u_j = (e₃·∂e₂/∂q_j,  e₁·∂e₃/∂q_j,  e₂·∂e₁/∂q_j),
-// and likewise with ∂/∂t; then ω = Σ u_j q'_j + u_t, ᾱ = dω/dt at q'' = 0 (along the body's axes, where ω × ω =
-// 0), and
+// and in the same way with ∂/∂t; then ω = Σ u_j q'_j + u_t, ᾱ = dω/dt at q'' = 0 (along the body's axes, where ω ×
+// ω = 0), and
 //   J_T = ∂r/∂q,   v = J_T q' + ∂r/∂t,   ā = dv/dt at q'' = 0
 // (Schiehlen, Technische Dynamik (1986), §2.3 and §4.1).
 #include "formalism/schiehlen.hpp"
@@ -16,7 +16,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// Positions of all bodies, then their axes, as one list to be differentiated.
+/// The positions of all bodies, then their axes, as one list to be differentiated.
 std::vector<ex> places_of(const Mechanism& m) {
     std::vector<ex> places;
     for (const MassElement& body : m.masses) {
@@ -33,7 +33,7 @@ Vector3 next(std::vector<ex>::const_iterator& at) {
     return v;
 }
 
-/// cos² + sin² is 1; beyond this size looking for it costs more than it wins.
+/// Replaces cos² + sin² by 1; for larger expressions the search costs more than it saves.
 ex tidy(const ex& e, const Mechanism& m) {
     return m.z->tree_size(e) > 400 ? e : short_form(e, m);
 }

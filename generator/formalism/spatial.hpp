@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Vectors and symmetric matrices of three over any scalar: numbers, expressions, nodes of a program.
+/// Vectors of three components and symmetric 3×3 matrices over any scalar: numbers, expressions, nodes of a
+/// program.
 ///
 ///     const Triple<double> v = turned_about_z(c, s, Triple<double>{1, 0, 0});     // (c, s, 0)
 ///
-/// A scalar has + − · / and unary −, is made from small numbers, and, where it is symbolic, drops zeros by itself.
-/// That is how planar motion, axes along one letter and rotations by right angles come out short without being
-/// looked for.
+/// A scalar has + − · / and unary −, can be made from small numbers, and drops zeros by itself if it is symbolic.
+/// Therefore planar motion, axes along x, y or z and rotations by right angles give short results without special
+/// cases.
 
 #include <array>
 
@@ -18,11 +19,11 @@ using Triple = std::array<S, 3>;
 template <typename S>
 using Matrix = std::array<Triple<S>, 3>;  ///< rows
 
-/// xx yy zz xy yz zx
+/// The elements xx yy zz xy yz zx.
 template <typename S>
 using Symmetric = std::array<S, 6>;
 
-/// Where element (i, j) of a symmetric matrix stands.
+/// The place of element (i, j) of a symmetric matrix.
 constexpr int place(int i, int j) {
     return i == j ? i : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
 }
@@ -98,7 +99,7 @@ Matrix<S> congruent(const Matrix<S>& R, const Matrix<S>& A) {
     return R * T;
 }
 
-/// By an angle with this cosine and sine.
+/// The vector turned about z by the angle with this cosine and sine.
 template <typename S>
 Triple<S> turned_about_z(const S& c, const S& s, const Triple<S>& v) {
     return {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
@@ -107,7 +108,7 @@ template <typename S>
 Triple<S> turned_back(const S& c, const S& s, const Triple<S>& v) {
     return {c * v[0] + s * v[1], c * v[1] - s * v[0], v[2]};
 }
-/// With a = s (xx − yy) + 2c xy:  xx − s a,  yy + s a,  c a − xy.
+/// The same for a symmetric matrix. With a = s (xx − yy) + 2c xy its elements are xx − s a, yy + s a, c a − xy.
 template <typename S>
 Symmetric<S> turned_about_z(const S& c, const S& s, const Symmetric<S>& A) {
     const S a = s * (A[0] - A[1]) + c * (A[3] + A[3]), sa = s * a;

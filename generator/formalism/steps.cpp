@@ -9,7 +9,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_shown = 30000;  // nodes, written out
+constexpr double largest_shown = 30000;  // the most nodes with all intermediate symbols substituted
 constexpr std::size_t most_terms = 150;
 
 }  // namespace

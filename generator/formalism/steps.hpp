@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a formalism shows on its own way: words, then statements and equalities, in the notation of the page.
+/// The steps that a formalism shows: words, then statements and equalities, in the notation of the page.
 ///
 ///     StepWriter write(mechanism);
 ///     Section section{.words = "Hamilton's function, with p = dL/dq':"};
@@ -35,11 +35,12 @@ struct Section {
 
 struct OwnSteps {
     std::vector<Section> sections = {};
-    std::string title = {};                        ///< of `equations`
-    std::vector<ReadableEquation> equations = {};  ///< in place of the second-order ones; empty: those are shown
+    std::string title = {};  ///< the title of `equations`
+    /// Shown in place of the second-order equations; if empty, those are shown.
+    std::vector<ReadableEquation> equations = {};
 };
 
-/// Writes values in normal form; what is beyond the readable size is left out.
+/// Writes values in normal form; values beyond the readable size are left out.
 class StepWriter {
 public:
     explicit StepWriter(const Mechanism& mechanism) : m_(mechanism) {}
@@ -47,9 +48,9 @@ public:
     Phrase symbol_of(const GiNaC::symbol& symbol) const;
     /// A letter of the book that is no symbol of the scene: H, R.
     static Phrase letter(const std::string& name);
-    /// p' of a momentum p.
+    /// The rate p' of a momentum p.
     Phrase rate(const GiNaC::symbol& momentum) const;
-    /// Nothing beyond the readable size.
+    /// The normal form; nothing if the expression exceeds the readable size.
     std::optional<Fourier> normal(const GiNaC::ex& e) const;
 
     /// left = value

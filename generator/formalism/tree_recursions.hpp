@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Recursions from body to body along a tree, written once over the scalar (see spatial.hpp):
+/// Recursions from body to body along a tree, written once for any scalar (spatial.hpp):
 ///
 ///     const BodyTree<double> tree = regrouped(bare_tree);
 ///     const Bias<double> bias(tree);                                    // Newton-Euler, outwards, at w' = 0
@@ -11,15 +11,17 @@
 ///     const auto wdot = articulated_bodies(tree, bias.wrenches, Q);
 ///
 /// (Featherstone, Rigid Body Dynamics Algorithms (2008), chapters 5 to 7; Walker & Orin 1982; Luh, Walker & Paul
-/// 1980.) A joint has one rate w: turns about the z axis of its link, or shifts along `slide`. Joints with more
-/// freedom are several, with links without mass between them. All vectors are physical ones, accelerations those
-/// of points, so that it does not matter along which axes components are taken: along axes that turn with the link
-/// or, for a chain of parallel axes, along axes that do not (`still`), where a transform is a shift alone and the
-/// chain's angles add up. The gravity field is an acceleration −g of the ground.
+/// 1980.) A joint has one rate w: it turns about the z axis of its link, or shifts along `slide`. A joint with
+/// more freedom becomes several joints, with massless links between them. All vectors are physical vectors, and
+/// accelerations are those of points. Therefore components may be taken along any axes: along axes that turn with
+/// the link or, in a chain of parallel axes, along axes that do not turn (`still`). In the latter case a
+/// transformation is only a shift, and the chain's angles add up. The gravity field is an acceleration −g of the
+/// ground.
 ///
-/// A body is its mass m, first moment h = m c and second moments P = ∫ r rᵀ dm about the link's origin, so that
+/// A body is described by its mass m, first moment h = m c and second moments P = ∫ r rᵀ dm about the link's
+/// origin, so that
 ///     f = m a + Ω h,   n = h × a + vee(Ω P),   Ω = ε̃ + ω̃ ω̃,   vee(X) = (X₃₂ − X₂₃, X₁₃ − X₃₁, X₂₁ − X₁₂),
-/// and a shift by r takes h to h + m r and P to P + r kᵀ + k rᵀ, k = h + m r/2.
+/// and a shift by r changes h to h + m r and P to P + r kᵀ + k rᵀ, with k = h + m r/2.
 
 #include <type_traits>
 #include <vector>
@@ -33,7 +35,7 @@ struct RigidBody {
     S mass = S(0);
     Triple<S> first = no_vector<S>();
     Symmetric<S> second = no_matrix<S>();
-    S polar = S(0);  ///< xx + yy of `second`, which no turn about z changes
+    S polar = S(0);  ///< xx + yy of `second`, which is invariant under turns about z
 };
 
 template <typename S>
@@ -41,19 +43,20 @@ struct TreeLink {
     int parent = -1;  ///< −1: the ground
     bool slides = false;
     Matrix<S> R{Triple<S>{S(1), S(0), S(0)}, Triple<S>{S(0), S(1), S(0)}, Triple<S>{S(0), S(0), S(1)}};
-    Triple<S> p =
-        no_vector<S>();  ///< R, p: axes and origin in the parent's own axes where the joint is at 0; constant
-    Triple<S> slide = no_vector<S>();  ///< of a sliding link, in its own axes; constant
+    Triple<S> p = no_vector<S>();  ///< R, p: the link's axes and origin in the parent's own axes when the joint is
+                                   ///< at 0; constant
+    Triple<S> slide = no_vector<S>();  ///< the direction of a sliding link, in its own axes; constant
     RigidBody<S> body{};               ///< along the link's own axes; constant
 
-    bool about_x = false;  ///< R is a turn about x
+    bool about_x = false;  ///< whether R is a turn about x
     S angle = S(0), cosine = S(1),
-      sine = S(0);                ///< of the joint's angle; of the sum of angles where the axes are still
-    S shift = S(0), rate = S(0);  ///< of the joint, in units of `slide`; w
+      sine = S(0);                ///< of the joint's angle, or of the sum of angles if `still`
+    S shift = S(0), rate = S(0);  ///< displacement of the joint, in units of `slide`; w
     S drift = S(0);               ///< w' at q'' = 0
-    bool still = false;           ///< components are along axes that do not turn with the link,
-    bool continues = false;       ///< … which are the parent's
-    bool absolute = false;  ///< w counts from the ground: nothing of a turn about z is passed between neighbours
+    bool still = false;           ///< whether components are along axes that do not turn with the link,
+    bool continues = false;       ///< … and whether these axes are also the parent's
+    /// Whether w counts from the ground, so that neighbours exchange nothing about turns about z.
+    bool absolute = false;
 };
 
 template <typename S>
@@ -63,13 +66,13 @@ struct Wrench {
 
 template <typename S>
 struct BodyTree {
-    std::vector<TreeLink<S>> links;      ///< parents first
-    Triple<S> gravity = no_vector<S>();  ///< in the ground's axes
+    std::vector<TreeLink<S>> links;      ///< parents come first
+    Triple<S> gravity = no_vector<S>();  ///< along the ground's axes
 
     int size() const { return static_cast<int>(links.size()); }
     bool parent_is_still(const TreeLink<S>& link) const { return link.parent >= 0 && links[link.parent].still; }
 
-    /// Components along the link's axes → along its parent's.
+    /// Converts components along the link's axes to components along its parent's.
     template <typename V>
     V outward_to_parent(const TreeLink<S>& link, V v) const {
         if (!link.still && !link.slides) v = turned_about_z(link.cosine, link.sine, v);
@@ -94,12 +97,12 @@ struct BodyTree {
         }
         return link.still || link.slides ? v : turned_back(link.cosine, link.sine, v);
     }
-    /// From the parent's origin to the link's, along the parent's axes.
+    /// The vector from the parent's origin to the link's, along the parent's axes.
     Triple<S> arm(const TreeLink<S>& link) const {
         const Triple<S> r = link.slides ? link.p + link.R * (link.shift * link.slide) : link.p;
         return parent_is_still(link) ? turned_about_z(links[link.parent].cosine, links[link.parent].sine, r) : r;
     }
-    /// What stands in the link's own axes, along those that components are along.
+    /// Converts components along the link's own axes to components along the axes that are used for it.
     template <typename V>
     V along_axes(const TreeLink<S>& link, const V& v) const {
         return link.still ? turned_about_z(link.cosine, link.sine, v) : v;
@@ -134,10 +137,10 @@ RigidBody<S> operator+(const RigidBody<S>& a, const RigidBody<S>& b) {
     return {a.mass + b.mass, a.first + b.first, a.second + b.second, a.polar + b.polar};
 }
 
-/// The same motion from fewer numbers: mass on the axis of a turning joint may as well belong to the parent, and
-/// of a sliding body all second moments, since turning (sliding) does not move it against the parent (Gautier &
-/// Khalil, IEEE Trans. Robotics and Automation 6 (1990) 368: base parameters). What is left is xx yy xy yz zx of
-/// P, and h across the axis.
+/// A tree with the same motion but fewer inertia parameters: mass on the axis of a turning joint can be assigned
+/// to the parent, and so can all second moments of a sliding body, because turning (sliding) does not move them
+/// relative to the parent (Gautier & Khalil, IEEE Trans. Robotics and Automation 6 (1990) 368: base parameters).
+/// There remain xx yy xy yz zx of P, and the components of h perpendicular to the axis.
 template <typename S>
 BodyTree<S> regrouped(BodyTree<S> tree) {
     for (int j = tree.size() - 1; j >= 0; --j) {
@@ -162,7 +165,8 @@ BodyTree<S> regrouped(BodyTree<S> tree) {
     return tree;
 }
 
-/// What every body needs at w' = 0: ω, ε, a outwards, then force and moment about the link's origin.
+/// The force and moment that every body needs at w' = 0, about the link's origin. They follow from ω, ε and a,
+/// which are computed outwards.
 ///     ω_j = ω_i + w z,   ε_j = ε_i + ω_i × w z + w'₀ z,   a_j = a_i + Ω_i r;   sliding: a_j + 2 ω × w s + w'₀ s
 template <typename S>
 struct Bias {
@@ -209,10 +213,10 @@ struct Bias {
             wrenches.push_back(force);
         }
     }
-    std::vector<Wrench<S>> wrenches;  ///< that each body needs by itself
+    std::vector<Wrench<S>> wrenches;  ///< that each body itself needs
 };
 
-/// A wrench on the link, about its origin, as one on the parent.
+/// A wrench on the link, about its origin, converted to one on the parent.
 template <typename S>
 Wrench<S> passed(const BodyTree<S>& tree, const TreeLink<S>& link, const Wrench<S>& on) {
     Wrench<S> result{.n = tree.outward_to_parent(link, on.n), .f = tree.outward_to_parent(link, on.f)};
@@ -227,7 +231,7 @@ S along_joint(const BodyTree<S>& tree, const TreeLink<S>& link, const Wrench<S>&
     return link.slides ? dot(tree.direction(link), w.f) : w.n[2];
 }
 
-/// The loads that the joints have to bring for these wrenches on the bodies.
+/// The loads that the joints must apply for these wrenches on the bodies.
 template <typename S>
 std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches) {
     std::vector<S> loads(wrenches.size(), S(0));
@@ -242,8 +246,9 @@ std::vector<S> joint_loads(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenc
     return loads;
 }
 
-/// Where a chain's columns of M, passed inwards, best meet the rates of its first joints, passed outwards: in its
-/// middle, unless passing costs little since axes stand at right angles. −1: nowhere.
+/// For elements of M of a chain, columns can be passed inwards and the rates of the first joints outwards. This is
+/// the link where it is best that the two meet: the middle of the chain, or −1 (no such link) if passing costs
+/// little because axes are at right angles.
 template <typename S>
 int middle_of(const BodyTree<S>& tree) {
     int oblique = 0;
@@ -254,8 +259,8 @@ int middle_of(const BodyTree<S>& tree) {
     return tree.size() > 4 && 2 * oblique > tree.size() ? (tree.size() - 1) / 2 : -1;
 }
 
-/// What w_i = 1 gives each link k up to `last`, from link i on: angular velocity and that of the origin, as (n, f)
-/// at [k][i].
+/// The angular velocity, and the velocity of the origin, that w_i = 1 gives each link k from link i to `last`, as
+/// (n, f) at [k][i].
 template <typename S>
 std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last) {
     std::vector<std::vector<Wrench<S>>> twists;
@@ -275,7 +280,7 @@ std::vector<std::vector<Wrench<S>>> twists_to(const BodyTree<S>& tree, int last)
     return twists;
 }
 
-/// M of M w' + n = Q: entry (j, i) for every i on the way from j to the ground, zeros elsewhere.
+/// M of M w' + n = Q: entry (j, i) for every i on the path from j to the ground, zeros elsewhere.
 template <typename S>
 std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
     std::vector<RigidBody<S>> whole;
@@ -312,7 +317,7 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
                         .second = tree.outward_to_parent(*link, b.second),
                         .polar = b.polar};
         if (!link->continues) up.polar = up.second[0] + up.second[1];
-        if (link->absolute) up = {.mass = b.mass};  // turning the parent does not turn this
+        if (link->absolute) up = {.mass = b.mass};  // turning the parent does not turn this link
         const Triple<S> r = tree.arm(*link);
         up = shifted(up, r);
         RigidBody<S>& parent = whole[link->parent];
@@ -321,7 +326,7 @@ std::vector<std::vector<S>> composite_bodies(const BodyTree<S>& tree) {
     return M;
 }
 
-/// What a body and all that hangs on it resist with: n = A ε + B a, f = Bᵀ ε + C a.
+/// The articulated inertia of a body and all links that are attached to it: n = A ε + B a, f = Bᵀ ε + C a.
 template <typename S>
 struct Articulated {
     Symmetric<S> A = no_matrix<S>(), C = no_matrix<S>();
@@ -337,9 +342,9 @@ Articulated<S> articulated(const RigidBody<S>& b) {
             .B = {Triple<S>{S(0), -h[2], h[1]}, Triple<S>{h[2], S(0), -h[0]}, Triple<S>{-h[1], h[0], S(0)}}};
 }
 
-/// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U, I − U Uᵀ/D and the wrench with U (Q −
-/// s·wrench)/D pass to the parent; outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes Q and
-/// no inertia about its axis: these are set, not computed.
+/// w' of M w' + joint_loads(wrenches) = Q. Inwards: U = I s, D = s·U; I − U Uᵀ/D and the wrench plus U (Q −
+/// s·wrench)/D are passed to the parent. Outwards: w' = (Q − s·wrench − U·acceleration)/D. A turning joint passes
+/// Q and no inertia about its axis; these are set exactly, not computed.
 template <typename S>
 std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>> wrenches,
                                   const std::vector<S>& Q) {
@@ -365,8 +370,8 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         free[j] = u * inverse;
         U[j] = {inverse * column.n, inverse * column.f};
         if (link.parent < 0) continue;
-        // x y/D: in a chain of parallel axes the product does not wait for the division; elsewhere there are too
-        // many.
+        // x y/D. In a chain of parallel axes the product does not wait for the division; elsewhere that would take
+        // too many operations.
         const auto over = [&](const S& x, const S& x_D, const S& y) {
             return link.still ? (x * y) * inverse : x_D * y;
         };
@@ -399,7 +404,8 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
         for (int i = 0; i < 3; ++i)
             for (int k = i; k < 3; ++k) {
                 S& a = parent.A[place(i, k)];
-                // About the axis by itself, without waiting for B: first[2][2] is 0.
+                // The element about the axis is computed separately, without waiting for B, because first[2][2] is
+                // 0.
                 const bool direct = link.absolute && i == 2;
                 const S shift = direct
                                     ? (r[0] * r[0]) * C[1] + (r[1] * r[1]) * C[0] - (r[0] * r[1]) * (C[3] + C[3])
@@ -422,7 +428,7 @@ std::vector<S> articulated_bodies(const BodyTree<S>& tree, std::vector<Wrench<S>
             const S rate = free[j] - (dot(U[j].n, epsilon) + dot(U[j].f, acceleration));
             acceleration = acceleration + rate * tree.direction(link);
             result.push_back(rate);
-        } else {  // U_z/D = 1: what comes out is the whole of ε_z
+        } else {  // U_z/D = 1, so the result is the whole of ε_z
             const S whole =
                 free[j] - (U[j].n[0] * epsilon[0] + U[j].n[1] * epsilon[1] + dot(U[j].f, acceleration));
             result.push_back(link.absolute ? whole : whole - epsilon[2]);

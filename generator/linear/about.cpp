@@ -21,11 +21,11 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t widest = 60;  // letters of an element in symbols
+constexpr std::size_t widest = 60;  // the most letters of an element in symbols
 
 using SymbolRows = decltype(LinearizedScene::symbols);
 
-/// Initial values as the scene has them, or exactly as they were asked for.
+/// The initial values of the scene, or exactly those that were requested.
 std::vector<GiNaC::ex> starts(const Mechanism& m, const LinearizeOptions& options, const std::string& prime) {
     std::vector<GiNaC::ex> values = prime.empty() ? m.q_start : m.qdot_start;
     for (const auto& [name, number] : options.exact_at)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `linearize`: a scene's equations near an equilibrium or a steady motion, in numbers and, where they
-/// are short, in symbols.
+/// The verb `linearize`: a scene's equations near an equilibrium or a steady motion, in numbers and, if they are
+/// short, in symbols.
 ///
 ///     const LinearizedScene near = linearize(read_scene("scenes/gallery/bicycle.toml"), {.at = {{"x'", 4.6}}});
 ///     near.matrices.A, near.matrices.eigenvalues;
@@ -13,22 +13,22 @@
 namespace alembert {
 
 struct LinearizeOptions {
-    std::string by = {};  ///< a formalism; empty: the program chooses
+    std::string by = {};  ///< a formalism; if empty, the program chooses
     Overrides at = {};
     std::vector<std::pair<std::string, std::string>> exact_at =
-        {};  ///< the same as typed: decimals are exact in symbols
+        {};  ///< the same as typed; for symbols, decimals are exact
 };
 
 struct LinearizedScene : Derived {
-    Start start = {};  ///< where; obeys the constraints
+    Start start = {};  ///< the state, which obeys the constraints
     Linearization matrices = {};
-    /// M, C, G, K, N in the parameters, by name, row by row in the order of the numbers; empty where they are not
+    /// M, C, G, K, N in the parameters, by name, row by row in the order of the numbers; empty if they are not
     /// short.
     std::vector<std::pair<std::string, std::vector<std::vector<std::string>>>> symbols = {};
 };
 
-/// Contacts that are closed at the state and stay so are constraints. Throws as the function of linearize.hpp, and
-/// ModelError for a contact that touches without a force.
+/// Contacts that are closed at the state and stay closed count as constraints. Throws like the function of
+/// linearize.hpp, and ModelError for a contact that touches without a force.
 LinearizedScene linearize(Scene scene, const LinearizeOptions& options = {});
 
 }  // namespace alembert

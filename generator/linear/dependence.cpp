@@ -10,7 +10,7 @@ using Index = Eigen::Index;
 
 namespace {
 
-constexpr long double nothing = 1e-9L;  // of the largest element: what does not count as a dependence
+constexpr long double nothing = 1e-9L;  // relative to the largest element; smaller derivatives count as zero
 constexpr int random_states = 3;
 
 }  // namespace

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which coordinates the motion of the others depends on, and which are cyclic.
+/// Finds the coordinates on which the motion of the others depends, and those that are cyclic.
 ///
 ///     const Dependences depends = dependences(residuals, split, instant);
 ///     const std::vector<bool> essential = essential_coordinates(depends, split.u.size());
 ///
-/// Found at random states near the given one, not from the text of the equations: a coordinate that cancels is
-/// cyclic too, also where constraints have been eliminated.
+/// They are found at random states near the given one, not from the form of the equations. So a coordinate that
+/// cancels is cyclic too, also if constraints have been eliminated.
 
 #include "linear/tangent.hpp"
 
@@ -18,8 +18,8 @@ using Dependences = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 Dependences dependences(const Residuals& residuals, const Split& split, const Instant<long double>& at);
 
-/// Of the independent coordinates, those that the rates of the `speeds` speeds hold, those that the rates of these
-/// coordinates hold, and so on. The others are cyclic.
+/// The independent coordinates on which the rates of the `speeds` speeds depend, those on which the rates of these
+/// coordinates depend, and so on. The others are cyclic.
 std::vector<bool> essential_coordinates(const Dependences& depends, Eigen::Index speeds);
 
 }  // namespace alembert

@@ -55,9 +55,9 @@ private:
         return f ? text(readable(*f)) : fmt::format("{}(…)", name_of(program[id].op));
     }
 
-    /// The critical functions of the scene's energies and loads, with the labels of these. Among them those in
-    /// `functions`, or all where these appear by differentiation alone, as sign(x) of abs(x), and no change where
-    /// there are none.
+    /// The critical functions of the scene's energies and loads, with the labels of these. Keeps those that are in
+    /// `functions`, or all if those in `functions` come only from differentiation, as sign(x) does from abs(x).
+    /// Changes nothing if there are none.
     void in_the_scene(std::vector<std::string>& functions, std::vector<std::string>& labels) const {
         std::vector<std::pair<std::string, GiNaC::ex>> parts;  // label, value
         for (const auto* list : {&m_.kinetic, &m_.potential})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Why a state cannot be linearized about, in the words of the scene: which function of which energy or load, and
-/// where.
+/// The reason why the equations cannot be linearized about a state, in terms of the scene: which function of which
+/// energy or load, and where.
 ///
 ///     throw ModelError(no_derivative({residuals, at, value, mechanism, equations}, {node}, "f has an infinite
 ///     slope"));
@@ -22,7 +22,8 @@ struct KinkPlace {
     const Equations& equations;
 };
 
-/// `nodes`: the functions to blame, at critical points (paths.hpp). `fault`: a sentence without its full stop.
+/// `nodes` are the functions responsible, at critical points (paths.hpp). `fault` is a sentence without its full
+/// stop.
 std::string no_derivative(const KinkPlace& place, const std::vector<int>& nodes, const std::string& fault);
 
 }  // namespace alembert

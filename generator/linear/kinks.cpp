@@ -17,11 +17,12 @@ using Column = VectorOf<long double>;
 
 namespace {
 
-constexpr Index few_directions = 12;           // all sums and differences of two of so many are tried
-constexpr long double rest_known_to = 1e-11L;  // of max(1, |u'|), max(1, |λ|)
+// Up to this number all sums and differences of two directions are tried.
+constexpr Index few_directions = 12;
+constexpr long double rest_known_to = 1e-11L;  // relative to max(1, |u'|), max(1, |λ|)
 constexpr long double linear_to = 1e-9L;
 
-/// Something that linearization differentiates, Σ factor · node, or asks to be continuous.
+/// A function Σ factor · node that linearization differentiates or that must be continuous.
 struct Wanted {
     std::string name;  ///< "the equation of x"
     std::vector<std::pair<int, Germ>> terms;
@@ -61,7 +62,8 @@ public:
     }
 
 private:
-    /// What is differentiated, in the notation of linearize.hpp; forces with the sign of f.
+    /// Collects the functions that are differentiated, in the notation of linearize.hpp; forces have the sign of
+    /// f.
     void collect() {
         const auto about = [](long double x,
                               int sign) {  // at an equilibrium where the formula has no value u' is 0
@@ -95,7 +97,7 @@ private:
         for (const int node : r_.velocity) single("a constraint's rate", node, true);
     }
 
-    /// The columns of `along` without the one of t: what the constraints allow.
+    /// The directions that the constraints allow: the columns of `along` without that of t.
     void directions() {
         const Index independent = static_cast<Index>(split_.q.size() + split_.u.size());
         for (Index j = 0; j < here_.along.cols(); ++j) {
@@ -111,7 +113,7 @@ private:
         std::vector<Germ> above, below;
     };
 
-    /// Both ways along Σ weight · direction, with some curvature across the constraints.
+    /// Paths in both directions along Σ weight · direction, with some curvature normal to the constraints.
     Sides sides(const Column& weight) {
         Column d = Column::Zero(size_), c = Column::Zero(size_);
         for (std::size_t j = 0; j < columns_.size(); ++j)
@@ -168,8 +170,8 @@ private:
         return std::abs(found.value - sum) <= allowed;
     }
 
-    /// What is wrong with this function on the two sides; empty where nothing is. `by`: the variable that changes,
-    /// if it is one.
+    /// The fault of this function on the two sides; empty if there is none. `by` is the variable that changes, if
+    /// there is only one.
     std::string fault(const Wanted& f, const Germ& above, const Germ& below, const std::string& by) const {
         const Germ here = f.on(point_);
         if (!here.defined() && !above.defined() && !below.defined())
@@ -210,8 +212,8 @@ private:
 
     static std::string shown(long double x) { return fmt::format("{:.6g}", static_cast<double>(x) + 0.0); }
 
-    /// Critical functions in this sum that are not smooth on these sides; all critical ones in it where it is
-    /// their combination.
+    /// The critical functions in this sum that are not smooth on these sides; all critical ones if only their
+    /// combination is not smooth.
     std::vector<int> blamed(const Wanted& f, const Sides& both) const {
         std::vector<int> roots, found, all;
         for (const auto& [node, factor] : f.terms)

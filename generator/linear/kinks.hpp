@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Whether the equations of motion have a first derivative at a state, so that they may be linearized there.
+/// Checks that the equations of motion have a first derivative at a state, so that they may be linearized there.
 ///
 ///     check_differentiable(residuals, split, instant, here, mechanism, equations);
 ///
@@ -10,22 +10,23 @@
 ///
 ///     F(x₀ + ε d + ε² c) = F(x₀) + ε J d + o(ε),   ε → 0 from above,   with one matrix J for all d,
 ///
-/// whatever c is. (It is across the constraints: states that obey them leave the tangent to second order.) Where
-/// no function of the program has its argument at a point where it is not analytic (abs, sign and roots at 0, min
-/// and max of equal arguments, atan2 on its cut, a division by 0 …) this is true, and nothing else is computed.
+/// whatever c is. (c is normal to the constraints: states that obey them leave the tangent to second order.) If no
+/// function of the program has its argument at a point where it is not analytic (abs, sign and roots at 0, min and
+/// max of equal arguments, atan2 on its cut, a division by 0 …) this is true, and nothing else is computed.
 /// Otherwise F is evaluated as a series in ε (lower/germ.hpp) along ±each direction, which gives one-sided
 /// derivatives, and along combinations of directions: F must not jump, must have no power of ε below 1 and no side
 /// without a value, opposite directions must have opposite slopes, and those of combinations must be linear. So
-/// x·|x|, |x|³ and max(x, 0)² at 0 are differentiable, a kink with a factor that vanishes is none, and √x, |x|,
-/// min(x, 2x) and the force of a spring of length zero are refused. Combinations are sums and differences of two
-/// directions (of up to a dozen) and random ones; a kink in a cone narrower than all of these lie in is not seen.
+/// x·|x|, |x|³ and max(x, 0)² at 0 are differentiable, a kink multiplied by a factor that vanishes is no kink, and
+/// √x, |x|, min(x, 2x) and the force of a spring of length zero are refused. Combinations are sums and differences
+/// of two directions (of up to a dozen) and random ones; a kink inside a cone that contains none of these
+/// directions is not found.
 
 #include "linear/tangent.hpp"
 
 namespace alembert {
 
-/// `here`: the tangent at this state. Throws ModelError with the function, its place, what is wrong on which side,
-/// and what to do.
+/// `here` is the tangent at this state. Throws ModelError with the function, its place, what is wrong on which
+/// side, and what to do.
 void check_differentiable(const Residuals& residuals, const Split& split, const Instant<long double>& at,
                           const Tangent<long double>& here, const Mechanism& mechanism,
                           const Equations& equations);

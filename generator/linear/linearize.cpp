@@ -22,7 +22,8 @@ using Matrix = Eigen::MatrixXd;
 
 namespace {
 
-/// Rounding instead of zero: what differs between two precisions as much as it amounts to.
+/// Sets to zero elements that are only rounding: those that differ between two precisions by as much as their
+/// size.
 Matrix clean(const MatrixOf<long double>& exact, const Matrix& rough) {
     Matrix result = exact.cast<double>();
     const double largest = result.size() == 0 ? 0 : result.cwiseAbs().maxCoeff();
@@ -45,7 +46,7 @@ M skew(const M& m) {
     return (m - m.transpose()) / 2;
 }
 
-/// States that nothing depends on and states that do not change have eigenvalue 0, and can be struck out exactly.
+/// States on which nothing depends and states that do not change have the eigenvalue 0 and can be removed exactly.
 std::vector<std::complex<double>> eigenvalues_of(const MatrixOf<long double>& A) {
     std::vector<Index> left;
     for (Index i = 0; i < A.rows(); ++i) left.push_back(i);
@@ -187,8 +188,8 @@ private:
         if (!residual.empty()) return fmt::format("{}", fmt::join(residual, "; "));
         for (Index j = 0; j < nr_; ++j)
             if (!essential[j]) result_.cyclic.push_back(coordinate(j));
-        // A coordinate that moves may leave the matrix constant, or make rates of others change (heading): then
-        // only what is held is a state.
+        // A coordinate that moves may leave the matrix constant, or change the rates of others (heading); then
+        // only coordinates on which others depend are states.
         bool constant = true;
         for (Index j = 0; j < nr_; ++j)
             for (Index i = 0; i < p_ + nr_; ++i) constant = constant && !(moves[j] && depends_(i, j));

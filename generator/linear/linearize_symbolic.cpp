@@ -14,7 +14,7 @@ constexpr int most_coordinates = 4;
 constexpr std::size_t most_terms = 12;
 constexpr double largest_tree = 2000;
 
-/// Has `e` the derivative of a function that GiNaC does not know: of abs, sign, min or max?
+/// Does `e` contain a derivative that GiNaC does not know: of abs, sign, min or max?
 bool has_unknown_derivative(const ex& e) {
     if (GiNaC::is_a<GiNaC::fderivative>(e)) return true;
     for (const ex& part : e)

@@ -6,8 +6,8 @@
 ///     const OutputProgram outputs(mechanism, equations, residuals);
 ///     outputs.by(residuals, instant, here)
 ///
-/// An output may hold accelerations and multipliers: these follow from the state and the inputs, and their
-/// derivatives are part of the output's. Where the speeds are not the rates of coordinates, outputs that hold
+/// An output may contain accelerations and multipliers. These follow from the state and the inputs, and their
+/// derivatives enter those of the output. If the speeds are not the rates of coordinates, outputs that contain
 /// accelerations are left out.
 
 #include "linear/tangent.hpp"

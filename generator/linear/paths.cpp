@@ -7,12 +7,12 @@ namespace alembert {
 
 namespace {
 
-constexpr long double known_to = 1e-13L;  // of max(1, |x|): the state
+constexpr long double known_to = 1e-13L;  // accuracy of the state, relative to max(1, |x|)
 constexpr long double parameter_known_to = 1e-15L;
-constexpr long double equal_to = 1e-10L;  // slopes
+constexpr long double equal_to = 1e-10L;  // slopes that differ by less are equal
 
-/// Does the function of this node have its argument where it is not analytic, or has no value? `value`: at a
-/// single point.
+/// Is the argument of this node's function at a point where the function is not analytic, or has it no value?
+/// `value` are the values at a single point.
 bool is_critical(const Program& program, int id, const std::vector<Germ>& value) {
     const Node& node = program[id];
     if (node.is_constant() || node.args.empty()) return false;

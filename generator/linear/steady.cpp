@@ -20,13 +20,14 @@ using Column = VectorOf<long double>;
 
 namespace {
 
-constexpr long double no_pivot = 1e-11L;    // of the largest singular value: the direction is free
-constexpr long double small_step = 1e-16L;  // by scale
+// Relative to the largest singular value; below this a direction is free.
+constexpr long double no_pivot = 1e-11L;
+constexpr long double small_step = 1e-16L;  // in units of the scales
 constexpr long double rounding = 1e-16L;
 constexpr long double longest_step = 0.5L;
-constexpr long double solved = 1e-13L;  // of what a change of 1 by scale does
+constexpr long double solved = 1e-13L;  // relative to the effect of a change of 1 in units of the scales
 
-/// Least squares, of least length.
+/// The least-squares solution of least length.
 Column least_step(const LongMatrix& J, const Column& r, bool& full_rank) {
     if (J.cols() == 0) {
         full_rank = true;
@@ -66,9 +67,9 @@ SteadyProblem::SteadyProblem(const Mechanism& m, const Equations& e, const Start
                 "equilibrium or steady motion",
                 i < p ? e.u[split.u[i]].get_name() : m.q[split.q[i - p]].get_name()));
     for (Index j = 0; j < nr; ++j) essential_[split.q[j]] = essential[j];
-    for (int i = 0; i < m.size(); ++i) follows_q_[i] = essential_[i];  // cyclic ones stay independent
+    for (int i = 0; i < m.size(); ++i) follows_q_[i] = essential_[i];  // cyclic coordinates stay independent
 
-    // Speeds that move no essential coordinate.
+    // The speeds that move no essential coordinate.
     const Tangent<long double> here = tangent(residuals_, split, start_, false, Undisturbed::steady);
     LongMatrix moves(nr, p);
     for (Index j = 0; j < nr; ++j) moves.row(j) = (essential[j] ? 1 : 0) * here.rates_by.row(j).middleCols(nr, p);
@@ -154,7 +155,7 @@ std::optional<SteadyRoot> SteadyProblem::solve(Instant<long double> at, Rates ra
         if (moved < small_step || (step > 8 && moved < 1e-14L && moved >= last)) {
             long double worst = 0;
             for (Index i = 0; i < here.residual.size(); ++i) {
-                long double does = 1e-3L;  // a force that nothing else is compared with
+                long double does = 1e-3L;  // the reference if there is no other force
                 for (std::size_t j = 0; j < here.unknowns.size(); ++j) {
                     const Index column = here.unknowns[j];
                     const bool is_coordinate = column < static_cast<Index>(here.split.q.size());
@@ -206,7 +207,7 @@ std::string steady_nearby(const Mechanism& m, const Equations& e, const Start& s
             text += fmt::format("{}--at {}={}", text.empty() ? "" : " ", m.q[i].get_name(),
                                 static_cast<double>(root->at.q[i]));
     return text;
-} catch (const std::runtime_error&) {  // then there is nothing to say
+} catch (const std::runtime_error&) {  // there is no such state to suggest
     return {};
 }
 

@@ -6,16 +6,16 @@
 ///     const SteadyProblem problem(mechanism, equations, start);
 ///     if (const auto root = problem.solve(problem.start())) root->at.q;        // obeys the constraints
 ///
-/// In independent coordinates r and speeds w (linear/linearize.hpp), steady is
+/// In independent coordinates r and speeds w (linear/linearize.hpp), a motion is steady if
 ///     Uᵀ(f − M c) = 0,     r'_e = 0,     w_c = given,
-/// e being the essential coordinates and c the cyclic ones, whose rates are given: those of the state from which
-/// the search starts. With `Rates::free` the last equations are left out, and the rates follow from the others (a
-/// rotor that a torque drives and friction brakes). The first equations are the forces left over at w' = 0, which
-/// need no inertia: a pole of spherical coordinates is an equilibrium too.
+/// where e are the essential coordinates and c the cyclic ones. The rates of the latter are given, namely those of
+/// the state from which the search starts. With `Rates::free` the last equations are left out, and these rates
+/// follow from the others (a rotor that a torque drives and friction brakes). The first equations are the
+/// unbalanced forces at w' = 0, which need no inertia: a pole of spherical coordinates is an equilibrium too.
 ///
-/// Newton's method chooses the independent coordinates anew at each step, so that a constraint may turn through
-/// any pose at which its rows are independent. Steps are of least length where the system does not determine them
-/// (Gauss-Newton), and bounded. In long double.
+/// Newton's method chooses the independent coordinates again at each step, so that it may pass through any pose at
+/// which the rows of the constraints are independent. Steps are bounded, and of least length if the system does
+/// not determine them (Gauss-Newton). The computation is in long double.
 
 #include <optional>
 
@@ -37,9 +37,10 @@ struct SteadySystem {
 
 struct SteadyRoot {
     Instant<long double> at;
-    long double residual = 0;  ///< largest force left over, of the sum of what each unknown may do
-    long double step = 0;      ///< Newton's last step: what the root is known to, by scale
-    bool isolated = true;      ///< false: the equations leave a direction free to first order
+    /// The largest unbalanced force, relative to the sum of the effects of all unknowns.
+    long double residual = 0;
+    long double step = 0;  ///< Newton's last step, which is the accuracy of the root, in units of the scales
+    bool isolated = true;  ///< false if the equations leave a direction free to first order
 };
 
 class SteadyProblem {
@@ -51,27 +52,27 @@ public:
     const Residuals& residuals() const { return residuals_; }
     const Instant<long double>& start() const { return start_; }
     void set_start(Instant<long double> start) { start_ = std::move(start); }
-    /// Of each coordinate: does the motion of any other depend on it?
+    /// For each coordinate, whether the motion of any other depends on it.
     const std::vector<bool>& essential() const { return essential_; }
-    /// Rows: combinations of all speeds that move cyclic coordinates only; their values are what is given.
+    /// Rows: combinations of all speeds that move cyclic coordinates only; their values are the given ones.
     const MatrixOf<long double>& kept_speeds() const { return kept_speeds_; }
     /// The size of an ordinary change of each coordinate; 1 unless set.
     void set_scales(std::vector<long double> scales) { scales_ = std::move(scales); }
     const std::vector<long double>& scales() const { return scales_; }
 
-    /// `given`: speeds of which the cyclic ones are kept. `at` must obey the constraints. `split`: null for the
-    /// one that suits the state.
+    /// The cyclic ones of the speeds `given` are kept. `at` must obey the constraints. If `split` is null, the one
+    /// that suits the state is used.
     SteadySystem linearized_at(const Instant<long double>& at, const std::vector<long double>& given,
                                Rates rates = Rates::given, const Split* split = nullptr) const;
 
-    /// From a state, moved onto the constraints first; its cyclic rates are the given ones. Nothing where Newton's
-    /// method does not converge.
+    /// Solves from a state, which is moved onto the constraints first; its cyclic rates are the given ones.
+    /// Nothing if Newton's method does not converge.
     std::optional<SteadyRoot> solve(Instant<long double> from, Rates rates = Rates::given, int most = 60) const;
 
     /// Moves dependent coordinates and speeds until the constraints hold; false if they do not.
     bool settle_at(Instant<long double>& at, const Split* split = nullptr) const;
 
-    /// The largest |element| of a change of coordinates, each by its scale.
+    /// The largest |element| of a change of coordinates, each divided by its scale.
     long double size(const VectorOf<long double>& change) const;
 
     /// The state as a start of the mechanism, with the rates that belong to the speeds.
@@ -88,7 +89,7 @@ private:
     MatrixOf<long double> kept_speeds_;
 };
 
-/// The state that Newton's method reaches from that of `start`, as options: "--at theta=0"; empty where it reaches
+/// The state that Newton's method reaches from that of `start`, as options: "--at theta=0"; empty if it reaches
 /// none.
 std::string steady_nearby(const Mechanism& mechanism, const Equations& equations, const Start& start);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Notation of linear/linearize.hpp; e stands for t and the inputs. Tangent directions of the constraints:
 //   δq = Q δr + Qe δe,   Q_dep = −φ_dep⁻¹ φ_ind,   δu = S δr + U δw + Se δe,   U_dep = −ν_dep⁻¹ ν_ind.
-// U spans the null space of A. With c, the u' that A u' = γ asks for where w' = 0:
+// U spans the null space of A. With c, the u' that A u' = γ requires if w' = 0:
 //   (UᵀMU) w' = Uᵀ(f − M c),   A_depᵀ λ = (M u' − f)_dep.
 #include "linear/tangent.hpp"
 
@@ -129,8 +129,8 @@ struct Values {
     Index columns = 0;
 
 private:
-    /// Where a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of
-    /// sides: then the derivatives are those of the root itself, in each direction in which both of its sides
+    /// If a root needs a function at a critical point, the chain rule node by node gives 0·∞ or a mixture of
+    /// sides. The derivatives are then those of the root itself, in each direction in which both of its sides
     /// agree.
     void repair(const Instant<Real>& at) {
         const Instant<long double> point{.parameters = {at.parameters.begin(), at.parameters.end()},
@@ -159,10 +159,10 @@ private:
     std::vector<Jet<Real>> value_;
 };
 
-/// The columns of pivots of an elimination of `rows`, from the first class that has one that will do; fewer than
-/// rows where none is left.
+/// The columns of pivots of an elimination of `rows`, from the first class with a sufficient pivot; fewer than
+/// rows if none is left.
 std::vector<int> pivots(MatrixOf<long double> rows, const std::vector<int>& order_class) {
-    constexpr long double good = 1e-6L, some = 1e-12L;  // of the row at the start
+    constexpr long double good = 1e-6L, some = 1e-12L;  // relative to the row at the start
     std::vector<int> result;
     std::vector<long double> size;
     for (Index r = 0; r < rows.rows(); ++r)
@@ -171,7 +171,7 @@ std::vector<int> pivots(MatrixOf<long double> rows, const std::vector<int>& orde
     const int classes = order_class.empty() ? 0 : *std::max_element(order_class.begin(), order_class.end()) + 1;
     for (Index step = 0; step < rows.rows(); ++step) {
         std::tuple<long double, Index, int> best{0, 0, 0};
-        for (int c = 0; c <= classes && std::get<0>(best) < good; ++c)  // the last round: any
+        for (int c = 0; c <= classes && std::get<0>(best) < good; ++c)  // in the last round any pivot is taken
             for (Index r = 0; r < rows.rows(); ++r)
                 for (Index j = 0; j < rows.cols(); ++j) {
                     if (done[r] || size[r] == 0 || (c < classes && order_class[j] != c)) continue;
@@ -212,7 +212,7 @@ MatrixOf<Real> solution(const MatrixOf<Real>& A, const MatrixOf<Real>& b) {
     return A.partialPivLu().solve(b);
 }
 
-/// [Solution of dependent·x = right, zeros for independent ones] as rows of all.
+/// The solution of dependent·x = right, with zeros for the independent ones, as rows of all.
 template <typename Real>
 MatrixOf<Real> spread(const MatrixOf<Real>& solution, const std::vector<int>& rows, Index n) {
     MatrixOf<Real> result = MatrixOf<Real>::Zero(n, solution.cols());
@@ -304,7 +304,7 @@ Tangent<Real> tangent(const Residuals& r, const Split& split, const Instant<Real
         lambda = solution<Real>(dependent.transpose(), on_dependent);
     }
 
-    // Residuals' derivatives with u' and λ held.
+    // The derivatives of the residuals with constant u' and λ.
     const Matrix df = value.jacobian(r.forcing), dgamma = value.jacobian(r.gamma);
     Matrix R = -df, Gamma = -dgamma;
     for (Index i = 0, next = 0; i < s; ++i)

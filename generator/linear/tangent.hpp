@@ -19,14 +19,14 @@
 
 namespace alembert {
 
-/// Everything that the algebra needs, as one Program. Variables of kind `unknown` are the inputs that occur.
+/// Everything that the algebra needs as one Program. Its variables of kind `unknown` are the inputs that occur.
 struct Residuals {
     Residuals(const Mechanism& mechanism, const Equations& equations);
 
     Program program;
     int n, s, holonomic, kept;  ///< coordinates, speeds, rows of φ, rows of A
     std::vector<int> mass, forcing, row, gamma, rate, position, velocity;
-    std::vector<int> inputs;        ///< 3·index + order, of those that occur
+    std::vector<int> inputs;        ///< 3·index + order of the inputs that occur
     std::vector<int> input_values;  ///< nodes, in parameters and t
     bool rates_are_speeds;
 };
@@ -41,12 +41,13 @@ struct Instant {
 template <typename Real>
 Instant<Real> instant_of(const Residuals& residuals, const State<double>& state);
 
-/// The state with a unit derivative for each of q, u, t and the inputs, in this order; `width`: of the
-/// derivatives, so that whoever has more variables may follow with those. `unknowns`: how many there are room for.
+/// The state with a unit derivative for each of q, u, t and the inputs, in this order; `width` is the number of
+/// derivatives, so that a caller with more variables can append them. `unknowns` is the number of unknowns to
+/// provide for.
 template <typename Real>
 struct Varied {
     Varied(const Residuals& residuals, const Instant<Real>& at, std::size_t width, std::size_t unknowns);
-    /// With a unit derivative by the next variable.
+    /// A value with a unit derivative with respect to the next variable.
     Jet<Real> next(Real value);
 
     State<Jet<Real>> state;
@@ -55,7 +56,7 @@ private:
     std::size_t width_, next_ = 0;
 };
 
-/// Positions of independent and dependent ones.
+/// The positions of independent and dependent coordinates and speeds.
 struct Split {
     std::vector<int> q, q_dependent, u, u_dependent;
 };
@@ -68,31 +69,31 @@ using VectorOf = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 /// Columns: independent coordinates r, independent speeds w, then t and the inputs, which `tangent` calls x.
 template <typename Real>
 struct Tangent {
-    VectorOf<Real> position, velocity;        ///< φ, ν: what is to be zero
+    VectorOf<Real> position, velocity;        ///< φ, ν, which must be zero
     VectorOf<Real> speed_rates;               ///< w'
     VectorOf<Real> rates;                     ///< r'
-    VectorOf<Real> balance;                   ///< Uᵀ(f − M c), the forces left over at w' = 0
+    VectorOf<Real> balance;                   ///< Uᵀ(f − M c), the unbalanced forces at w' = 0
     MatrixOf<Real> mass, force;               ///< mass δw' + force δ = 0
     MatrixOf<Real> speed_rates_by;            ///< δw' = −mass⁻¹ force δ
     MatrixOf<Real> rates_by;                  ///< δr'
     VectorOf<Real> to_position, to_velocity;  ///< Newton's step of the dependent coordinates, then speeds
-    MatrixOf<Real> along;                     ///< rows q, u, t, inputs: what a change of each column moves
+    MatrixOf<Real> along;                     ///< rows q, u, t, inputs: their change for a change of each column
     VectorOf<Real> udot, lambda;              ///< u' and multipliers of the undisturbed motion
     MatrixOf<Real> udot_by, lambda_by;        ///< their derivatives
 };
 
-/// Dependent: by the largest pivot of φ_q among `preferred_q`, of all where none of these will do; of ν_u
-/// likewise, the rates of dependent coordinates before anything else. Throws IntegrationError where the rows
-/// depend on each other at this state.
+/// The dependent coordinates are chosen by the largest pivot of φ_q among `preferred_q`, or among all if none of
+/// these is large enough; the dependent speeds in the same way from ν_u, the rates of dependent coordinates first.
+/// Throws IntegrationError if the rows depend on each other at this state.
 Split split_of(const Residuals& residuals, const Instant<long double>& at, const std::vector<bool>& preferred_q,
                const std::vector<bool>& preferred_u);
 
-/// Which motion is undisturbed: the one that the forces make, or w' = 0 whatever they are. Then no inertia is
-/// needed, −force is the derivative of `balance`, and what holds w' is empty.
+/// The undisturbed motion: the one that follows from the forces, or w' = 0 whatever the forces are. In the latter
+/// case no inertia is needed, −force is the derivative of `balance`, and the members with w' are empty.
 enum class Undisturbed { as_forced, steady };
 
-/// `at_kink`: a function is at a critical point (is_at_kink of paths.hpp). Then derivatives that the chain rule
-/// does not give node by node, as of sqrt(x^2)^3 at 0, are those of one-sided series.
+/// `at_kink` tells that a function is at a critical point (is_at_kink of paths.hpp). Derivatives that the chain
+/// rule does not give node by node, as of sqrt(x^2)^3 at 0, are then taken from one-sided series.
 template <typename Real>
 Tangent<Real> tangent(const Residuals& residuals, const Split& split, const Instant<Real>& at,
                       bool at_kink = false, Undisturbed motion = Undisturbed::as_forced);

@@ -9,12 +9,13 @@ namespace alembert {
 
 namespace {
 
-/// From joints' rates to the coordinates': the absolute ones by differences, the relative ones by S.
+/// The change between the joints' rates and those of the coordinates: for absolute rates by differences, for
+/// relative rates by S.
 class Change {
 public:
     Change(Program& program, const JointTree& tree, LinkAxes axes)
         : p_(program), how_(dress(tree, axes)), n_(tree.coordinates) {
-        // S is a permutation, with signs: coordinate and sign of each joint.
+        // If S is a permutation with signs, records the coordinate and the sign of each joint.
         std::vector<char> taken(static_cast<std::size_t>(n_), 0);
         is_direct_ = static_cast<int>(tree.joints.size()) == n_;
         for (const TreeJoint& joint : tree.joints) {
@@ -30,10 +31,10 @@ public:
         if (!is_direct_) direct_absolute(rate_rows(tree, axes));
     }
 
-    /// Do the joints' rates determine the coordinates', by this change?
+    /// Does this change determine the rates of the coordinates from those of the joints?
     bool determines() const { return is_direct_ || is_absolute_; }
 
-    /// Loads along the joints of generalized forces.
+    /// The loads along the joints that correspond to generalized forces.
     std::vector<int> loads(const std::vector<int>& Q) const {
         std::vector<int> result;
         for (const auto& [a, sign] : of_) result.push_back(scaled(Q[a], sign));
@@ -62,7 +63,7 @@ public:
         for (const auto& list : terms) result.push_back(p_.sum(0, list));
         return result;
     }
-    std::vector<int> mass(std::vector<std::vector<int>> M) const {  // full
+    std::vector<int> mass(std::vector<std::vector<int>> M) const {  // the full matrix
         to_relative([&](int base, std::size_t j) {
             for (std::vector<int>& row : M) row[base] = sum(row[base], 1, row[j]);
             for (std::size_t i = 0; i < M.size(); ++i) M[base][i] = sum(M[base][i], 1, M[j][i]);
@@ -80,7 +81,7 @@ public:
     }
 
 private:
-    /// The absolute rates are coordinates' rates themselves.
+    /// Whether the absolute rates are themselves rates of coordinates.
     void direct_absolute(const std::vector<std::vector<GiNaC::numeric>>& rows) {
         std::vector<char> taken(static_cast<std::size_t>(n_), 0);
         is_absolute_ = static_cast<int>(rows.size()) == n_;
@@ -102,7 +103,7 @@ private:
     int scaled(int node, int sign) const { return p_.sum(0, {{sign, node}}); }
 
     Program& p_;
-    std::vector<std::vector<std::pair<int, Rational>>> rows_;  // of S, what is not 0
+    std::vector<std::vector<std::pair<int, Rational>>> rows_;  // the entries of S that are not 0
     std::vector<Dress> how_;
     int n_;
     bool is_direct_ = false, is_absolute_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The recursions of formalism/tree_recursions.hpp, instantiated with nodes of a program.
+/// The recursions of formalism/tree_recursions.hpp, carried out with nodes of a program.
 ///
 ///     const RecursionForm form{LinkAxes::still, RecursionForm::Solve::articulated};
 ///     const RecursionNodes nodes = recursion(program, tree, z, form, lowering);
@@ -16,19 +16,21 @@
 namespace alembert {
 
 struct RecursionNodes {
-    std::vector<int> mass, forcing;  ///< in coordinates; mass: lower triangle by rows; both empty if not wanted
+    std::vector<int> mass, forcing;  ///< in terms of the coordinates; mass is the lower triangle by rows; both are
+                                     ///< empty if not wanted
     std::optional<std::vector<int>> acceleration =
-        {};  ///< q''; nothing where the joints' rates do not
-             ///< determine the coordinates', or the form is not one of this tree
+        {};  ///< q''; nothing if the joints' rates do not determine those of the coordinates, or if the form does
+             ///< not apply to this tree
 };
 
-/// `lowering` gives the node of an expression. Sources of nodes are left as they are.
-/// Without `with_matrix` the form is one that needs none.
+/// `lowering` gives the node of an expression. The sources of nodes are not set. Without `with_matrix` the form
+/// must be one that needs no matrix.
 RecursionNodes recursion(Program& program, const JointTree& tree, Intermediates& z, const RecursionForm& form,
                          bool with_matrix, const std::function<int(const GiNaC::ex&)>& lowering);
 
-/// The loads along the coordinates that accelerations q'' need beside those of the tree: Newton-Euler outwards at
-/// these accelerations, and inwards; M is never made. `qddot`: the symbols of q''.
+/// The loads along the coordinates that accelerations q'' need in addition to those of the tree, by the recursive
+/// Newton-Euler algorithm, outwards and inwards at these accelerations; M is never computed. `qddot` are the
+/// symbols of q''.
 std::vector<int> inverse_recursion(Program& program, const JointTree& tree, Intermediates& z,
                                    const std::vector<GiNaC::symbol>& qddot,
                                    const std::function<int(const GiNaC::ex&)>& lowering);

@@ -18,13 +18,16 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t most_composite = 20;  // joints; beyond, the matrix costs more to lower than it can win
-constexpr double readability = 1.1;         // what another form must win against the textbook's
-constexpr double least_after = 0.85;        // of a form's time, after rewriting; measured over all scenes: 0.89
-constexpr std::size_t many_joints = 6;      // beyond, axes that turn never win where parallel ones exist
-constexpr double largest_tree = 50000;      // nodes; beyond, expanding costs more than it can win
+// The most joints; for more, lowering the matrix costs more than it can gain.
+constexpr std::size_t most_composite = 20;
+// The factor by which another form must be faster than the textbook form.
+constexpr double readability = 1.1;
+// The least part of a form's time that remains after rewriting; measured over all scenes: 0.89.
+constexpr double least_after = 0.85;
+constexpr std::size_t many_joints = 6;  // with more joints, turning axes never win if there are parallel ones
+constexpr double largest_tree = 50000;  // the most nodes; for more, expanding costs more than it can gain
 
-/// All of `values` in readable form, or none.
+/// Writes all of `values` in readable form, or none of them.
 bool make_readable(std::vector<ex*> values, const Mechanism& m) {
     for (ex* value : values) {
         const std::optional<ex> readable = readable_form(*value, m);
@@ -60,7 +63,7 @@ std::optional<Equations> textbook_equations(const Mechanism& m, Equations equati
             if (!make_readable({&equations.M(i, j)}, m)) return std::nullopt;
             equations.M(j, i) = equations.M(i, j);
         }
-        // One sum: what cancels between the parts is gone.
+        // One sum, so that terms of different parts cancel.
         equations.own[i] = equations.forcing(i);
         equations.applied[i] = equations.dissipative[i] = 0;
         if (!make_readable({&equations.own[i]}, m)) return std::nullopt;
@@ -99,13 +102,13 @@ std::optional<ex> readable_form(const ex& e, const Mechanism& m, std::size_t bud
 
 namespace {
 
-/// A form as lowered.
+/// A form after lowering.
 struct Candidate {
     Program program;
     bool is_recursion = false;
 };
 
-/// The forms that these equations can take, each lowered.
+/// Lowers each form that these equations can take.
 void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, const Equations& equations,
                const Energy& energy, const LowerOptions& options) {
     const Mechanism m = in_terms_of(equations, mechanism);
@@ -132,7 +135,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
             if (solve == Solve::matrix && !has_matrix) continue;
             if (solve == Solve::both_ends && (axes == LinkAxes::own || !is_planar_chain(*equations.tree)))
                 continue;
-            // LDLᵀ grows with the cube; recursions without a matrix make no multipliers.
+            // The cost of LDLᵀ grows with the cube of the size; recursions without a matrix give no multipliers.
             if (solve != Solve::matrix ? !m.constraints.empty()
                                        : equations.tree->joints.size() > most_composite && m.constraints.empty())
                 continue;
@@ -143,8 +146,8 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
             try {
                 programs.push_back({lower(m, recursive, energy, by), true});
             } catch (const std::domain_error&) {
-                // No inertia resists a joint: a recursion divides by it. The forms with a matrix say which rates
-                // these are.
+                // If a joint has no inertia, a recursion divides by zero. The forms with a matrix report which
+                // rates these are.
             }
         }
     if (programs.size() == before && !has_matrix)
@@ -153,7 +156,7 @@ void add_forms(std::vector<Candidate>& programs, const Mechanism& mechanism, con
     if (programs.size() == before) programs.push_back({lower(m, equations, energy, options)});
 }
 
-/// Those that may still win, rewritten; and the second, to be told.
+/// Rewrites the programs that may still win, and the second best, which is reported.
 std::vector<Program> contenders(std::vector<Candidate> candidates) {
     std::vector<double> times;
     double best = std::numeric_limits<double>::infinity();
@@ -188,7 +191,7 @@ Choice choose(const Mechanism& mechanism, const std::vector<Equations>& equation
     std::vector<std::size_t> order(programs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto rank = [&](std::size_t k) {
-        const bool readable = programs[k].is_textbook;  // as good, and better to read
+        const bool readable = programs[k].is_textbook;  // equally good, and easier to read
         return std::make_pair(programs[k].singular && !readable, costs[k].time() * (readable ? 1 : readability));
     };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });

@@ -9,10 +9,10 @@ namespace alembert {
 
 namespace {
 
-constexpr std::uint64_t most_seeds = 64;  // of which some are unlucky
-constexpr int enough = 2;  // points; each misses a difference with a chance of its degree times 2⁻⁶¹
+constexpr std::uint64_t most_seeds = 64;  // some of which give unusable points
+constexpr int enough = 2;  // points; each misses a difference with a probability of the degree times 2⁻⁶¹
 
-/// Equal at random points; false also where no point was found at which both exist.
+/// Whether two nodes are equal at random points; false also if no point was found at which both exist.
 bool agree(const Program& program, int a, int b) {
     int met = 0;
     for (std::uint64_t seed = 1; seed <= most_seeds && met < enough; ++seed) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// T, V, E, the power and the generalized energy as roots of a program.
+/// Adds T, V, E, the power and the generalized energy as roots of a program.
 ///
-/// Where the scene's speeds are in the state, T = ½ uᵀM u if that is shorter and the same: the same value at
-/// random points modulo a prime (program/modular.hpp). Then E is also the generalized energy if these two agree.
+/// If the scene's speeds are in the state, T = ½ uᵀM u is used if it is shorter and has the same value at random
+/// points modulo a prime (program/modular.hpp). If E and the generalized energy then agree, they become the same
+/// root.
 
 #include "formalism/equations.hpp"
 #include "lower/lowering.hpp"
@@ -12,7 +13,7 @@
 
 namespace alembert {
 
-/// `mass`: the lower triangle of M, perhaps with more behind it; empty where T is not to be made of it.
+/// `mass`: the lower triangle of M, perhaps followed by other nodes; empty if T is not to be computed from it.
 void add_energy_roots(Lowering& lowering, Program& program, const Mechanism& mechanism, const Equations& equations,
                       const Energy& energy, const std::vector<int>& mass);
 

@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// What time differentiates: the coordinates before `first`.
+/// The mechanism for time derivatives, in which only the coordinates before `first` move.
 Mechanism clock_of(const Mechanism& m, int first) {
     Mechanism clock;
     clock.symbols = m.symbols;

@@ -12,8 +12,8 @@ namespace alembert {
 namespace {
 
 constexpr double smallest_sine =
-    0.02;  // of the angle between axes that are not parallel: what is divided by it loses digits
-constexpr std::size_t most_places = 6;  // of a link's origin that are compared
+    0.02;  // the least angle between axes that are not parallel; division by its sine loses digits
+constexpr std::size_t most_places = 6;  // the most places of a link's origin that are compared
 
 using Vector = Triple<Symbolic>;
 
@@ -37,10 +37,10 @@ public:
 private:
     TreeLink<Symbolic>& link(int j) { return tree_.links[static_cast<std::size_t>(j)]; }
 
-    /// Its frame may be moved: it turns with the link, which turns about its z.
+    /// Whether the frame of a link may be moved: it turns with the link, which turns about its z axis.
     static bool turns(const TreeLink<Symbolic>& l) { return !l.slides && !l.still; }
 
-    /// Both turn, and R between them is of numbers that no division makes worse.
+    /// Whether both links turn, and R between them consists of numbers by which can be divided without loss.
     bool is_hinge(int k) {
         const TreeLink<Symbolic>& l = link(k);
         if (!turns(l) || l.parent < 0 || !turns(link(l.parent))) return false;
@@ -88,7 +88,7 @@ private:
         Symbolic cosine = 1, sine = 0;
     };
 
-    /// The turn a of the frame of z = Rz(a) Rx(b) e_z; none where that is e_z.
+    /// The turn a of the frame with z = Rz(a) Rx(b) e_z; none if z is e_z.
     Turn turn_of(const Vector& z) {
         if (z[0].is_zero()) return {};
         if (z[1].is_zero()) return {0, value(z[0]) > 0 ? 1 : -1};
@@ -96,7 +96,8 @@ private:
         return {-z[1] / sine, z[0] / sine};
     }
 
-    /// Turns the frame of link j: for its heaviest child by a, for what its own R ends in by c.
+    /// Turns the frame of link j by a for the child that carries most links, and by c for the last factor of its
+    /// own R.
     void turn(int j) {
         TreeLink<Symbolic>& own = link(j);
         if (!turns(own)) return;
@@ -127,7 +128,7 @@ private:
             offset = {offset.cosine * a.cosine - offset.sine * a.sine,
                       offset.sine * a.cosine + offset.cosine * a.sine};
         }
-        if (offset.cosine.number() && offset.sine.number()) {  // quarter turns, as good as always
+        if (offset.cosine.number() && offset.sine.number()) {  // these are nearly always quarter turns
             const Symbolic c = own.cosine, s = own.sine;
             own.cosine = offset.cosine * c - offset.sine * s;
             own.sine = offset.sine * c + offset.cosine * s;
@@ -139,11 +140,11 @@ private:
         }
     }
 
-    /// An origin's shift along z, and the entry of its own p that it makes zero.
+    /// A shift of an origin along z, and the entry of its own p that becomes zero by it.
     struct Place {
         Symbolic d = 0;
         int zero = -1;
-        double cost = 0;  ///< entries of p of all that hangs on it
+        double cost = 0;  ///< number of entries of p of all links attached to it
     };
 
     Vector arm(int k, const Place& own, const Symbolic& parent) {
@@ -166,7 +167,7 @@ private:
         });
     }
 
-    /// Where each origin may stand, from the tips inwards, then the best of these outwards.
+    /// Finds the possible places of each origin from the tips inwards, then chooses the best of these outwards.
     void shift() {
         places_.resize(tree_.links.size());
         for (int j = tree_.size() - 1; j >= 0; --j) {
@@ -203,7 +204,7 @@ private:
     Program& p_;
     BodyTree<Symbolic> tree_;
     std::vector<std::vector<int>> children_;
-    std::vector<int> weight_;  // links on it, with itself
+    std::vector<int> weight_;  // number of links attached to it, itself included
     std::vector<std::vector<Place>> places_;
 };
 

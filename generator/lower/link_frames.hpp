@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The same tree along other axes: link frames put where constant rotations and shifts have few entries.
+/// The same tree along other axes: the frames of links are moved so that constant rotations and shifts have few
+/// entries.
 ///
 ///     const BodyTree<Symbolic> lean = regrouped(reframed(program, tree));
 ///
-/// A link that turns about its z may have its frame turned about z and its origin shifted along z, by constants,
-/// and turns as before; its angle then counts from elsewhere. With R = Rz(a) Rx(b) Rz(c) between two such links,
-/// Rz(a) goes to the parent's frame and Rz(c) to the link's own, and Rx(b) is left; of the shift between them one
-/// entry becomes zero by each origin, more where axes meet (Khalil & Kleinfinger, ICRA 1986, 1174: modified
-/// Denavit-Hartenberg parameters). A link with several children serves the one with most links on it. Only
-/// rotations that are numbers are taken apart: with parameters in them, axes might become parallel, and the
-/// division by their sine zero.
+/// If a link turns about its z axis, its frame may be turned about z and its origin shifted along z, by constants,
+/// without any change of its motion; only the zero of its angle changes. With R = Rz(a) Rx(b) Rz(c) between two
+/// such links, Rz(a) is moved to the parent's frame and Rz(c) to the link's own, and Rx(b) remains. Each origin
+/// makes one entry of the shift between the links zero, or more if axes intersect (Khalil & Kleinfinger, ICRA
+/// 1986, 1174: modified Denavit-Hartenberg parameters). The frame of a link with several children is chosen for
+/// the child that carries most links. Only rotations that are numbers are decomposed: if they contained
+/// parameters, axes might become parallel, and the sine by which is divided would be zero.
 
 #include "formalism/tree_recursions.hpp"
 #include "program/symbolic_scalar.hpp"

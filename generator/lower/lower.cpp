@@ -23,7 +23,7 @@ using GiNaC::is_a;
 
 namespace {
 
-/// q' = h(q,u,t) and q'' where the speeds are not the rates; u' are the nodes of `udot`.
+/// Defines q' = h(q,u,t) and q'' if the speeds are not the rates; u' are the nodes of `udot`.
 void define_rates(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e,
                   const std::vector<int>& udot) {
     if (e.speeds_are_rates()) return;
@@ -43,7 +43,7 @@ void define_rates(Lowering& lowering, Program& program, const Mechanism& m, cons
     }
 }
 
-/// The scene's generalized speeds and their rates.
+/// Adds roots for the scene's generalized speeds and their rates.
 void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, const Equations& e) {
     const bool in_state = !e.speeds_are_rates();
     std::vector<ex> values, rates;
@@ -59,11 +59,12 @@ void add_speed_roots(Lowering& lowering, Program& program, const Mechanism& m, c
         program.roots.push_back({Group::speed_rate, m.speeds[k].u.get_name(), lowering(rates[k])});
 }
 
-/// Redundant constraints: the least multipliers that give the same forces, Σ_all rowᵀ λ = Σ_kept rowᵀ λ'. With B =
-/// A_all A_keptᵀ they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
+/// For redundant constraints, takes the multipliers of least norm that give the same forces, Σ_all rowᵀ λ = Σ_kept
+/// rowᵀ λ'. With B = A_all A_keptᵀ they are λ = B w, BᵀB w = A_kept A_keptᵀ λ'.
 void share_out(Lowering& lowering, Program& program, const Mechanism& m, const ex& power) {
     lowering.lower_definitions({power});
-    lowering(power);  // constraints that move do their work through the multipliers of those that are kept
+    // The work of moving constraints is expressed by the multipliers of the constraints that are kept.
+    lowering(power);
     std::vector<const Mechanism::Constraint*> all;
     for (const auto* list : {&m.constraints, &m.redundant})
         for (const Mechanism::Constraint& c : *list) all.push_back(&c);
@@ -77,7 +78,7 @@ void share_out(Lowering& lowering, Program& program, const Mechanism& m, const e
             terms.emplace_back(1, program.product(1, {{a[i], 1}, {b[i], 1}}));
         return program.sum(0, terms);
     };
-    std::vector<std::vector<int>> rows, B(kept);  // B by columns
+    std::vector<std::vector<int>> rows, B(kept);  // B is stored by columns
     for (const auto* c : all) {
         rows.emplace_back();
         for (const ex& e : c->row) rows.back().push_back(lowering(e));
@@ -150,9 +151,9 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         if (constraint.position) wanted.push_back(*constraint.position);
         wanted.push_back(constraint.drift);
     }
-    // e·e = 1 of a quaternion: no inertia resists the rate along e, and c Aᵀ(A u' − γ), which is 0, makes the
-    // matrix regular. c is a fourth of the mean diagonal element, so that the new eigenvalue is of the others'
-    // size.
+    // e·e = 1 of a quaternion: there is no inertia for the rate along e. Adding c Aᵀ(A u' − γ), which is 0, makes
+    // the matrix regular. c is a fourth of the mean diagonal element, so that the new eigenvalue has the size of
+    // the others.
     std::vector<std::tuple<ex, const std::vector<ex>*, ex>> norms;
     for (std::size_t k = 0; k < kept.size(); ++k) {
         if (!m.constraints[kept[k]].norm) continue;
@@ -164,8 +165,8 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
                            equations.gamma[k]);
         wanted.push_back(std::get<0>(norms.back()));
     }
-    // Open contacts do not push; those that the equations hold closed get their multipliers below.
-    // f without friction whose normal force is a multiplier.
+    // Open contacts exert no force; contacts that the equations keep closed get their multipliers below. f is
+    // taken without friction whose normal force is a multiplier.
     Lowering acting_alone(program, m, options.fold);
     for (const Mechanism::Unilateral& contact : m.unilateral)
         for (Lowering* const one : {&lowering, &acting_alone})
@@ -219,7 +220,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
     }
     program.set_sources({0});
     // [M Aᵀ; A 0] (u', −λ) = (f, γ)
-    std::vector<int> row_of(m.constraints.size(), -1);  // in A
+    std::vector<int> row_of(m.constraints.size(), -1);  // the row in A
     for (std::size_t k = 0; k < kept.size(); ++k) row_of[kept[k]] = static_cast<int>(k);
     for (std::size_t c = 0; c < m.constraints.size(); ++c) {
         const Mechanism::Constraint& constraint = m.constraints[c];
@@ -256,7 +257,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         for (std::size_t k = 0; k < kept.size(); ++k)
             lowering.define(equations.lambda[k], program.sum(0, {{-1, (*solution)[n + k]}}));
         if (!m.constraints.empty()) add_projection(program, m, equations, mass, options.fold);
-        Lowering motion(program, m, options.fold);  // with u' as solved
+        Lowering motion(program, m, options.fold);  // with the solution for u'
         if (!equations.eliminated.empty()) {
             define_rates(motion, program, m, equations, {solution->begin(), solution->begin() + n});
             for (const GiNaC::symbol& lambda : equations.lambda) motion.define(lambda, lowering(lambda));
@@ -273,7 +274,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
                     {Group::multiplier, constraint.multiplier.get_name(), lowering(constraint.multiplier)});
     } else {
         program.singular = true;
-        // The power and outputs may name multipliers; their values are never read, as there is no motion.
+        // The power and outputs may contain multipliers. Their values are never used, because there is no motion.
         for (const auto& lambda : equations.lambda) lowering.define(lambda, program.number(0));
         for (const Mechanism::Constraint& constraint : m.redundant)
             lowering.define(constraint.multiplier, program.number(0));
@@ -283,7 +284,7 @@ Program lower(const Mechanism& mechanism, const Equations& equations, const Ener
         program.roots.push_back({Group::second_rate, m.q[i].get_name(), lowering(m.qddot[i])});
     }
     add_speed_roots(lowering, program, m, equations);
-    wanted = {energy.power};  // this and outputs may hold multipliers, which are known by now
+    wanted = {energy.power};  // the power and outputs may contain multipliers, which are known by now
     for (const auto* parts : {&m.outputs, &m.events})
         for (const Mechanism::Definition& part : *parts) wanted.push_back(part.value);
     for (const Mechanism::Friction& f : m.frictions)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From equations to straight-line code: the last place that knows GiNaC.
+/// Converts equations to straight-line code. This is the last place that uses GiNaC.
 ///
 ///     const Program program = lower(mechanism, equations, energy_of(mechanism));
 ///     program.nodes_of(Group::acceleration);
 ///
-/// The groups of roots are those of program.hpp: mass and forcing unless the equations have no M; accelerations,
-/// energies, outputs and events; of constraints rows, positions, velocities, gamma, multipliers, and a step of the
-/// projection (project.hpp); of a scene with speeds these and their rates. Where the speeds are not the rates,
-/// `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u', and there are roots for
-/// q', q'' and A in speeds.
+/// The groups of roots are those of program.hpp: mass and forcing, unless the equations have no M; accelerations,
+/// energies, outputs and events; for constraints rows, positions, velocities, gamma, multipliers, and a step of
+/// the projection (project.hpp); for a scene with speeds these and their rates. Where the speeds are not the
+/// rates, `Program::speeds` names them, variables of kind `rate` and `acceleration` are u and u', and there are
+/// roots for q', q'' and A in speeds.
 
 #include <functional>
 
@@ -22,34 +22,37 @@
 namespace alembert {
 
 struct LowerOptions {
-    bool fold = false;         ///< parameters become constants, at the scene's values
-    bool is_textbook = false;  ///< the equations are in their readable form, whose order of terms is to be kept
+    bool fold = false;  ///< whether parameters become constants with the scene's values
+    /// Whether the equations are in their readable form, whose order of terms is to be kept.
+    bool is_textbook = false;
     std::optional<RecursionForm> recursion =
-        {};  ///< of equations with a tree: M, f and q'' by this instead of by their expressions
+        {};  ///< for equations with a tree: M, f and q'' by this recursion instead of by their expressions
 };
 
-/// Throws ModelError where something cannot be lowered (a name that has no value).
+/// Throws ModelError if something cannot be lowered (a name that has no value).
 Program lower(const Mechanism& mechanism, const Equations& equations, const Energy& energy,
               const LowerOptions& options = {});
 
-/// The constraints and the scene's speeds alone, in q and q': groups row, position, velocity, form_row and speed.
+/// Lowers only the constraints and the scene's speeds, in q and q': groups row, position, velocity, form_row and
+/// speed.
 Program lower_constraints(const Mechanism& mechanism);
 
 /// Lowers single expressions in parameters and t into `program`, for initial values and the like.
 int lower_expression(Program& program, const Mechanism& mechanism, const GiNaC::ex& e);
 
-/// The same for several expressions, in the state too. `given`: symbols that are no part of the scene's state,
-/// each with its node.
+/// The same for several expressions, which may also contain the state. `given` are symbols that are no part of the
+/// scene's state, each with its node.
 std::vector<int> lower_expressions(Program& program, const Mechanism& mechanism,
                                    const std::vector<GiNaC::ex>& list,
                                    const std::vector<std::pair<GiNaC::symbol, int>>& given = {});
 
-/// The same one by one, each with all that it is defined by. What it is given must outlive it.
+/// A function that does the same one expression at a time, with all intermediate symbols that define it. The
+/// arguments must outlive it.
 std::function<int(const GiNaC::ex&)> lowering_into(Program& program, const Mechanism& mechanism,
                                                    const std::vector<std::pair<GiNaC::symbol, int>>& given = {},
                                                    bool fold = false);
 
-/// Names and parameters of a program, no nodes yet.
+/// A program with names and parameters, but without nodes.
 Program begun(const Mechanism& mechanism, bool fold = false);
 
 }  // namespace alembert

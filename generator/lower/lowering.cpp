@@ -41,7 +41,7 @@ int Lowering::define(const ex& symbol, int node) {
 }
 
 void Lowering::lower_definitions(const std::vector<ex>& roots) {
-    std::set<const Intermediates::Entry*> wanted;  // in the order of their making
+    std::set<const Intermediates::Entry*> wanted;  // in the order in which they were made
     std::vector<ex> stack = roots;
     while (!stack.empty()) {
         const ex top = stack.back();
@@ -54,7 +54,8 @@ void Lowering::lower_definitions(const std::vector<ex>& roots) {
         if (entry == nullptr || known_.contains(top) || !wanted.insert(entry).second) continue;
         for (const GiNaC::symbol& used : entry->uses) stack.push_back(used);
     }
-    // Positions: the derivative of an input adds entries to the table, and moves it.
+    // Positions are stored, because the derivative of an input adds entries to the table, which may move it in
+    // memory.
     std::vector<std::ptrdiff_t> order;
     for (const Intermediates::Entry* entry : wanted) order.push_back(entry - m_.z->entries().data());
     for (const std::ptrdiff_t k : order) (*this)(m_.z->entries()[static_cast<std::size_t>(k)].symbol);
@@ -105,7 +106,7 @@ Rational Lowering::rational(const ex& e) {
 
 int Lowering::symbol(const GiNaC::symbol& s) {
     if (const Intermediates::Entry* entry = m_.z->find(s)) {
-        // A copy: the derivative of an input adds entries to the table, and moves it.
+        // A copy, because the derivative of an input adds entries to the table, which may move it in memory.
         const ex definition = entry->definition;
         const std::vector<int> former = program_.set_sources(entry->sources);
         const int node = (*this)(definition);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One expression after the other into nodes of a program, each once.
+/// Converts expressions to nodes of a program, each expression once.
 ///
 ///     Lowering lowering(program, mechanism, false);
 ///     lowering.lower_definitions({kinetic});      // the intermediate symbols that it is defined by
@@ -22,10 +22,10 @@ public:
 
     int operator()(const GiNaC::ex& e);
 
-    /// The value of a symbol that is none of the scene's, or of an expression wherever it occurs.
+    /// Sets the node of a symbol that is not one of the scene's, or of an expression wherever it occurs.
     int define(const GiNaC::ex& symbol, int node);
 
-    /// The intermediate symbols one after the other, so that no recursion is deeper than a definition.
+    /// Lowers the intermediate symbols one after the other, so that no recursion is deeper than a definition.
     void lower_definitions(const std::vector<GiNaC::ex>& roots);
 
 private:
@@ -35,7 +35,7 @@ private:
     int symbol(const GiNaC::symbol& s);
     int parameter(int index);
 
-    /// What an expression in parameters comes to at the scene's values, in double precision.
+    /// The value of an expression in parameters at the scene's values, in double precision.
     Rational folded(const GiNaC::ex& e);
     int input(int index, int order);
 

@@ -12,7 +12,7 @@ namespace alembert {
 
 namespace {
 
-/// ∂v/∂u for v lowered.
+/// ∂v/∂u for a node v.
 std::vector<int> row_of(Program& program, int v, int speeds) {
     std::vector<int> inputs, row(static_cast<std::size_t>(speeds), program.number(0));
     for (int i = 0; i < speeds; ++i) inputs.push_back(program.variable({Variable::Kind::rate, i}));
@@ -22,8 +22,8 @@ std::vector<int> row_of(Program& program, int v, int speeds) {
     return row;
 }
 
-/// Solves a small system without exchanging rows, which friction makes dominant in its diagonal; its determinant
-/// goes to `determinant`.
+/// Solves a small system without row exchanges, because its diagonal dominates for friction of usual size; its
+/// determinant is written to `determinant`.
 std::vector<int> eliminated(Program& program, std::vector<std::vector<int>> a, std::vector<int> b,
                             int& determinant) {
     const std::size_t n = b.size();
@@ -56,7 +56,7 @@ NormalForces::NormalForces(const Mechanism& m, const Equations& e) : e_(e) {
         const auto row = std::find_if(e.lambda.begin(), e.lambda.end(), is_it);
         const bool presses = std::any_of(m.unilateral.begin(), m.unilateral.end(),
                                          [&](const auto& contact) { return is_it(contact.gap.multiplier); });
-        if (row == e.lambda.end() && presses) continue;  // open
+        if (row == e.lambda.end() && presses) continue;  // the contact is open
         if (row == e.lambda.end())
             throw ModelError(
                 fmt::format("friction '{}' needs {}, which the equations do not have: its constraint follows from "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //   K (δπ, ·) = (0, f),   δq = S δπ,   K (δu, ·) = (0, A_q h + b at q − δq),   A = A_q S
-// (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); where all constraints are eliminated, A_q Aₑᵀ ν = f, δq
-// = Aₑᵀ ν.
+// (Hairer & Wanner, Solving ODEs II, §VII.2; there S = 1); if all constraints are eliminated, A_q Aₑᵀ ν = f, δq =
+// Aₑᵀ ν.
 #include "lower/project.hpp"
 
 #include "lower/lower.hpp"
@@ -46,7 +46,7 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
     const bool own_speeds = !equations.speeds_are_rates();
     const std::size_t n = m.q.size(), s = equations.u.size();
     const std::vector<int> position = program.nodes_of(Group::position), kept = equations.kept(m);
-    std::vector<int> across;  // constraints that the speeds have eliminated and coordinates may leave
+    std::vector<int> across;  // constraints that the speeds have eliminated and that coordinates may violate
     for (const Equations::Eliminated& e : equations.eliminated)
         if (!program.is_zero(position[e.constraint])) across.push_back(e.constraint);
     if (kept.empty() && across.empty()) return;
@@ -77,7 +77,8 @@ void add_projection(Program& program, const Mechanism& m, const Equations& equat
         off = combined(program, rows, *nu);
         const std::vector<int> divided = later_pivots(program, square, static_cast<int>(across.size()), 0);
         for (std::size_t k = 0; k < divided.size(); ++k)
-            pivots[across[k]] = program.sum(0, {{-1, divided[k]}});  // their sign was changed
+            // The pivots of the elimination have the opposite sign.
+            pivots[across[k]] = program.sum(0, {{-1, divided[k]}});
     } else {
         for (const int c : kept) misfit.push_back(position[c]);
         off = solve(misfit);

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One step of Newton's method to the constraints, unrolled: the roots "projected" (q, then u) and "pivot".
+/// Adds one unrolled step of Newton's method to the constraints: the roots "projected" (q, then u) and "pivot".
 ///
 ///     add_projection(program, mechanism, equations, K);      // after "position"; K as the accelerations have it
 ///     program.nodes_of(Group::projected);                         // n + s
 ///
-/// For constraints that keep a multiplier it is the least change in the metric of M, from the factors of K = [M
-/// Aᵀ; A 0] that the accelerations have: positions along q' = S u, S = ∂h/∂u, then speeds where they have arrived.
-/// Holonomic constraints that the speeds have eliminated (e·e = 1 of a quaternion, with the angular velocity; then
-/// all are) hold in speeds by themselves, Aₑ S = 0. M knows nothing of directions across them, and coordinates go
-/// along the rows of Aₑ, by the least change in the plain metric: a handful of operations for a quaternion. A
-/// constraint has one pivot: of A M⁻¹Aᵀ, of Aₑ Aₑᵀ, or 0 if it is nonholonomic and eliminated, where there is
-/// nothing to move. No roots at all where that is true of each.
+/// For constraints with a multiplier it is the least change in the metric of M, computed with the factors of K =
+/// [M Aᵀ; A 0] that the accelerations have: first positions along q' = S u, S = ∂h/∂u, then speeds at the new
+/// positions. Any speeds obey holonomic constraints that the speeds have eliminated, Aₑ S = 0 (e·e = 1 of a
+/// quaternion if the speeds are angular velocities; then all holonomic constraints are eliminated). M has no
+/// entries for directions across these, so coordinates are moved along the rows of Aₑ, by the least change in the
+/// Euclidean metric; for a quaternion this takes a handful of operations. Each constraint has one pivot: of A
+/// M⁻¹Aᵀ, of Aₑ Aₑᵀ, or 0 if it is nonholonomic and eliminated, when there is nothing to move. If all constraints
+/// are of the last kind, there are no roots.
 
 #include "formalism/equations.hpp"
 #include "program/program.hpp"
 
 namespace alembert {
 
-/// Of a program that has the roots "position". K: the lower triangle of [M Aᵀ; A 0], of size s and those
-/// constraints that are kept; `fold`: parameters are numbers. Nothing is added where a matrix is singular at every
-/// state.
+/// The program must have the roots "position". K is the lower triangle of [M Aᵀ; A 0], of size s plus the number
+/// of constraints that are kept; with `fold`, parameters are numbers. Nothing is added if a matrix is singular at
+/// every state.
 void add_projection(Program& program, const Mechanism& mechanism, const Equations& equations,
                     const std::vector<int>& K, bool fold);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A piece is described by the cubic polynomial through its values at 0, 1/3, 2/3 and 1, held against those at 1/6,
-// 1/2 and 5/6 and against all others that are known in it.
+// A piece is described by the cubic polynomial through its values at 0, 1/3, 2/3 and 1, which is compared with the
+// values at 1/6, 1/2 and 5/6 and with all other known values in the piece.
 #include "lower/quick_times.hpp"
 
 #include <algorithm>
@@ -15,20 +15,20 @@ namespace alembert {
 namespace {
 
 constexpr int first_pieces = 2039;  // a prime, so that no period of an input is likely to be a multiple of a piece
-constexpr double misfit = 0.02;     // of a value's range
+constexpr double misfit = 0.02;     // relative to a value's range
 constexpr double pieces_a_step = 2;
-constexpr double sudden = 3;                // times shorter than the piece before
-constexpr double shortest = 1e-11;          // of the run
-constexpr long most_evaluations = 300'000;  // some 20 ms
+// A piece is sudden if it is this many times shorter than the one before.
+constexpr double sudden = 3;
+constexpr double shortest = 1e-11;          // relative to the run
+constexpr long most_evaluations = 300'000;  // about 20 ms
 constexpr std::size_t most_marks = 4096;    // zeros and turning points
-constexpr int halvings = 44;                // from one of the first pieces to the last digit of t
+constexpr int halvings = 44;                // enough to get from one of the first pieces to the last digit of t
 
 constexpr unsigned bit(Variable::Kind kind) {
     return 1U << static_cast<unsigned>(kind);
 }
 
-/// Nodes of the right-hand side and of events that contain t, and nothing else but parameters; t itself is not one
-/// of them.
+/// The nodes of the right-hand side and of events that depend only on t and parameters, without t itself.
 std::vector<int> inputs_of(const Program& program) {
     std::vector<int> roots = program.right_hand_side();
     const std::vector<int> events = program.nodes_of(Group::event);
@@ -61,8 +61,8 @@ public:
         double before = 0;
         for (const Piece& piece : pieces_) {
             const double length = piece.to - piece.from, reach = pieces_a_step * length;
-            // A long step has all but its last stages outside of what it ends in: it may not end where a pulse
-            // happens to be zero.
+            // In a long step all stages but the last ones lie before the piece in which it ends. Therefore it must
+            // not end inside a pulse that happens to be zero there.
             const bool is_sudden = piece.is_switch || before > sudden * length;
             before = length;
             if (reach >= end_ - start_) continue;
@@ -95,7 +95,7 @@ private:
     }
     double value(std::size_t k, double t) { return at(t).values[k]; }
 
-    /// Adds what there is at zeros and turning points of all values, and beside them.
+    /// Adds the instants at zeros and turning points of all values, and close to them.
     void mark() {
         const std::size_t count = known_.size();
         std::vector<double> marks;
@@ -132,7 +132,7 @@ private:
         return (left + right) / 2;
     }
 
-    /// Golden section, as far as rounding lets a parabola be told from a line.
+    /// Golden-section search, as far as rounding permits to distinguish a parabola from a line.
     double turn(std::size_t k, double left, double right, int side) {
         constexpr double golden = 0.6180339887498949;
         double a = right - golden * (right - left), b = left + golden * (right - left);
@@ -158,7 +158,7 @@ private:
                 low = std::min(low, sample.values[k]);
                 high = std::max(high, sample.values[k]);
             }
-            // What is constant but for rounding has no range.
+            // A value that is constant except for rounding has no range.
             if (high - low > 1e-12 * std::max(std::abs(low), std::abs(high))) ranges_[k] = high - low;
         }
     }
@@ -201,8 +201,8 @@ private:
         divide((from + to) / 2, to);
     }
 
-    /// Halves leave pieces that are shorter than they need be, most of all beside a switch. Two of one length are
-    /// left alone: little would be won.
+    /// Halving leaves pieces that are shorter than necessary, especially next to a switch; these are joined. Two
+    /// pieces of equal length are not, because little would be gained.
     void join() {
         std::vector<Piece> joined;
         for (const Piece& piece : pieces_) {

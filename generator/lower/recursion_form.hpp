@@ -7,7 +7,7 @@
 
 namespace alembert {
 
-/// Which of the recursions a program is made by.
+/// The recursion from which a program is made.
 struct RecursionForm {
     LinkAxes axes = LinkAxes::own;
     enum class Solve { matrix, articulated, both_ends };

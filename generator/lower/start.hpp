@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers for a mechanism: the scene's own, with some of them replaced.
+/// The numbers of a mechanism: the scene's own, some of which may be replaced.
 ///
 ///     const Start start = start_of(mechanism, {{"theta1", 0.3}, {"theta1'", 1.0}, {"l1", 2.0}});
 ///
@@ -19,31 +19,32 @@
 namespace alembert {
 
 struct Start {
-    std::vector<double> parameters;  ///< the independent ones, as Program counts them
+    std::vector<double> parameters;  ///< the independent parameters, in the order of Program
     double t = 0;
     std::vector<double> q, qdot;
-    std::vector<double> speeds;  ///< of the scene, where the rates follow from them; else empty
-    double duration = 10;        ///< s; 10 where the scene is silent
+    std::vector<double> speeds;  ///< the scene's speeds, if the rates follow from them; else empty
+    double duration = 10;        ///< in s; 10 if the scene does not give it
     double tolerance = 1e-9, step = 0, sample = 0;
-    double max_step = 0;  ///< s; 0: no bound
+    double max_step = 0;  ///< in s; 0 means no bound
 
     State<double> state() const { return {.parameters = parameters, .t = t, .q = q, .qdot = qdot, .qddot = {}}; }
 };
 
 using Overrides = std::vector<std::pair<std::string, double>>;
 
-/// The state as a program of these equations counts it: (q, q'), or (q, u).
+/// The state in the order of a program of these equations: (q, q'), or (q, u).
 State<double> state_of(const Start& start, const Mechanism& mechanism, const Equations& equations);
 
-/// The names are found and the initial values lowered once, for many numbers. What it is given must outlive it.
+/// Looks up the names and lowers the initial values once, for many sets of numbers. The arguments must outlive it.
 class Starts {
 public:
-    /// Throws as start_of, for names.
+    /// Throws like start_of for wrong names.
     Starts(const Mechanism& mechanism, const std::vector<std::string>& names);
 
-    /// A value for each name. An obstacle is a value that is not finite, given or following from the given ones.
+    /// Takes a value for each name. There is an obstacle if a value is not finite, whether given or computed from
+    /// the given ones.
     Possible<Start> possible(const std::vector<double>& values) const;
-    /// The same; throws as start_of, for values.
+    /// The same; throws like start_of for wrong values.
     Start at(const std::vector<double>& values) const { return possible(values).value(); }
 
 private:
@@ -57,15 +58,15 @@ private:
     static double& place(const Spot& spot, Start& start);
 
     const Mechanism& m_;
-    Start plain_;  ///< the scene's own parameters, and room for the rest
+    Start plain_;  ///< the scene's own parameters, and room for the other values
     std::vector<Spot> spots_;
     Program program_;
-    std::vector<int> nodes_;  ///< q, q', speeds, then what the scene says of the run
+    std::vector<int> nodes_;  ///< q, q', speeds, then the scene's settings of the run
 };
 
-/// Initial values that depend on parameters follow the replaced ones. A name is a parameter's, a coordinate's, a
-/// rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the nearest known name,
-/// for a parameter that is defined by others, and for a value that is not finite.
+/// Initial values that depend on parameters are computed from the replaced ones. A name is a parameter's, a
+/// coordinate's, a rate's (`theta1'`), a generalized speed's or `t`. Throws ModelError for any other, with the
+/// nearest known name, for a parameter that is defined by others, and for a value that is not finite.
 Start start_of(const Mechanism& mechanism, const Overrides& overrides = {});
 
 }  // namespace alembert

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A mechanism while it is built from its scene, table by table; mistakes are gathered and reported together. Of
-/// build.cpp alone.
+/// A mechanism while it is built from its scene, table by table. Mistakes are collected and reported together.
+/// Only the files that build the mechanism use this header.
 
 #include <optional>
 #include <vector>
@@ -18,7 +18,7 @@ struct Building {
     Building(const Building&) = delete;
     Building& operator=(const Building&) = delete;
 
-    /// Runs `step`; what it finds wrong is kept, and the building goes on.
+    /// Runs `step`. The mistakes that it finds are kept, and building goes on.
     template <typename Step>
     void attempt(const Step& step) {
         try {
@@ -28,28 +28,29 @@ struct Building {
         }
     }
 
-    /// At the scene's own parameters; not finite at a pole.
+    /// The value at the scene's own parameters; not finite at a pole.
     double number_at(const Expression& e);
 
     const Scene& scene;
     Mechanism m;
     Translator translator;
     Places places;
-    std::optional<ParameterValues> values;  ///< once the parameters are known
+    std::optional<ParameterValues> values;  ///< set as soon as the parameters are known
     std::vector<Diagnostic> mistakes;
-    bool on_sheets = false;              ///< roots of squares are taken on the sheet of the initial state
-    std::shared_ptr<RootSheets> sheets;  ///< then: once parameters and coordinates are known
+    bool on_sheets = false;              ///< whether roots of squares are taken on the sheet of the initial state
+    std::shared_ptr<RootSheets> sheets;  ///< set in that case, as soon as parameters and coordinates are known
 };
 
-/// Parameters, inputs, coordinates, speeds' names, definitions; their values are finite numbers. Throws InputError
-/// where not.
+/// Adds parameters, inputs, coordinates, the names of speeds, and definitions. Throws InputError if a value is not
+/// a finite number.
 void declare(Building& here);
-/// Masses, the system graph of joints, springs, dampers, forces, torques, impulses, given energies: T, V and the
-/// loads.
+/// Adds T, V and the loads: masses, the system graph of joints, springs, dampers, forces, torques, impulses, given
+/// energies.
 void add_loads(Building& here);
-/// [[constraint]], quaternions' norms, [[rolling]], joints that close loops, [[unilateral]].
+/// Adds the constraints: [[constraint]], norms of quaternions, [[rolling]], joints that close loops,
+/// [[unilateral]].
 void add_conditions(Building& here);
-/// [[friction]]: once the conditions are known.
+/// Adds [[friction]], after the constraints.
 void add_frictions(Building& here);
 
 }  // namespace alembert

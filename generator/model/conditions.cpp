@@ -49,8 +49,8 @@ void add_norm(Building& here, const FrameQuaternion& quaternion, int index) {
     here.translator.know(multiplier, here.m.constraints.back().multiplier);
 }
 
-/// The rows of a rolling along the axes of the frame that its contact is given in. None where that is N, or where
-/// a row would be needed that there is none of along N.
+/// The rows of a rolling condition along the axes of the frame in which its contact is given. There are none if
+/// that frame is N, or if a row would be needed for which there is none along N.
 std::vector<Mechanism::Constraint> rows_along_axes(Building& here, const RollingRule& rule, const Vector3& slip,
                                                    bool drifts) {
     std::vector<Mechanism::Constraint> result;
@@ -100,7 +100,7 @@ void add_rolling(Building& here, const RollingRule& rule, int index) {
     std::vector<GiNaC::symbol> clock{here.m.t};
     for (const Mechanism::Input& input : here.m.inputs)
         clock.insert(clock.end(), input.derivative.begin(), input.derivative.end());
-    // Velocities are forms in the rates alone where no place and no attitude depends on time by itself.
+    // Velocities are homogeneous in the rates if no position and no orientation depends on time explicitly.
     const auto by_itself = [&](const Vector3& v) {
         return std::any_of(v.begin(), v.end(), [&](const ex& e) { return z.depends(e, clock); });
     };
@@ -162,7 +162,7 @@ void add_constraint(Building& here, const ConstraintRule& rule, int index) {
     here.translator.know(multiplier, here.m.constraints.back().multiplier);
 }
 
-// A direction in which no coordinate moves the bodies against each other.
+// Checks a direction in which no coordinate moves the bodies relative to each other.
 void need_closed(Building& here, const Joint& joint, const ex& value, int k) {
     const bool moves = here.m.z->depends(value, {here.m.t}) &&
                        !is_identically_zero(here.m.explicit_time_derivative({value})[0], here.m);

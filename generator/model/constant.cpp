@@ -63,7 +63,7 @@ GiNaC::ex constant_value(const std::string& text) {
         return value;
     } catch (const ModelError&) {
         throw;
-    } catch (const std::exception&) {  // of GiNaC and CLN: poles, 0^0, what overflows
+    } catch (const std::exception&) {  // thrown by GiNaC and CLN at poles, for 0^0 and on overflow
         throw ModelError("this has no value: it divides by zero, or is too large");
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers that a user types on the command line: as in a scene they may be expressions of numbers and pi.
+/// Numbers that a user types on the command line. As in a scene, they may be expressions of numbers and pi.
 ///
 ///     constant_value("-pi/2")        // −π/2, exactly
 ///     constant_value("2*atan(1/3)")  // as counterexamples have it

@@ -97,7 +97,7 @@ void define(Building& here) {
         });
 }
 
-/// `least`: nothing is less than this, where it is given.
+/// If `least` is given, the value must not be less.
 void require(Building& here, const Expression& e, const std::string& what, std::optional<double> least = {}) {
     here.attempt([&] {
         const double value = here.number_at(e);
@@ -126,7 +126,7 @@ void check_values(Building& here) {
             require(here, *b.inertia->planar, what, 0);
             continue;
         }
-        double largest = 0;  // of which a negative moment may be what rounding left
+        double largest = 0;  // relative to this, a negative moment may be rounding
         for (std::size_t k = 0; k < 3; ++k)
             here.attempt([&] { largest = std::max(largest, std::abs(here.number_at(b.inertia->tensor[k]))); });
         for (std::size_t k = 0; k < 6; ++k)

@@ -25,8 +25,8 @@ std::vector<GiNaC::symbol> clock(const Mechanism& m) {
     return symbols;
 }
 
-/// A frame that turns at a given rate leaves T₁ and T₀ in T even where t itself cancels from T (a gyrocompass), so
-/// that the question is put to the places, not to T.
+/// A frame that turns at a given rate leaves T₁ and T₀ in T even if t itself cancels from T (a gyrocompass).
+/// Therefore the positions are tested, not T.
 bool places_depend_on_time(const Mechanism& m) {
     const std::vector<GiNaC::symbol> time = clock(m);
     const auto depends = [&](const Vector3& v) {

@@ -42,7 +42,7 @@ Formulas::Formulas(const Scene& scene, const Mechanism& m, std::shared_ptr<RootS
                 if (name_of(item) == name) return true;
             return false;
         };
-        // A scene may have a name of its own of this form.
+        // The scene may use a name of this form itself.
         if (!taken(m.parameters, [](const auto& item) { return item.symbol.get_name(); }) &&
             !taken(m.inputs, [](const auto& item) { return item.derivative[0].get_name(); }) &&
             !taken(m.definitions, [](const auto& item) { return item.name; }))

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Expressions of the scene language as values in a mechanism that has been built: what claims and the like are
-/// read with.
+/// Translates expressions of the scene language, such as claims, to expressions in the symbols of a mechanism.
 ///
 ///     Formulas formulas(scene, mechanism);
 ///     const ex residual = formulas.value(claim.lhs) - formulas.value(claim.rhs);
 ///
-/// Known are the names of the scene, multipliers, the momenta p_<coordinate> (∂L/∂q', Zhang & Qin §1.7) and what
-/// `know` adds. Throws SceneMistake for a name that is none of these.
+/// Expressions may contain the names of the scene, multipliers, the momenta p_<coordinate> (∂L/∂q', Zhang & Qin
+/// §1.7) and names that `know` adds. SceneMistake is thrown for any other name.
 
 #include "model/places.hpp"
 
@@ -16,7 +15,7 @@ namespace alembert {
 
 class Formulas {
 public:
-    /// `sheets`: those on which the mechanism was built, if it was.
+    /// `sheets` are those on which the mechanism was built, if any.
     Formulas(const Scene& scene, const Mechanism& mechanism, std::shared_ptr<RootSheets> sheets = {});
     Formulas(const Formulas&) = delete;
     Formulas& operator=(const Formulas&) = delete;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. Where v stays 0 the sign is the
-// number between −μₛ/μ and μₛ/μ that keeps it so; a run finds it (alembert/switching.hpp).
+// Dry friction (Coulomb): the force −μ N sign(v) along the sliding velocity v. While v stays 0, the sign is
+// replaced by the number between −μₛ/μ and μₛ/μ that keeps it 0; a run finds that number (alembert/switching.hpp).
 #include "model/friction.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// At the scene's parameters, where it is a number there.
+/// Checks the coefficients at the scene's parameters, if they are numbers there.
 void need_coefficients(Building& here, const FrictionRule& rule) {
     const double sliding = here.number_at(rule.coefficient);
     if (sliding < 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Dry friction whose normal force is a multiplier, for those who know no such loads.
+/// Refuses dry friction whose normal force is a multiplier, for computations that do not support such loads.
 ///
 ///     need_given_normal_forces(mechanism, "linearize");
 
@@ -11,7 +11,7 @@
 
 namespace alembert {
 
-/// Throws ModelError with the friction's name where there is one; `who` is in the way.
+/// Throws ModelError with the friction's name if there is one. `who` names the computation in the message.
 void need_given_normal_forces(const Mechanism& m, std::string_view who);
 
 }  // namespace alembert

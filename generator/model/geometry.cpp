@@ -3,8 +3,9 @@
 // composition R_NC = R_NB R_BC, addition of angular velocities ω_NC = R_BCᵀ ω_NB + φ' a
 // (Zhang & Qin, chapter 2; Kane & Levinson, Dynamics (1985), chapter 2). By a quaternion e = (e₀, ε):
 //   R = ((e₀² − ε·ε) E + 2 ε εᵀ + 2 e₀ ε̃)/(e·e),   ω = 2 (e₀ ε' − e₀' ε − ε × ε')/(e·e) along the new axes
-// (Goldstein, Classical Mechanics (1980), §4-5; vec(e* e') doubled). Divided by e·e they hold for every e, so that
-// T and V do not change along e and all formalisms give the same multiplier of e·e = 1, which is 0.
+// (Goldstein, Classical Mechanics (1980), §4-5; twice vec(e* e')). Because of the division by e·e they hold for
+// every e, so that T and V do not change along e and all formalisms give the same multiplier of e·e = 1, which is
+// 0.
 #include "model/geometry.hpp"
 
 #include "symbolic/functions.hpp"
@@ -55,7 +56,7 @@ Orientation Orientation::turned(const Vector3& axis, const ex& angle, const ex& 
         for (int k = 0; k < 3; ++k) {
             const ex tilde = i == k ? ex(0) : ((k - i + 3) % 3 == 1 ? -a[3 - i - k] : a[3 - i - k]);
             R[i][k] = (i == k ? c : ex(0)) + (1 - c) * a[i] * a[k] + s * tilde;
-            // On the axis itself c + (1 − c)·1 is 1.
+            // For the axis itself, c + (1 − c)·1 is 1.
             R[i][k] = z.name(a[i].is_equal(1) && i == k ? ex(1) : R[i][k]);
         }
     Step step{axis, whole, whole_rate, {}, {}};

@@ -13,7 +13,7 @@ namespace alembert {
 Vector3 add(const Vector3& a, const Vector3& b, Intermediates& z);
 Vector3 scale(const GiNaC::ex& factor, const Vector3& a, Intermediates& z);
 GiNaC::ex dot(const Vector3& a, const Vector3& b, Intermediates& z);
-/// Is it zero as it is written?
+/// Are all components literally zero?
 inline bool is_zero(const Vector3& v) {
     return v[0].is_zero() && v[1].is_zero() && v[2].is_zero();
 }
@@ -21,20 +21,20 @@ Vector3 cross(const Vector3& a, const Vector3& b, Intermediates& z);
 /// √(a·a)
 GiNaC::ex norm(const Vector3& a, Intermediates& z);
 
-/// A frame as the successive simple rotations that lead to it from N. Rotations that follow each other about the
-/// same axis are one, by the sum of their angles: a planar chain has one sine and cosine for each link.
+/// A frame as the successive simple rotations that lead to it from N. Successive rotations about the same axis are
+/// combined into one by the sum of their angles, so that a planar chain has one sine and one cosine for each link.
 class Orientation {
 public:
     /// N itself.
     Orientation();
 
-    /// The frame reached from this one by turning by `angle` about the unit vector `axis` (components in this
-    /// frame, which are those in the new one too); `rate` is the angle's time derivative.
+    /// The frame reached from this one by turning by `angle` about the unit vector `axis` (its components are the
+    /// same in this frame and in the new one); `rate` is the angle's time derivative.
     Orientation turned(const Vector3& axis, const GiNaC::ex& angle, const GiNaC::ex& rate, Intermediates& z) const;
 
-    /// The frame reached from this one by the turn of a quaternion, scalar first: components of `rate` are its
-    /// derivative's. Both are those of e/|e|, whatever e's length: the turn is one, and the angular velocity its
-    /// own, beside e·e = 1 too.
+    /// The frame reached from this one by the turn of a quaternion, scalar first: `rate` is its derivative. The
+    /// rotation and the angular velocity are those of e/|e| for any length of e, so that they are a rotation and
+    /// its angular velocity even where e·e = 1 does not hold.
     Orientation turned(const std::array<GiNaC::ex, 4>& e, const std::array<GiNaC::ex, 4>& rate,
                        Intermediates& z) const;
 
@@ -45,7 +45,7 @@ public:
     /// w_NB_B
     const Vector3& angular_velocity() const { return steps_.back().w_NB_B; }
 
-    int frame = 0;  ///< which one of Skeleton::frames this is
+    int frame = 0;  ///< the position in Skeleton::frames
 
 private:
     struct Step {

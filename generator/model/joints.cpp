@@ -11,7 +11,7 @@ using GiNaC::ex;
 
 namespace {
 
-/// About an axis, or by a quaternion.
+/// A turn about an axis, or by a quaternion.
 struct JointTurn {
     Vector3 axis;
     ex angle = 0;
@@ -24,13 +24,14 @@ Vector3 unit(int k) {
     return e;
 }
 
-/// Of the joint: turns about axes that each takes along, and shifts along its axes in the parent.
+/// The motion of a joint: turns about axes that the turns before carry along, and shifts along its axes in the
+/// parent.
 struct Motion {
     std::vector<JointTurn> turns = {};
     Vector3 shift{0, 0, 0};
 };
 
-/// x, y, z of the joint's axes, or the axis that the scene gives.
+/// The x, y or z axis of the joint, or the axis that the scene gives.
 Vector3 direction_of(const Move& move, const Joint& joint, Places& places) {
     return move.along == 'a' ? places.unit_axis(joint.axis) : unit(move.along - 'x');
 }
@@ -98,10 +99,10 @@ Orientation axes_of(const Joint::Side& side, Places& places) {
     return turned(places.orientation(side.body.text), turns_of(side.rotate, places), places);
 }
 
-/// Two directions across the axis, near to those of the letters that it is farthest from, and which letter is
-/// left.
+/// Two directions perpendicular to the axis, near those two of x, y, z from which it is farthest, and the
+/// remaining letter.
 struct Across {
-    std::array<Vector3, 3> e;  ///< at `along` the axis itself
+    std::array<Vector3, 3> e;  ///< element `along` is the axis itself
     int along;
 };
 
@@ -154,7 +155,7 @@ JointArc arc_of(const Joint& joint, Places& places) {
                       relative = turned(Orientation(), forwards ? motion.turns : backwards(motion.turns), places);
     arc.shift = motion.shift;
     arc.turning = relative.to_inertial(relative.angular_velocity(), z);
-    // Not as differences of positions, which lose digits far from O.
+    // Not computed as differences of positions, which lose digits far from O.
     const auto arm = [&](const Joint::Side& side) {
         return places.orientation(side.body.text).to_inertial(places.vector(side.point), z);
     };
@@ -201,8 +202,8 @@ std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
             for (int k = 0; k < 3; ++k) shift(unit(k));
         return rows;
     }
-    // Translations along the joint's letters; where it slides along its own axis, along that and two directions
-    // across it.
+    // Translations are along the joint's x, y, z; if it slides along its own axis, they are along that axis and
+    // two directions perpendicular to it.
     Across directions{.e = {unit(0), unit(1), unit(2)}, .along = 2};
     std::array<const Move*, 3> slides{};
     std::vector<const Move*> turns;
@@ -225,7 +226,8 @@ std::vector<ClosingRow> closing_rows(const Joint& joint, Places& places) {
                 {false, z.name(places.rate(dot(d, a, z)) - places.value(joint.pitch) * dot(turning, a, z))});
         }
     }
-    // Rotations: about all three, across the axis of one turn, or what keeps the axes of two at right angles.
+    // Rotations are locked about all three axes, or about the two perpendicular to the axis of the one free turn;
+    // with two free turns, the row keeps their axes perpendicular.
     if (turns.empty())
         for (int k = 0; k < 3; ++k) turn(unit(k), unit((k + 2) % 3));
     if (turns.size() == 1)

@@ -15,7 +15,7 @@ using Kind = Origin::Kind;
 
 namespace {
 
-// ½ m v², and −m g·r
+// Adds ½ m v², and −m g·r.
 void add_translation(Building& here, const Origin& origin, const ex& mass) {
     const std::string& point = origin.name;
     const Vector3 v = here.places.velocity(point);
@@ -32,7 +32,8 @@ void add_translation(Building& here, const Origin& origin, const ex& mass) {
     if (!weight.is_zero()) here.m.potential.push_back({gravity_on(origin), weight});
 }
 
-// ½ ω·I ω with I about the mass centre; if I is about P, less ½ m (v − v_P)², what the transport adds.
+// Adds ½ ω·I ω with I about the mass centre. If I is about P, subtracts ½ m (v − v_P)², the part due to the
+// distance between the two points.
 void add_rotation(Building& here, const Body& b, const ex& mass, int index) {
     if (!b.inertia) return;
     const Orientation& orientation = here.places.orientation(b.frame.text);
@@ -86,7 +87,7 @@ void add_body(Building& here, const Body& b, const Origin& origin) {
     add_rotation(here, b, mass, origin.index);
 }
 
-/// The system graph.
+/// Adds the system graph.
 void add_joints(Building& here) {
     const auto index = [&](const std::string& body) {
         const auto found = std::find_if(here.m.masses.begin(), here.m.masses.end(), [&](const MassElement& e) {
@@ -103,13 +104,13 @@ void add_joints(Building& here) {
         });
 }
 
-/// From the first point of a spring or damper to the second.
+/// The vector from the first point of a spring or damper to the second.
 Vector3 across(Building& here, const Link& link) {
     return add(here.places.position(link.between->second.text),
                scale(-1, here.places.position(link.between->first.text), *here.m.z), *here.m.z);
 }
 
-/// Its length, or the expression along which it acts.
+/// The length of a link, or the expression along which it acts.
 ex length_of(Building& here, const Link& link) {
     return link.between ? here.translator.length(across(here, link))
                         : here.m.z->name(here.translator.scalar(link.along));
@@ -135,7 +136,7 @@ void add_spring(Building& here, const Link& s, const Origin& origin) {
     here.m.springs.push_back(std::move(spring));
 }
 
-// −c d' along d
+// The force −c d' along d.
 void add_damper(Building& here, const Link& damper, const Origin& origin) {
     const ex length = length_of(here, damper);
     const ex rate = here.m.time_derivative({length})[0];
@@ -179,7 +180,7 @@ void add_impulse(Building& here, const Impulse& impulse, const Origin& origin) {
     here.m.impulses.push_back(std::move(load));
 }
 
-/// Along a coordinate, to `loads` or `impulses`.
+/// Adds a force or impulse along a coordinate to `loads` or `impulses`.
 void add_generalized(Building& here, std::vector<Load>& to, const GeneralizedForce& f, const Origin& origin) {
     for (int i = 0; i < here.m.size(); ++i)
         if (here.m.q[i].get_name() == f.coordinate.text)
@@ -196,7 +197,8 @@ void add_rayleigh(Building& here, const Expression& function, const Origin& orig
     here.m.loads.push_back(std::move(load));
 }
 
-/// What `add` makes of each entry of a table of the scene; what is named on the way bears the origin's label.
+/// Calls `add` for each entry of a table of the scene; intermediate symbols that are made meanwhile have the
+/// entry's label as their source.
 template <typename Entry, typename Name, typename Add>
 void each(Building& here, Kind kind, const std::vector<Entry>& table, const Name& name, const Add& add) {
     for (std::size_t i = 0; i < table.size(); ++i)
@@ -207,7 +209,7 @@ void each(Building& here, Kind kind, const std::vector<Entry>& table, const Name
         });
 }
 
-/// The same of an expression that the scene may give.
+/// The same for an expression that the scene may give.
 template <typename Add>
 void one(Building& here, Kind kind, const Expression& expression, const Add& add) {
     here.attempt([&] {
@@ -234,7 +236,7 @@ void add_energies(Building& here) {
 
 }  // namespace
 
-// One row for each table of the scene.
+// There is one row for each table of the scene.
 void add_loads(Building& here) {
     const Scene& s = here.scene;
     const auto name = [](const auto& entry) { return entry.name.text; };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A mechanical system as symbols: what every formalism starts from.
+/// A mechanical system in symbols, from which every formalism starts.
 ///
 ///     const Mechanism mechanism = build(read_scene("pendulum.toml"));
 ///     const ex T = mechanism.kinetic_energy();
 ///
-/// All expressions are in the symbols of `symbols`; whatever is more than an atom is an intermediate symbol of
-/// `z`. Vectors have three components along the axes of the inertial frame N.
+/// All expressions are in the symbols of `symbols`; every expression that is more than an atom is an intermediate
+/// symbol of `z`. Vectors have three components along the axes of the inertial frame N.
 
 #include <array>
 #include <memory>
@@ -27,55 +27,58 @@ struct Part {
     GiNaC::ex value;
 };
 
-/// A load that is not in V, as what it does: forces times velocities. Its generalized force is
-/// Q_i = Σ force · ∂velocity/∂q'_i, its power Σ force · velocity.
+/// A load that is not in V, given by its power: forces times velocities. Its generalized force is Q_i = Σ force ·
+/// ∂velocity/∂q'_i, its power Σ force · velocity.
 struct Load {
     Origin origin;
-    bool dissipative = false;  ///< a damper or Rayleigh's function: a textbook keeps it on the left
+    /// Whether it is a damper or Rayleigh's function, which textbooks write on the left-hand side.
+    bool dissipative = false;
     struct Pair {
         GiNaC::ex velocity, force;
-        std::optional<GiNaC::ex> position = {};  ///< whose rate the velocity is, where it is one
+        std::optional<GiNaC::ex> position = {};  ///< the quantity whose rate the velocity is, if there is one
     };
     std::vector<Pair> pairs;
 };
 
-/// A particle or a body as Newton and Euler see it, for the formalisms that do not start from T.
+/// A particle or a body with what Newton's and Euler's equations need, for the formalisms that do not start from
+/// T.
 struct MassElement {
     Origin origin;
     GiNaC::ex mass;
     Vector3 position, velocity;  ///< of the mass centre
     struct Rotation {
-        std::array<Vector3, 3> axes;       ///< the body's unit axes, along N
-        Vector3 w_NB_B;                    ///< angular velocity along the body's axes
-        std::array<GiNaC::ex, 6> inertia;  ///< xx yy zz xy yz zx along the body's axes, about the mass centre
-        std::optional<Vector3> about =
-            {};  ///< mass centre minus the point of the body that `inertia` is about, along N
+        std::array<Vector3, 3> axes;        ///< the body's unit axes, along N
+        Vector3 w_NB_B;                     ///< angular velocity along the body's axes
+        std::array<GiNaC::ex, 6> inertia;   ///< xx yy zz xy yz zx along the body's axes, about the mass centre
+        std::optional<Vector3> about = {};  ///< position of the mass centre minus that of the point of the body
+                                            ///< about which `inertia` is given, along N
     };
     std::optional<Rotation> rotation = {};
     int frame = 0, point = 0,
-        about = -1;  ///< in Mechanism::skeleton; `about`: the point that `inertia` is about, if another
+        about = -1;  ///< positions in Mechanism::skeleton; `about` is the point about which `inertia` is given, if
+                     ///< not the mass centre
 };
 
-/// A joint of the system graph. Where it places a body (an arc of the tree) it says how the outer of its two
-/// bodies moves against the inner one, which is nearer to the ground; one that closes a loop (a chord) says whom
-/// it joins.
+/// A joint of the system graph. If it places a body (an arc of the tree), it describes the motion of the outer of
+/// its two bodies relative to the inner one, which is nearer to the ground. If it closes a loop (a chord), it only
+/// says which bodies it joins.
 struct JointArc {
     std::string name, type;
     int parent = -1, child = -1;  ///< positions in Mechanism::masses; −1 is the ground
     enum class Role { places_child, places_parent, closes_loop } role;
     std::array<Vector3, 3> axes = {};  ///< the joint's axes in the inner body, along N
-    Vector3 turning = {};              ///< ω of the outer body against the inner one, along `axes`
+    Vector3 turning = {};              ///< ω of the outer body relative to the inner one, along `axes`
     Vector3 to_pivot = {};    ///< from the inner mass centre (from O) to the joint's point of the child, along N
-    Vector3 from_pivot = {};  ///< on to the outer mass centre (to O)
+    Vector3 from_pivot = {};  ///< from there to the outer mass centre (to O)
     std::array<Vector3, 3> slide_axes = {};  ///< the joint's axes in the parent, along N
-    Vector3 shift = {};                      ///< of the child's point against the parent's, along `slide_axes`
-    Vector3 sliding = {};                    ///< its rate
+    Vector3 shift = {};    ///< displacement of the child's point relative to the parent's, along `slide_axes`
+    Vector3 sliding = {};  ///< the rate of `shift`
 
     int inner() const { return role == Role::places_parent ? child : parent; }
     int outer() const { return role == Role::places_parent ? parent : child; }
 };
 
-/// A spring as forces: between two points, or along an expression.
+/// A spring with what its forces need: between two points, or along an expression.
 struct SpringElement {
     Origin origin;
     GiNaC::ex stiffness, free_length;
@@ -106,30 +109,31 @@ struct Mechanism {
         GiNaC::ex form;              ///< in q, q', t
         std::vector<GiNaC::ex> row;  ///< ∂form/∂q'
         GiNaC::ex drift;
-        std::optional<GiNaC::ex> start;  ///< in parameters; nothing where the scene gives rates
+        std::optional<GiNaC::ex> start;  ///< in parameters; nothing if the scene gives rates
         std::string unit;
         Place place;
     };
 
-    /// A constraint as a row: row·q' + drift = 0, and once more differentiated row·q'' = acceleration.
+    /// A constraint as a row: row·q' + drift = 0 and, differentiated once more, row·q'' = acceleration.
     struct Constraint {
         std::string name;
         bool holonomic = true;              ///< as the scene declares it
-        std::optional<GiNaC::ex> position;  ///< f(q,t), holonomic ones
+        std::optional<GiNaC::ex> position;  ///< f(q,t) of a holonomic constraint
         std::vector<GiNaC::ex> row;         ///< ∂f/∂q, or the coefficients of q'
-        GiNaC::ex drift;                    ///< ∂f/∂t, or what stands beside the rates
+        GiNaC::ex drift;                    ///< ∂f/∂t, or the part without rates
         GiNaC::ex acceleration;             ///< −(row)'·q' − (drift)'
         GiNaC::symbol multiplier;           ///< λ: M q'' = F + Σ row λ
         Place place;
-        std::optional<int> joint = {};    ///< position in `joints` of the one whose loop the row closes
-        std::optional<int> rolling = {};  ///< position in `rollings` of the one whose row this is
-        bool norm = false;  ///< e·e = 1 of a quaternion: no inertia resists its direction, Σ row q'
+        std::optional<int> joint = {};  ///< position in `joints` of the joint whose loop the row closes
+        /// Position in `rollings` of the rolling condition to which the row belongs.
+        std::optional<int> rolling = {};
+        bool norm = false;  ///< whether this is e·e = 1 of a quaternion: there is no inertia along its row
     };
 
-    /// gap(q,t) ≥ 0: free where it is positive, a constraint with λ ≥ 0 where it is zero.
+    /// gap(q,t) ≥ 0: the contact is open where the gap is positive, and a constraint with λ ≥ 0 where it is zero.
     struct Unilateral {
         Constraint gap;
-        GiNaC::ex restitution;  ///< relative speed after an impact over the one before, 0 to 1; in parameters
+        GiNaC::ex restitution;  ///< relative speed after an impact divided by that before, 0 to 1; in parameters
     };
 
     /// Dry friction, whose force −coefficient·normal·sign(slip) is among `loads` (Origin::Kind::friction). While
@@ -138,13 +142,14 @@ struct Mechanism {
         std::string name;
         GiNaC::ex slip;                  ///< linear in the rates
         GiNaC::ex coefficient, resting;  ///< kinetic and static
-        GiNaC::ex normal;                ///< N; of a constraint or contact λ or |λ|
-        /// Whose λ it is, in `constraints` (of the mode) by its multiplier; nothing where N is given.
+        GiNaC::ex normal;                ///< N; for a constraint |λ|, for a contact λ
+        /// The multiplier λ that gives N, of a constraint in `constraints` (of the contact mode); nothing if N is
+        /// given.
         std::optional<GiNaC::symbol> multiplier;
         Place place;
     };
 
-    std::string name;  ///< of the scene's file, without folder and ending
+    std::string name;  ///< the name of the scene's file, without folder and ending
     std::string title;
     std::shared_ptr<Symbols> symbols;
     std::shared_ptr<Intermediates> z;
@@ -153,45 +158,48 @@ struct Mechanism {
     std::vector<Input> inputs;
     std::vector<Definition> definitions;
     std::vector<GiNaC::symbol> q, qdot, qddot;
-    std::vector<std::string> units;               ///< of the coordinates
-    std::vector<GiNaC::ex> q_start, qdot_start;   ///< in parameters
-    std::vector<bool> q_is_guess, qdot_is_guess;  ///< may move so that the constraints hold at the start
-    std::vector<Speed> speeds;                    ///< empty: the rates
+    std::vector<std::string> units;              ///< units of the coordinates
+    std::vector<GiNaC::ex> q_start, qdot_start;  ///< in parameters
+    std::vector<bool> q_is_guess,
+        qdot_is_guess;          ///< values that may be changed so that the constraints hold at the start
+    std::vector<Speed> speeds;  ///< if empty, the rates are the speeds
     std::vector<Part> kinetic, potential;
-    std::optional<GiNaC::ex> given_lagrangian;  ///< then `kinetic` and `potential` are empty
+    std::optional<GiNaC::ex> given_lagrangian;  ///< if given, `kinetic` and `potential` are empty
     std::vector<Load> loads;
-    std::vector<Load> impulses;       ///< ∫load dt of what acts at the start in no time; not among `loads`
-    std::vector<MassElement> masses;  ///< what the parts of `kinetic` are, but for [energy]
+    std::vector<Load> impulses;  ///< ∫load dt of the impulses that act at the start; not among `loads`
+    std::vector<MassElement>
+        masses;  ///< the masses to which the parts of `kinetic` belong, except those of [energy]
     std::vector<SpringElement> springs;
     std::vector<JointArc> joints;  ///< in the order of the scene
-    Skeleton skeleton;             ///< how frames and points hang together
+    Skeleton skeleton;             ///< how frames and points are connected
     Vector3 gravity{0, 0, 0};
     std::vector<Constraint> constraints;
     std::vector<Constraint> redundant;    ///< left out of `constraints` because they follow from these
-    std::vector<std::string> identities;  ///< rows of joints that hold wherever the bodies are
-    /// What rolls, for the choice of axes of its rows (state/redundancy.hpp).
+    std::vector<std::string> identities;  ///< rows of joints that hold in every position of the bodies
+    /// A rolling condition, for the choice of the axes of its rows (state/redundancy.hpp).
     struct Rolling {
-        std::string name, axes;         ///< the frame along whose axes the contact is given
-        std::vector<Constraint> along;  ///< the same rows along these; those that hold identically are left out
-        bool is_along = false;          ///< these have taken the place of the rows along N
+        std::string name, axes;         ///< its name, and the frame along whose axes the contact is given
+        std::vector<Constraint> along;  ///< the same rows along these axes, without those that hold identically
+        bool is_along = false;          ///< whether these rows have replaced those along N
     };
     std::vector<Rolling> rollings;
     std::vector<Unilateral> unilateral;
     std::vector<Friction> frictions;
     std::vector<Definition> outputs, events;
 
-    /// What a zero of an event does, beside being told.
+    /// What happens at a zero of an event, apart from its report.
     struct EventAction {
         bool stop = false;
-        int direction = 0;                    ///< +1: only where the value grows, −1: falls, 0: both
-        std::vector<GiNaC::ex> impulse = {};  ///< Q̂ by coordinate, in q, t and the rates before; empty: none
+        int direction = 0;  ///< +1: only where the value grows; −1: only where it falls; 0: both
+        /// Q̂ by coordinate, in q, t and the rates before; empty if there is none.
+        std::vector<GiNaC::ex> impulse = {};
     };
     std::vector<EventAction> event_actions;  ///< one for each of `events`
 
     /// Do rates jump at an event?
     bool has_kicks() const;
 
-    /// [simulation], in parameters; nothing where the scene is silent.
+    /// The settings of [simulation], in parameters; nothing for those that the scene does not give.
     struct Run {
         std::optional<GiNaC::ex> start, duration, tolerance, step, max_step, sample, period;
         std::string method = "auto";
@@ -201,11 +209,11 @@ struct Mechanism {
     /// Degrees of freedom of a scene without constraints: the number of coordinates.
     int size() const { return static_cast<int>(q.size()); }
 
-    /// Those whose multipliers the equations leave open: gaps that may be closed, and constraints that follow from
-    /// others.
+    /// The constraints whose multipliers are not determined by the equations: gaps that may be closed, and
+    /// constraints that follow from others.
     std::vector<const Constraint*> undetermined() const;
 
-    /// What changes with time, but for the rates: coordinates, t, inputs.
+    /// The symbols that change with time, except the rates: coordinates, t, inputs.
     std::vector<GiNaC::symbol> moving() const;
 
     GiNaC::ex kinetic_energy() const;
@@ -215,7 +223,7 @@ struct Mechanism {
 
     /// The total time derivative of each value: q → q', q' → q'', inputs → their derivatives, t → 1.
     std::vector<GiNaC::ex> time_derivative(const std::vector<GiNaC::ex>& values) const;
-    /// The part of it at q'' = 0 that is not due to q: ∂/∂t, inputs included.
+    /// The part of the time derivative at q'' = 0 that does not come from q: ∂/∂t, inputs included.
     std::vector<GiNaC::ex> explicit_time_derivative(const std::vector<GiNaC::ex>& values) const;
     /// The time derivative at q'' = 0.
     std::vector<GiNaC::ex> time_derivative_without_acceleration(const std::vector<GiNaC::ex>& values) const;
@@ -228,16 +236,16 @@ struct Mechanism {
 
 /// A [polynomial]: its parameters, and its coefficients in them, highest power first.
 struct PolynomialScene {
-    Mechanism mechanism;  ///< parameters alone
+    Mechanism mechanism;  ///< with parameters only
     std::vector<GiNaC::ex> coefficients;
 };
 
-/// Throws SceneError as `build`. The scene has a polynomial.
+/// Throws SceneError as `build`. The scene must have a polynomial.
 PolynomialScene polynomial_of(const Scene& scene);
 
 /// Builds the mechanism of a scene. Throws ModelError for a scene with a [polynomial] in place of a mechanism, and
-/// SceneError for what is wrong with the scene's values (a negative mass or moment of inertia, a parameter that is
-/// not finite), each with its place.
+/// SceneError for wrong values in the scene (a negative mass or moment of inertia, a parameter that is not
+/// finite), each with its place.
 Mechanism build(const Scene& scene);
 
 /// An exact number from a literal such as `0.1` or `2e3`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Where a part of the mechanism comes from. Code asks for `kind` and `index`; `label` is for people alone.
+/// The origin of a part of the mechanism in the scene. Code uses `kind` and `index`; `label` is for people only.
 ///
 ///     if (part.origin.kind != Origin::Kind::gravity) …
 ///     fmt::print("V of {}", label(part.origin));       // "V of gravity on particle M1"
@@ -14,7 +14,7 @@ struct Origin {
     enum class Kind {
         particle,
         body,
-        rotation,  ///< of a body: its share of T
+        rotation,  ///< the share of a body's rotation in T
         gravity,
         spring,
         damper,
@@ -27,11 +27,12 @@ struct Origin {
         given_potential,
         given_lagrangian,
         rayleigh,  ///< [dissipation]
-        friction,  ///< dry
+        friction,  ///< dry friction
     };
     Kind kind = Kind::body;
-    int index = 0;  ///< position in the scene's table of that kind; of gravity in the table of what it acts on
-    std::string name = {};  ///< of the particle, body, point, frame or coordinate; empty where the kind has none
+    /// Position in the scene's table of that kind; for gravity, in the table of the mass on which it acts.
+    int index = 0;
+    std::string name = {};  ///< of the particle, body, point, frame or coordinate; empty if the kind has none
 };
 
 /// "body A", "rotation of body A", "spring 1", "force 2 at P", "[energy] kinetic".

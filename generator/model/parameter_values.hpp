@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers for expressions in parameters, at the scene's own values.
+/// The values of expressions in parameters, at the scene's own values.
 ///
-/// In floating point, each parameter made once from those that it uses: exact values of chained powers would grow
-/// without bound.
+/// They are computed in floating point, each parameter once from those that it uses, because exact values of
+/// chained powers would grow without bound.
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ public:
                         known_[p.symbol] = value;
     }
 
-    /// NaN for what is not a real number or depends on more than parameters.
+    /// NaN if `e` is not a real number or depends on more than parameters.
     double number(const GiNaC::ex& e) const {
         const GiNaC::ex value = in_numbers(e);
         if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_real())

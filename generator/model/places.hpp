@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The frames and points of a scene, made when first asked for, in any order of declaration.
+/// The frames and points of a scene. Each is computed when it is first asked for, so that the order of declaration
+/// does not matter.
 ///
 ///     places.position("P")          // from O, along N
 ///     places.orientation("B")       // of a frame, or of a body's frame by the body's name
@@ -34,17 +35,17 @@ public:
     Vector3 unit_axis(const Rotation& rotation);
     Orientation turned(const Orientation& o, const Vector3& axis, const GiNaC::ex& angle);
     Orientation turned(const Orientation& o, const std::array<GiNaC::ex, 4>& quaternion);
-    /// The mass centre; of N the origin.
+    /// The position of the mass centre; of N, the origin.
     Vector3 position_of_body(const std::string& body) { return position(body == "N" ? "O" : body); }
 
     GiNaC::ex value(const Expression& e) { return m_.z->name(translator_.scalar(e)); }
     GiNaC::ex value(const Name& name);
     GiNaC::ex rate(const GiNaC::ex& value) { return m_.time_derivative({value})[0]; }
-    /// At the scene's parameters.
+    /// The value of an expression at the scene's parameters.
     double number(const GiNaC::ex& e) const;
     Intermediates& z() { return *m_.z; }
 
-    /// What has been asked for so far, as steps; `point` of a name.
+    /// The frames and points that have been asked for so far, as steps; `point` finds one by its name.
     const Skeleton& skeleton() const { return skeleton_; }
     int point(const std::string& name) { return position(name), name == "O" ? 0 : points_.at(name); }
     int step(int from, int frame, const Vector3& offset);

@@ -16,7 +16,7 @@ using GiNaC::numeric;
 
 namespace {
 
-constexpr double largest_square = 3000;  // nodes, written out
+constexpr double largest_square = 3000;  // the most nodes with all intermediate symbols substituted
 
 std::optional<ex> root_of_number(const ex& e) {
     const ex root = sqrt(e);
@@ -42,7 +42,7 @@ std::optional<ex> root_of_product(const ex& e) {
     return product;
 }
 
-/// Of number · monomial · Π sumᵉ with even exponents.
+/// The root of number · monomial · Π sumᵉ with even exponents.
 std::optional<ex> root_of_polynomial(const Polynomial& square) {
     const Factorization factors = Factorizer()(square);
     const std::optional<ex> unit = root_of_number(expression(factors.unit));
@@ -83,7 +83,8 @@ std::optional<ex> RootSheets::square_root(const ex& square, const Intermediates&
     const auto f = fourier(z.expand(square), *symbols_);
     if (!f || f->polynomial().is_zero()) return std::nullopt;
     if (const auto root = root_of_polynomial(f->polynomial())) return root;
-    return root_of_product(expression(readable(*f)));  // sin² θ, which the normal form has as (1 − cos 2θ)/2
+    // Finds sin² θ, which the normal form writes as (1 − cos 2θ)/2.
+    return root_of_product(expression(readable(*f)));
 }
 
 std::optional<ex> RootSheets::root(const ex& square, Intermediates& z) {

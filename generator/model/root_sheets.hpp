@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// √(e²) as e or −e, whichever is positive at the initial state: the sheet of roots on which a reader of a
-/// textbook stands. A spring along r has the length √(r²), and its force is −k (r − l₀) for r > 0.
+/// Replaces √(e²) by e or −e, whichever is positive at the initial state. That is the sheet of the root which a
+/// textbook assumes. A spring along r has the length √(r²), and its force is −k (r − l₀) for r > 0.
 ///
 ///     RootSheets sheets(mechanism);           // once its parameters and initial values are known
 ///     if (const auto e = sheets.root(r*r, *mechanism.z)) …  // r
 ///     sheets.positive();                      // r
 ///
-/// Assumed is nothing where e vanishes at the initial state, or where a square is not seen as one. |e| is left as
-/// it is, unless e holds parameters alone: a coordinate may pass zero there. What runs keeps its roots.
+/// Nothing is assumed if e vanishes at the initial state or if a square is not recognized. |e| is kept unless e
+/// consists of parameters only, because a coordinate may pass zero. Simulations keep their roots.
 
 #include <memory>
 #include <optional>
@@ -23,13 +23,14 @@ class RootSheets {
 public:
     explicit RootSheets(const Mechanism& mechanism);
 
-    /// e with e² = `square`, positive at the start. `z` holds what `square` names, and names the root.
+    /// e with e² = `square`, positive at the start. `z` has the intermediate symbols in `square` and gets those of
+    /// the root.
     std::optional<GiNaC::ex> root(const GiNaC::ex& square, Intermediates& z);
-    /// |e|, where e holds parameters alone.
+    /// |e|, if e consists of parameters only.
     std::optional<GiNaC::ex> magnitude(const GiNaC::ex& e, Intermediates& z) const;
 
-    /// What is positive on the sheet and could be negative elsewhere: it depends on coordinates, or is a
-    /// difference of parameters. Each once.
+    /// The expressions that are positive on the sheet and could be negative elsewhere, each once. They depend on
+    /// coordinates or are differences of parameters.
     const std::vector<GiNaC::ex>& positive() const { return positive_; }
 
 private:
@@ -47,7 +48,7 @@ struct OnSheets {
     std::shared_ptr<RootSheets> sheets;
 };
 
-/// As `build`, with roots of squares on the sheet of the initial state: for derivations and proofs.
+/// Like `build`, but with roots of squares on the sheet of the initial state, for derivations and proofs.
 OnSheets build_on_sheets(const Scene& scene);
 
 }  // namespace alembert

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How the frames and points of a scene hang together, step by step: what their positions along N no longer show,
-/// and what recursions from body to body need.
+/// How the frames and points of a scene are connected, step by step. Their positions along N no longer show this,
+/// and recursions from body to body need it.
 ///
 ///     frames[f]: turned against frames[parent] by `angle` about `axis`, whose components are the same in both
 ///     points[p]: `offset`, along the axes of `frame`, away from points[from]
 ///
-/// Frame 0 is N, point 0 is O. Joints are steps like those that frames and points are written with.
+/// Frame 0 is N, point 0 is O. Joints become steps of the same kind as frames and points.
 
 #include <array>
 #include <vector>
@@ -23,7 +23,7 @@ struct Skeleton {
         int parent = 0;
         Vector3 axis{0, 0, 1};  ///< a unit vector in parameters
         GiNaC::ex angle = 0;
-        bool by_quaternion = false;  ///< then axis and angle say nothing
+        bool by_quaternion = false;  ///< if true, axis and angle have no meaning
     };
     struct Step {
         int from = 0, frame = 0;

@@ -146,7 +146,7 @@ Value Translator::call(const Tree& tree) {
         if (tree.args.size() == 1) return queries_.position(name_of(0));
         return add(queries_.position(name_of(1)), scale(-1, queries_.position(name_of(0)), z), z);
     }
-    if (tree.text == "(-)") {  // x'(-), where it is known
+    if (tree.text == "(-)") {  // x'(-), if it is known
         const std::string name = name_of(0) + "'(-)";
         if (const auto found = values_.find(name); found != values_.end()) return found->second;
         throw SceneMistake{{current_->place(tree.offset), fmt::format("unknown rate '{}'", name)}};

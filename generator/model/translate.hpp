@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From the scene's expression trees to symbols: names are looked up, primes differentiate, vector functions ask
-/// the geometry.
+/// Translates the scene's expression trees to symbols: names are looked up, primes differentiate, and vector
+/// functions query the geometry.
 
 #include <functional>
 #include <map>
@@ -17,7 +17,7 @@ namespace alembert {
 /// A scalar, or a vector along the axes of N.
 using Value = std::variant<GiNaC::ex, Vector3>;
 
-/// What the geometry answers; each may throw std::out_of_range for a name that it does not know.
+/// The queries to the geometry. Each may throw std::out_of_range for a name that it does not know.
 struct GeometryQueries {
     std::function<Vector3(const std::string&point)> position, velocity;
     std::function<const Orientation&(const std::string& frame)> orientation;
@@ -33,16 +33,16 @@ public:
     /// A name whose value is made when first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<Value()> value) { later_[name] = std::move(value); }
 
-    /// A symbol whose time derivative nobody knows: an acceleration, a multiplier. To differentiate it is a
-    /// mistake.
+    /// Declares a symbol whose time derivative is not known (an acceleration, a multiplier). Differentiating it is
+    /// a mistake.
     void has_no_derivative(const GiNaC::symbol& symbol) { without_derivative_.push_back(symbol); }
 
-    /// From now on √(e²) is e or −e (model/root_sheets.hpp).
+    /// From now on √(e²) becomes e or −e (model/root_sheets.hpp).
     void go_on(std::shared_ptr<RootSheets> sheets) { sheets_ = std::move(sheets); }
     /// |v|, on the sheet.
     GiNaC::ex length(const Vector3& v);
 
-    /// Throws SceneMistake for what the reader could not see.
+    /// Throws SceneMistake for mistakes that the reader could not see.
     GiNaC::ex scalar(const Expression& expression);
     /// The same, of an expression that may be a vector. A number gets an intermediate symbol.
     Value value(const Expression& expression);
@@ -68,7 +68,7 @@ private:
     const Expression* current_ = nullptr;
 };
 
-/// Thrown where a translated expression turns out wrong; the builder gathers these into one SceneError.
+/// Thrown if a translated expression turns out to be wrong; the builder collects these into one SceneError.
 struct SceneMistake {
     Diagnostic diagnostic;
 };

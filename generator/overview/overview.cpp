@@ -12,9 +12,10 @@ namespace {
 
 constexpr int rows_shown = 480;                // of a motion
 constexpr std::size_t poses_shown = 360;       // of a figure
-constexpr std::size_t numbers_shown = 60'000;  // points times poses, so that the page stays small
-constexpr double seconds_for_agreement = 1;    // of the normal form; sampling decides beyond
-constexpr int readable_size = 10;  // coordinates up to which all formalisms are compared and constraints audited
+constexpr std::size_t numbers_shown = 60'000;  // the most points times poses, so that the page stays small
+constexpr double seconds_for_agreement = 1;    // for normal forms; after that time sampling decides
+// The most coordinates for which all formalisms are compared and constraints audited.
+constexpr int readable_size = 10;
 
 template <typename Make>
 auto attempted(const Make& make) {
@@ -55,7 +56,7 @@ State<double> state_of_row(const MotionTable& rows, std::size_t row, State<doubl
     return like;
 }
 
-/// T and V on every row.
+/// Computes T and V on every row.
 void watch_energies(WatchedMotion& motion, const Mechanism& m, const State<double>& start) {
     if (m.given_lagrangian) return;
     Program program = begun(m);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Everything that the program can say about one scene: its derivation, what became of its claims, whether the
-/// formalisms agree, its constraints, its figure, its motion and its C++.
+/// Everything that the program can say about one scene: its derivation, the verdicts on its claims, the agreement
+/// of the formalisms, its constraints, its figure, its motion and its C++.
 ///
 ///     const Overview all = overview(read_scene("scenes/textbook/double_pendulum.toml"));
 ///     all.derived.value->shown.equations;
 ///     all.motion.problem;                 // why there is none, where the numbers failed
 ///
-/// A part that fails keeps its reason, and the others are there all the same.
+/// If a part fails, the reason is kept, and the other parts are still there.
 
 #include <optional>
 
@@ -23,7 +23,7 @@
 
 namespace alembert {
 
-/// A value, or why there is none.
+/// A value, or the reason why there is none.
 template <typename T>
 struct PartOfOverview {
     std::optional<T> value = {};
@@ -32,17 +32,17 @@ struct PartOfOverview {
 };
 
 struct OverviewOptions {
-    std::string by = {};  ///< a formalism; empty: the program chooses
+    std::string by = {};  ///< a formalism; if empty, the program chooses
     RunOptions wishes{.sample = -1, .budget = 3'000'000};
-    bool moves = true;  ///< the scene is run
+    bool moves = true;  ///< whether the scene is simulated
 };
 
-/// A motion with what stands beside its rows: poses of the figure, energies, residuals of the constraints.
+/// A motion with further values for its rows: poses of the figure, energies, residuals of the constraints.
 struct WatchedMotion {
     Run run;
-    std::vector<std::size_t> frames = {};  ///< rows of run.rows that have a pose, in order
+    std::vector<std::size_t> frames = {};  ///< the rows of run.rows that have a pose, in order
     std::vector<Pose> poses = {};
-    std::vector<double> kinetic = {}, potential = {};  ///< by row; empty where a Lagrangian is given
+    std::vector<double> kinetic = {}, potential = {};  ///< by row; empty if a Lagrangian is given
     std::vector<std::string> constraints = {};
     std::vector<std::vector<double>> position = {}, velocity = {};  ///< residuals, by constraint, then by row
 };
@@ -51,7 +51,7 @@ struct Overview {
     Scene scene;
     Mechanism mechanism;
     std::vector<std::string> warnings = {};
-    State<double> start = {};  ///< assembled, or as the scene gives it
+    State<double> start = {};  ///< the assembled state, or the one that the scene gives
     PartOfOverview<DerivedScene> derived = {};
     PartOfOverview<CheckedScene> checked = {};
     PartOfOverview<Agreed> agreed = {};
@@ -62,7 +62,7 @@ struct Overview {
     PartOfOverview<Struck> struck = {};
 };
 
-/// Throws SceneError or ModelError where the scene describes no mechanism at all.
+/// Throws SceneError or ModelError if the scene describes no mechanism at all.
 Overview overview(Scene scene, const OverviewOptions& options = {});
 
 }  // namespace alembert

@@ -29,7 +29,7 @@ bool is_finite(const double* values, std::size_t size) {
     return std::all_of(values, values + size, [](double x) { return std::isfinite(x); });
 }
 
-/// The right-hand side with its price, and what else SUNDIALS needs of the system.
+/// The right-hand side with a count of its calls, and everything else that SUNDIALS needs of the system.
 struct System {
     const Rhs& rhs;
     const Options& options;
@@ -71,10 +71,10 @@ struct Workspace {
     SUNLinearSolver solver = nullptr;
 };
 
-/// One integrator at work: a step, and states in it.
+/// One running integrator: a step, and states within it.
 struct Stepping {
     std::string name;
-    std::function<int(double& t)> step;  ///< negative: SUNDIALS' error flag
+    std::function<int(double& t)> step;  ///< negative values are error flags of SUNDIALS
     std::function<const double*()> state;
     std::function<void(double t, double* state)> at;
     std::function<long()> steps, rejected;
@@ -158,7 +158,7 @@ private:
     std::vector<double> row_;
 };
 
-/// 1 / (tolerance · max(1, |y|)); quadratures are not controlled.
+/// Sets the weights 1 / (tolerance · max(1, |y|)); quadratures are not controlled.
 void weigh(const System& system, const double* y, double* weights) {
     for (int i = 0; i < system.rhs.dimension; ++i)
         weights[i] = i < system.rhs.dimension - system.rhs.extra
@@ -240,7 +240,7 @@ struct Implicit {
     System system;
     const Module& module;
     const std::vector<double>& par;
-    std::size_t n, m;  ///< coordinates; constraints, 0 where the equations are those of the Rhs
+    std::size_t n, m;  ///< coordinates; constraints, which are 0 if the equations are those of the Rhs
     std::vector<double> mass, forcing, rows, rate, trial, trial_slope, here, moved;
 
     std::size_t states() const { return system.size(); }
@@ -331,7 +331,7 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
         options.start, w.y, w.slope);
     IDASetErrHandlerFn(memory, quiet, nullptr);
     IDASetUserData(memory, &f);
-    // Multipliers are not controlled, neither in the error test nor in Newton's iteration.
+    // Multipliers are controlled neither in the error test nor in Newton's iteration.
     IDAWFtolerances(memory, [](N_Vector at, N_Vector weights, void* s) {
         const auto& own = *static_cast<Implicit*>(s);
         std::fill_n(N_VGetArrayPointer(weights), own.size(), 1e-30);
@@ -369,7 +369,8 @@ Trajectory by_ida(const Module& module, const std::vector<double>& par, const Rh
                               if (flag < 0) return flag;
                               std::copy_n(N_VGetArrayPointer(w.y), f.states(), f.here.begin());
                               if (options.project)
-                                  options.project(t, f.here.data());  // what is told; IDA goes on from its own
+                                  // Projects the state that is reported; IDA goes on from its own.
+                                  options.project(t, f.here.data());
                               return flag;
                           },
                       .state = [&] { return f.here.data(); },

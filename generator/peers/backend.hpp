@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// SUNDIALS as a back end of `simulate`: a shared object of its own, `alembert-sundials.so`, that CMake builds
-/// where it finds libsundials-dev. The program opens it when it is asked for (run/sundials_methods.hpp), so that
-/// nothing of SUNDIALS is linked into either the program or the runtime.
+/// SUNDIALS as a back end of `simulate`: a separate shared object, `alembert-sundials.so`, which CMake builds if
+/// it finds libsundials-dev. The program loads it when it is needed (run/sundials_methods.hpp), so that nothing of
+/// SUNDIALS is linked into either the program or the runtime.
 ///
-/// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs where it has one,
-/// and Options::project as CVODE's projection. ida: the same equations implicitly where there are no constraints;
-/// with them the stabilized index-2 form of Gear, Gupta and Leimkuhler (Hairer & Wanner, Solving ODEs II, §VII.2)
-/// in q, u, λ and μ,
+/// cvode: y' = f(t, y) by BDF with variable order, Newton's method with the Jacobian of the Rhs if it has one, and
+/// Options::project as CVODE's projection. ida: without constraints the same equations in implicit form; with
+/// constraints the stabilized index-2 form of Gear, Gupta and Leimkuhler (Hairer & Wanner, Solving ODEs II,
+/// §VII.2) in q, u, λ and μ,
 ///
 ///     q' = u + Aᵀμ,   M u' = f + Aᵀλ,   0 = f(q, t),   0 = A u + b
 ///
-/// Local errors are held against tolerance · max(1, |y|) in SUNDIALS' norm, the root of the mean square.
+/// Local errors are compared with tolerance · max(1, |y|) in SUNDIALS' norm, the root of the mean square.
 
 #include <vector>
 
@@ -24,11 +24,11 @@ namespace alembert {
 struct Backend {
     int version;
     Integrator (*cvode)(const Module& module, const std::vector<double>& parameters);
-    /// `parameters` as for make_rhs. The state is (q, q'), and the work where the Rhs has it.
+    /// `parameters` as for make_rhs. The state is (q, q'), followed by the work if the Rhs has it.
     Integrator (*ida)(const Module& module, const std::vector<double>& parameters);
 };
 
-inline constexpr int backend_version = 1;  ///< raised with this struct, Rhs, Options or Trajectory
+inline constexpr int backend_version = 1;  ///< raised whenever this struct, Rhs, Options or Trajectory changes
 inline constexpr const char* backend_function = "alembert_backend";
 
 }  // namespace alembert

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // alembert-peers OBJECT TASK: runs each of the peers on an emitted solver and prints, a line for each run,
 //   run WHO METHOD TOLERANCE SECONDS EVALUATIONS STEPS FAILED STATE…
-// TASK holds lists, each after its length: parameters, initial state, tolerances; then start, duration, seconds a
-// run may take. Seconds: processor time of this thread, the median of what fits in 20 ms, set-up of the peer's
-// memory included.
+// TASK has lists, each preceded by its length: parameters, initial state, tolerances; then start, duration, and
+// the seconds that a run may take. SECONDS is processor time of this thread, the median of the runs that fit in 20
+// ms, including the set-up of the peer's memory.
 #include <ctime>
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What each of the peers is given and gives back. One function for each library, absent where CMake did not find
-/// it.
+/// The input and the result of each peer. There is one function for each library that CMake found.
 
 #include <functional>
 #include <string>

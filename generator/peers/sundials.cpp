@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CVODE (Adams with fixed-point iteration, BDF with Newton's and a difference Jacobian), ARKODE's explicit method
-// of order 8 and IDA on y' − f(t, y) = 0. Tolerances: both relative and absolute, the nearest to tolerance ·
-// max(1, |y|).
+// CVODE (Adams with fixed-point iteration, BDF with Newton's method and a Jacobian from differences), ARKODE's
+// explicit method of order 8 and IDA on y' − f(t, y) = 0. Both the relative and the absolute tolerance are set,
+// which is nearest to tolerance · max(1, |y|).
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <ida/ida.h>
@@ -38,7 +38,7 @@ int residual(realtype t, N_Vector y, N_Vector slope, N_Vector out, void* data) {
     return 0;
 }
 
-/// What all of them need, freed at the end.
+/// The data that all of them need, freed at the end.
 struct Common {
     explicit Common(const Task& task) : calls{&task.rhs, 0, task.budget} {
         SUNContext_Create(nullptr, &context);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Sums of parameters without terms that cancel: z + (A − C − z) is A − C.
+/// Simplifies sums of parameters in which terms cancel: z + (A − C − z) is A − C.
 ///
-/// A sum inside a sum is taken apart where the result has no more terms than before; where it is shared and
-/// nothing cancels, it stays.
+/// A sum inside a sum is expanded if the result has no more terms than before. It is kept if it is shared and
+/// nothing cancels.
 
 #include "program/program.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What a right-hand side costs: its operations, and the longest chain of operations that wait for each other.
+/// The cost of a right-hand side: its operations, and the longest chain of operations that wait for each other.
 ///
 ///     const Cost cost = cost_of(program);
 ///     cost.time();        // to compare programs with

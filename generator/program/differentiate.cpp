@@ -16,9 +16,9 @@ namespace alembert {
 
 namespace {
 
-using Matrix = std::vector<std::vector<int>>;  ///< of nodes, row by row
+using Matrix = std::vector<std::vector<int>>;  ///< a matrix of nodes, row by row
 
-/// K (lower triangle) and b of K (u', −λ) = b.
+/// The system K (u', −λ) = b: K (lower triangle) and b.
 struct System {
     std::vector<int> K, b;
     int speeds = 0;
@@ -41,7 +41,7 @@ System system_of(Program& p) {
     return s;
 }
 
-/// Nodes with other nodes in the place of some.
+/// Substitutes nodes for other nodes.
 class Substitution {
 public:
     Substitution(Program& program, std::map<int, int> values) : p_(program), known_(std::move(values)) {}
@@ -105,7 +105,7 @@ public:
         return list;
     }
 
-    /// ∂(q', u')/∂inputs through R, with M u' from M or from T.
+    /// ∂(q', u')/∂inputs by way of R, with M u' from M or from T.
     std::optional<Matrix> implicit(const std::vector<int>& inputs, EliminationOrder order, bool by_energy) {
         System system = system_of(p_);
         const std::optional<Matrix> x = solve_for_sides(p_, system.K, {system.b}, system.speeds);
@@ -151,7 +151,7 @@ public:
         return result;
     }
 
-    /// The same straight through the accelerations.
+    /// The same directly from the accelerations.
     std::optional<Matrix> direct(const std::vector<int>& inputs, EliminationOrder order) {
         std::optional<Matrix> result = rates(inputs, order);
         if (!result) return result;
@@ -186,7 +186,7 @@ public:
             for (std::size_t j = 0; j < sums.size(); ++j)
                 sums[j].emplace_back(1, p_.product(1, {{part.node, 1}, {row[j], 1}}));
         }
-        std::map<int, int> own;  // u' that the power names, as functions of the state
+        std::map<int, int> own;  // the u' in the power, as functions of the state
         for (int i = 0; i < s_; ++i)
             own.emplace(p_.variable({Variable::Kind::acceleration, i}), acceleration[static_cast<std::size_t>(i)]);
         Substitution at_state(p_, std::move(own));
@@ -212,7 +212,7 @@ public:
 private:
     std::vector<int> speeds() const { return {state_.begin() + n_, state_.end()}; }
 
-    /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing where numbers show that T has another M.
+    /// M z as the change of momentum along z, ∂(∂T/∂u)/∂u · z; nothing if numbers show that T has another M.
     std::optional<std::vector<int>> inertia_by_energy(const System& system, const std::vector<int>& z) {
         const int epsilon = p_.variable({Variable::Kind::unknown, first_unknown_ + system.size()});
         const auto momenta = of(p_.nodes_of(Group::kinetic), speeds(), EliminationOrder::reverse);
@@ -255,7 +255,7 @@ private:
         return result;
     }
 
-    /// Σ_j K_ij z_j over the z that there are.
+    /// Σ_j K_ij z_j over the given z.
     int row_times(const System& system, int i, const std::vector<int>& z) {
         std::vector<Program::Term> terms;
         for (std::size_t j = 0; j < z.size(); ++j)
@@ -286,7 +286,7 @@ private:
 
     Program p_;
     int n_, s_;
-    int first_unknown_ = 0;  ///< beyond those that the scene has
+    int first_unknown_ = 0;  ///< the first index after the scene's own
     long budget_;
     std::vector<int> state_;
 };
@@ -306,7 +306,7 @@ constexpr Route routes[] = {
     {"direct, least fill", Route::direct, EliminationOrder::least_fill},
     {"direct, forward", Route::direct, EliminationOrder::forward}};
 constexpr int few_operations =
-    2000;  ///< where all routes are tried; beyond, the two that are shortest for large systems
+    2000;  ///< up to this size all routes are tried; for larger systems, only the two that are shortest there
 
 std::optional<Matrix> jacobian_by(const Route& route, Differentiation& d, const std::vector<int>& inputs) {
     return route.through == Route::direct ? d.direct(inputs, route.order)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Sums of sums as one: a − (b + c·d) becomes a − b − c·d, where nobody else uses the sum inside.
+/// Merges sums of sums: a − (b + c·d) becomes a − b − c·d, if the inner sum is not used elsewhere.
 ///
-/// A recursion adds two things at a time. Written as one sum, every product in it is a fused multiply-add, and
-/// what comes last can be added last.
+/// A recursion adds two values at a time. In a single sum every product becomes a fused multiply-add, and the
+/// value that is ready last can be added last.
 
 #include "program/program.hpp"
 

@@ -12,11 +12,11 @@ namespace {
 
 using Real = Germ::Real;
 
-constexpr double known_to = 6;                 // power of ε up to which a series is kept
+constexpr double known_to = 6;                 // the power of ε up to which a series is kept
 constexpr std::size_t coefficients_kept = 14;  // Taylor coefficients
 constexpr Real rounding = std::numeric_limits<Real>::epsilon();
 
-/// Of sin(c + s), or cos with a quarter turn more.
+/// The Taylor coefficients of sin(c + s); those of cos follow from a quarter turn more.
 std::vector<Real> of_sine(Real sine, Real cosine) {
     std::vector<Real> result;
     Real factorial = 1;
@@ -28,7 +28,7 @@ std::vector<Real> of_sine(Real sine, Real cosine) {
     return result;
 }
 
-/// Of e^(c + s)·a + e^−(c + s)·b, given the value and the derivative: they alternate.
+/// The Taylor coefficients of e^(c + s)·a + e^−(c + s)·b from its value and its derivative, which alternate.
 std::vector<Real> of_hyperbolic(Real value, Real derivative) {
     std::vector<Real> result;
     Real factorial = 1;
@@ -81,7 +81,8 @@ bool Germ::is_number() const {
     return order_ == exact && (terms_.empty() || (terms_.size() == 1 && terms_[0].exponent == 0));
 }
 
-/// Terms in order, equal exponents together, nothing past what is known, zero for what its error covers.
+/// Sorts terms, adds those with equal exponents, drops those beyond the known order, and sets to zero coefficients
+/// that are within their error.
 void Germ::tidy() {
     std::sort(terms_.begin(), terms_.end(), [](const Term& a, const Term& b) { return a.exponent < b.exponent; });
     std::vector<Term> kept;
@@ -153,7 +154,7 @@ Germ Germ::to_the(Real a) const {
     if (first->value < 0 && !is_whole) return undefined();
     const double exponent = first->exponent;
     const Real c = first->value;
-    Germ unit = *this;  // 1 + r; what stands before the leading term is zero within its error
+    Germ unit = *this;  // 1 + r; terms before the leading one are zero within their error
     std::erase_if(unit.terms_, [&](const Term& term) { return term.exponent < exponent; });
     for (Term& term : unit.terms_) {
         term.value /= c;
@@ -178,7 +179,7 @@ Germ Germ::through(const std::vector<Real>& taylor) const {
     Germ rest = *this;
     const Real error = at(0).error;
     std::erase_if(rest.terms_, [](const Term& term) { return term.exponent < tolerance::same_exponent; });
-    // f(c ± e): the error of the constant coefficient goes through the slope.
+    // f(c ± e): the error of the constant coefficient is multiplied by the slope.
     Germ result(taylor.back());
     for (std::size_t k = taylor.size() - 1; k-- > 0;) {
         const Real next = taylor[k + 1] * static_cast<Real>(k + 1);

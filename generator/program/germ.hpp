@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The values of a function on a short path that leaves a point: `interpret` over germs gives one-sided
+/// The values of a function on a short path that starts at a point. `interpret` over germs gives one-sided
 /// derivatives.
 ///
 ///     State<Germ> state = …;
@@ -9,11 +9,11 @@
 ///     interpret(program, state)[node]                 // |x| is 1·ε;  sqrt(x) is 1·ε^(1/2);  x/|x| is 1
 ///
 /// A germ is a series Σ c_k ε^(e_k) with ascending real exponents, known up to a power of ε. The sign of a germ is
-/// that of its first coefficient, so abs, sign, min, max, roots and atan2 are decided by the side on which the
-/// path lies, where a number would say zero. Each coefficient carries a bound on its error (running error
-/// analysis: Higham, Accuracy and Stability of Numerical Algorithms (2002), §3.3); one within its bound is taken
-/// for zero. `defined` is false where a value is not real or not finite on the path: sqrt of a negative germ,
-/// division by zero.
+/// that of its first coefficient, so that abs, sign, min, max, roots and atan2 are decided by the side on which
+/// the path lies, where a number would be just zero. Each coefficient has a bound on its error (running error
+/// analysis: Higham, Accuracy and Stability of Numerical Algorithms (2002), §3.3) and counts as zero if it is
+/// within that bound. `defined` is false if a value is not real or not finite on the path: sqrt of a negative
+/// germ, division by zero.
 
 #include <limits>
 #include <vector>
@@ -40,14 +40,14 @@ public:
     static Germ path(Real x, Real error, const std::vector<Real>& steps);
 
     bool defined() const { return defined_; }
-    /// From which power of ε on nothing is known.
+    /// The power of ε from which on nothing is known.
     double order() const { return order_; }
     const std::vector<Term>& terms() const { return terms_; }
-    /// The coefficient of ε^exponent and its error; zeros where there is none.
+    /// The coefficient of ε^exponent and its error; both are zero if there is no such term.
     Term at(double exponent) const;
-    /// The first term that is not zero; null where there is none.
+    /// The first term that is not zero; null if there is none.
     const Term* leading() const;
-    /// −1, 0 or 1 on the path.
+    /// The sign on the path: −1, 0 or 1.
     int side() const;
 
     Germ& operator+=(const Germ& b);
@@ -85,7 +85,7 @@ private:
     bool is_number() const;
     void tidy();
     Germ shifted(double exponent) const;
-    /// f(c + δ) from f's Taylor coefficients at c, where this is c + δ with c its constant coefficient.
+    /// f(c + δ) from f's Taylor coefficients at c, if this germ is c + δ with constant coefficient c.
     Germ through(const std::vector<Real>& taylor) const;
     Germ to_the(Real exponent) const;
 

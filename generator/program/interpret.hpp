@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Evaluates a Program node by node: the oracle of the tests, and `eval` without a compiler.
+/// Evaluates a Program node by node. It is the reference for the tests, and evaluates without a compiler for
+/// `eval`.
 ///
 ///     const State<double> state{.parameters = par, .t = 0, .q = q, .qdot = u};
 ///     const std::vector<double> values = interpret<double>(program, state);
@@ -28,7 +29,7 @@ struct State {
     std::vector<Real> unknown = {};
 };
 
-/// The rational number nearest to which a Real is; exact quotient of its parts in Real's own arithmetic.
+/// Converts a rational number to Real: the quotient of numerator and denominator in Real's own arithmetic.
 template <typename Real>
 Real real_of(const Rational& r) {
     return static_cast<Real>(cln::double_approx(r));
@@ -42,8 +43,8 @@ inline long double real_of<long double>(const Rational& r) {
            static_cast<long double>(cln::double_approx(r - cln::rational(cln::cl_DF(high))));
 }
 
-/// All nodes' values; parts that are not needed cost nothing extra but their own evaluation. Divisions by zero and
-/// the like give infinities and NaN, never a trap.
+/// The values of all nodes, including those that are not needed. Divisions by zero and similar operations give
+/// infinities and NaN, never a trap.
 template <typename Real>
 std::vector<Real> interpret(const Program& program, const State<Real>& state) {
     using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::log, std::pow,

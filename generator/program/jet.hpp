@@ -7,10 +7,10 @@
 ///     state.q[0] = {.value = 0.3, .d = {1, 0}};                  // x itself: ∂x/∂x = 1
 ///     interpret(program, state)[node].d                          // ∂node/∂x, ∂node/∂y; empty stands for zeros
 ///
-/// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient is the chain rule
-/// on those of its arguments, so the derivative of what is evaluated carries rounding errors and nothing else. At
-/// a kink of abs, sign, min or max it is that of one side of this function, which in a sum of several need be no
-/// side of the sum: germ.hpp gives one-sided derivatives.
+/// Forward mode (Griewank & Walther, Evaluating Derivatives (2008), §3.1): each node's gradient follows by the
+/// chain rule from those of its arguments, so the derivative has rounding errors only. At a kink of abs, sign, min
+/// or max it is the derivative of one side of this function; in a sum of several such functions the result need
+/// not belong to any side of the sum. germ.hpp gives one-sided derivatives.
 
 #include "program/interpret.hpp"
 

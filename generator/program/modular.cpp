@@ -24,7 +24,7 @@ public:
             if (!value) return std::nullopt;
             result_.value[id] = *value;
         }
-        // Odd denominators of angles: the random points stand for the angles over all of them.
+        // The random points stand for the angles divided by all their odd denominators.
         for (double& degree : result_.degree) degree *= denominators_;
         return std::move(result_);
     }
@@ -125,7 +125,7 @@ private:
         return total;
     }
 
-    /// Polynomials: the largest degree. With denominators: all together.
+    /// Without denominators the degree of a sum is the largest one of its terms, with denominators the sum of all.
     double degree_of_sum(const Node& node) {
         double largest = 0, together = 0;
         bool fractions = false;
@@ -159,7 +159,7 @@ private:
             result_.exact = false;
             return point_.random(static_cast<std::uint64_t>(Op::sqrt), value(arg).bits());
         }
-        // √(3a + 3b) = √3 √(a + b), though 3 may be no square
+        // √(3a + 3b) = √3 √(a + b), even if 3 is no square
         const Rational content = node.op == Op::sum ? content_of(node) : Rational(1);
         const auto outer = Prime::root_of(content);
         const auto factor = Prime::from(outer ? content : Rational(1));
@@ -171,7 +171,7 @@ private:
         return outer ? *outer * a.root() : a.root();
     }
 
-    /// The positive number by which the coefficients of a sum are whole without a common factor.
+    /// The positive number by whose division the coefficients of a sum become whole without a common factor.
     static Rational content_of(const Node& node) {
         cln::cl_I above = cln::numerator(node.number), below = cln::denominator(node.number);
         for (const Rational& c : node.coefficients) {
@@ -217,7 +217,7 @@ private:
         return result;
     }
 
-    /// A multiple of π that the group has, or a random turn of its own.
+    /// A multiple of π that is in the group, or else a random turn.
     std::optional<PrimeTurn> turned_by_pi(const Rational& c) {
         if (const auto turn = PrimeTurn::by_pi(c)) return turn;
         result_.exact = false;
@@ -231,7 +231,8 @@ private:
         denominators_ = cln::double_approx(known_denominators_);
     }
 
-    /// exp(x) = e^2520 with a random square e for each monomial, so that thirds and the like are whole powers.
+    /// exp(x) = e^2520 with a random square e for each monomial, so that fractions such as thirds are whole
+    /// powers.
     std::optional<Prime> exponential(int id, double& degree) {
         constexpr int parts = 2520;
         Prime result = 1;

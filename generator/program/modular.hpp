@@ -8,21 +8,22 @@
 ///     if (const auto at = evaluate_mod(program, point, roots))
 ///         at->value[roots[0]] == other->value[other_root];
 ///
-/// Two programs at the same point see the same values, whatever their nodes are numbered: every random value is a
-/// function of the seed and of what it stands for. If two values are equal for all reals, they are equal here; if
-/// they are not, they differ but for a chance of `degree`·2⁻⁶¹ (Schwartz 1980, Zippel 1979).
+/// Two programs at the same point have the same values, however their nodes are numbered, because every random
+/// value is a function of the seed and of the variable for which it stands. If two expressions are equal for all
+/// reals, their values are equal here; if they are not, their values differ except with a probability of
+/// `degree`·2⁻⁶¹ (Schwartz 1980, Zippel 1979).
 ///
 ///  - Parameters, coordinates, rates, accelerations, t and π are independent random numbers, or those of `given`.
 ///  - An angle Σ c·x (x a monomial in the variables, c rational) is a product of powers of random points of the
-///    circle, one for each x: (cos x/h, sin x/h) with h a power of two. The circle's group has order 2⁶¹, so odd
-///    denominators are no obstacle. A coordinate outside sines and cosines is independent of them. Multiples of
-///    π/2ᵏ have their values. `given_angles` sets the point of an x by its value.
+///    circle, one for each x: (cos x/h, sin x/h) with h a power of two. The group of the circle has order 2⁶¹, so
+///    that odd denominators are no obstacle. A coordinate outside sines and cosines is independent of them.
+///    Multiples of π/2ᵏ have their exact values. `given_angles` sets the point of an x, identified by its value.
 ///  - √a is the root that is a square itself, |a| is a or −a, whichever is a square, sign a is Legendre's symbol:
-///    this keeps √(ab) = √a √b and √(a²) = |a|. Where a is no square the point is unusable.
-///  - exp(Σ c·x) is a product of powers likewise; sinh, cosh and tanh come from it. min and max of a pair are one
-///    and the other of the pair. All other functions are random functions of their arguments' values. What the
-///    last line and √3, √5 … (no squares modulo this prime) leave out are identities such as cos(asin x)² = 1 −
-///    x²: a difference found here is certain only where `exact` is set.
+///    this keeps √(ab) = √a √b and √(a²) = |a|. If a is no square, the point is unusable.
+///  - exp(Σ c·x) is a product of powers in the same way; sinh, cosh and tanh follow from it. min and max of a pair
+///    are the one and the other of the pair. All other functions are random functions of their arguments' values.
+///    Such functions, and √3, √5 … (which are no squares modulo this prime), do not obey identities such as
+///    cos(asin x)² = 1 − x². Therefore a difference found here is certain only if `exact` is set.
 
 #include <cstdint>
 #include <map>
@@ -40,11 +41,12 @@ namespace alembert {
 struct ModularPoint {
     std::uint64_t seed = 0;
     std::map<std::pair<Variable::Kind, int>, Prime> given{};  ///< instead of random values
-    std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by the `halves`-th part of it
-    int halves = 2;                             ///< turns are kept of x/2^halves: sin(x/4) needs 2
-    int finer = 0;  ///< turns that are not given, of x/2^(halves + finer): halvings() of exact/square_points.hpp
+    std::map<Prime, PrimeTurn> given_angles{};  ///< monomial's value → the turn by 1/2^halves of it
+    int halves = 2;                             ///< turns are stored for x/2^halves; sin(x/4) needs 2
+    int finer = 0;  ///< turns that are not given are stored for x/2^(halves + finer); see halvings() of
+                    ///< exact/square_points.hpp
 
-    /// Uniform, the same for the same arguments.
+    /// A uniform random number, the same for the same arguments.
     Prime random(std::uint64_t what, std::uint64_t key, std::uint64_t key2 = 0) const {
         std::uint64_t h = seed;
         for (const std::uint64_t part : {what, key, key2}) {
@@ -59,7 +61,7 @@ struct ModularPoint {
         if (const auto found = given.find({v.kind, v.index}); found != given.end()) return found->second;
         return random(100 + static_cast<std::uint64_t>(v.kind), static_cast<std::uint64_t>(v.index));
     }
-    /// The turn by the 2^parts-th part of a monomial of this value.
+    /// The turn by 1/2^parts of a monomial with this value.
     struct Part {
         int parts;
         PrimeTurn turn;
@@ -69,7 +71,7 @@ struct ModularPoint {
             return {halves, found->second};
         return {halves + finer, PrimeTurn::rational(random(200, monomial.bits()))};
     }
-    /// By the `halves`-th.
+    /// The turn by 1/2^halves of it.
     PrimeTurn angle(Prime monomial) const {
         const Part own = part(monomial);
         return own.turn.power(std::uint64_t{1} << (own.parts - halves));
@@ -77,15 +79,16 @@ struct ModularPoint {
 };
 
 struct ModularValues {
-    std::vector<Prime> value;  ///< of each node; zero where no root needs it
-    std::vector<double>
-        degree;             ///< of each node: zeros of numerator and denominator, in the random values, at most
-    double conditions = 0;  ///< squares that the point had to be chosen for: each doubles the chance of a failure
-    bool exact = true;      ///< no function was met whose identities the evaluation does not know
+    std::vector<Prime> value;    ///< the value of each node; zero if no root needs it
+    std::vector<double> degree;  ///< for each node, a bound on the number of zeros of numerator and denominator in
+                                 ///< the random values
+    /// How many values had to be squares for this point; each doubles the probability of an error.
+    double conditions = 0;
+    bool exact = true;  ///< false if a function occurred whose identities the evaluation does not obey
 };
 
-/// All that `roots` need. Nothing where the point is unusable: a denominator is zero, what stands under a root is
-/// no square, an angle is divided by more than 2^halves.
+/// The values that `roots` need. Nothing if the point is unusable: a denominator is zero, an argument of a root is
+/// no square, or an angle is divided by more than 2^halves.
 std::optional<ModularValues> evaluate_mod(const Program& program, const ModularPoint& point,
                                           std::span<const int> roots);
 

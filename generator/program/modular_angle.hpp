@@ -13,11 +13,11 @@
 
 namespace alembert {
 
-/// A polynomial in values: monomial's value → coefficient. 0 stands for π, 1 for a plain number.
+/// A polynomial in values: monomial's value → coefficient. The key 0 stands for π, and 1 for a plain number.
 using ModularAngle = std::map<Prime, Rational>;
 
-/// Node `id` as such a polynomial in the values of its leaves; nothing where it has too many terms. `values`: of
-/// the nodes that it is made of; `pi`: the value of π.
+/// Node `id` as such a polynomial in the values of its leaves; nothing if it has too many terms. `values` are
+/// those of the nodes on which it depends, `pi` the value of π.
 std::optional<ModularAngle> angle_at(const Program& program, const std::vector<Prime>& values, Prime pi, int id);
 
 }  // namespace alembert

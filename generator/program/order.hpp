@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// sign, min and max that pass a NaN on, whichever argument it is: max(0, √(−1)) is no zero. The emitted code has
-/// the same (templates/elementary.cpp.mustache). For every number with <, > and !=; of equal arguments the first
-/// is taken.
+/// sign, min and max that return NaN if any argument is NaN: max(0, √(−1)) is not zero. The emitted code has the
+/// same functions (templates/elementary.cpp.mustache). They work for every type with <, > and !=; of equal
+/// arguments the first is taken.
 
 namespace alembert {
 
-/// −1, 0 or 1.
+/// The sign: −1, 0 or 1.
 template <typename Real>
 Real sign_of(const Real& x) {
     return x != x ? x : Real(x > 0) - Real(x < 0);

@@ -17,7 +17,7 @@ public:
     explicit Label(Program& program) : p_(program) {}
 
     int operator()(int id, std::size_t k) {
-        const Node node = p_[id];  // a copy: new nodes move the old ones
+        const Node node = p_[id];  // a copy, because new nodes move the old ones in memory
         const int x = node.args[k];
         switch (node.op) {
             case Op::sum:
@@ -138,12 +138,12 @@ public:
     }
 
 private:
-    /// What has been added up on an edge; one node as soon as somebody reads it.
+    /// The sum of the terms on an edge; it becomes one node as soon as it is read.
     using Edge = std::vector<Program::Term>;
 
     bool is_input(int id) const { return is_input_[static_cast<std::size_t>(id)] != 0; }
 
-    /// Nodes on a way from an input to an output.
+    /// The nodes on paths from an input to an output.
     std::vector<char> active_nodes() const {
         std::vector<char> wanted(is_input_.size(), 0), active(is_input_.size(), 0);
         for (const int id : outputs_) wanted[static_cast<std::size_t>(id)] = 1;
@@ -221,7 +221,7 @@ private:
     Program& p_;
     std::span<const int> outputs_, inputs_;
     std::vector<char> is_input_;
-    std::vector<std::map<int, Edge>> before_;  ///< of each vertex: where its edges come from
+    std::vector<std::map<int, Edge>> before_;  ///< for each vertex, the origins of its edges
     std::vector<std::set<int>> after_;
     std::vector<int> inner_;
     int first_output_ = 0;

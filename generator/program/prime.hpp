@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The field of exact arithmetic: a + b·i with a, b whole numbers modulo the prime p = 2⁶¹ − 1.
+/// The field of exact arithmetic: numbers a + b·i with a, b whole numbers modulo the prime p = 2⁶¹ − 1.
 ///
 ///     Prime(3) * Prime(3).inverse() == 1;
 ///     *Prime::from(Rational(1) / 3) == Prime(3).inverse();
 ///     Prime::root_of(3)->power(2) == 3;        // √3, an i times a root of −3
 ///
-/// p is 3 modulo 4: −1 is no square of a plain number (b = 0), and the root of a square a that is a square itself
-/// is a^((p+1)/4). All that is random is plain; i comes in with the square roots of those numbers, such as 3 and
-/// 5, that have none among the plain.
+/// p is 3 modulo 4: −1 is no square of a plain number (one with b = 0), and of the two roots of a square a, the
+/// one that is a square itself is a^((p+1)/4). All random numbers are plain; i is needed for the square roots of
+/// numbers such as 3 and 5 that have no plain root.
 
 #include <cln/integer.h>
 
@@ -66,7 +66,7 @@ public:
         return result * *from(root);
     }
 
-    /// Of a plain number: the number; of any other a hash.
+    /// The number itself if it is plain, otherwise a hash.
     constexpr std::uint64_t bits() const { return n_ ^ (i_ * 0x9e3779b97f4a7c15ULL); }
     constexpr bool is_zero() const { return n_ == 0 && i_ == 0; }
     constexpr bool is_plain() const { return i_ == 0; }
@@ -93,15 +93,15 @@ public:
             if ((exponent & 1U) != 0) result *= square;
         return result;
     }
-    /// Of zero: zero.
+    /// The inverse; that of zero is zero.
     constexpr Prime inverse() const {
         if (is_plain()) return power(modulus - 2);
         const Prime over = norm().inverse();
         return {product(n_, over.n_), product(negative(i_), over.n_)};
     }
-    /// Of a plain number: among the plain ones. 0 is a square.
+    /// Whether the number is a square; for a plain number, the square of a plain number. 0 is a square.
     constexpr bool is_square() const { return is_plain() ? power((modulus - 1) / 2).n_ <= 1 : norm().is_square(); }
-    /// A root of a square; of a plain one that which is a square itself.
+    /// A root of a square; for a plain number, the root that is a square itself.
     constexpr Prime root() const {
         if (is_plain()) return power((modulus + 1) / 4);
         const Prime half = Prime(2).inverse(), size = norm().root(), own{n_, 0};

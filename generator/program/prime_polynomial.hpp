@@ -6,8 +6,8 @@
 ///     const PrimePolynomial f = interpolate(points, values);    // ascending powers
 ///     for (const Prime root : roots(f, seed)) …                 // each once
 ///
-/// Roots: gcd(x^q − x, f), q the field's size, is the product of the distinct linear factors, split by gcd with (x
-/// + a)^((q−1)/2) − 1 for random a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
+/// Roots: gcd(x^q − x, f), with q the size of the field, is the product of the distinct linear factors, split by
+/// gcd with (x + a)^((q−1)/2) − 1 for random a (Cantor & Zassenhaus, Math. Comp. 36 (1981) 587).
 
 #include <vector>
 
@@ -15,7 +15,7 @@
 
 namespace alembert {
 
-using PrimePolynomial = std::vector<Prime>;  ///< ascending powers; no leading zero; empty: zero
+using PrimePolynomial = std::vector<Prime>;  ///< in ascending powers, without leading zeros; empty for zero
 
 namespace prime_polynomial {
 
@@ -95,7 +95,7 @@ inline void split(const PrimePolynomial& f, bool plain, std::uint64_t seed, std:
 
 }  // namespace prime_polynomial
 
-/// Through all points (x_k, y_k), by Newton's divided differences; the x are different.
+/// The polynomial through all points (x_k, y_k), by Newton's divided differences; all x must be different.
 inline PrimePolynomial interpolate(const std::vector<Prime>& x, std::vector<Prime> y) {
     for (std::size_t order = 1; order < x.size(); ++order)
         for (std::size_t k = x.size() - 1; k >= order; --k)
@@ -133,8 +133,8 @@ inline Prime resultant(PrimePolynomial f, PrimePolynomial g) {
     }
 }
 
-/// In ascending order: the plain ones if all coefficients are plain (program/prime.hpp). Of the zero polynomial:
-/// none.
+/// The roots in ascending order; if all coefficients are plain (program/prime.hpp), only the plain roots. For the
+/// zero polynomial the list is empty.
 inline std::vector<Prime> roots(const PrimePolynomial& f, std::uint64_t seed) {
     using namespace prime_polynomial;
     std::vector<Prime> found;

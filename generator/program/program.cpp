@@ -35,7 +35,7 @@ bool is_even_function(Op op) {
     return op == Op::cos || op == Op::cosh || op == Op::abs;
 }
 
-std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // splitmix64's finalizer over a running sum
+std::uint64_t mix(std::uint64_t h, std::uint64_t value) {  // the finalizer of splitmix64 applied to a running sum
     h += value + 0x9e3779b97f4a7c15ULL;
     h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9ULL;
     h = (h ^ (h >> 27)) * 0x94d049bb133111ebULL;
@@ -141,7 +141,7 @@ int Program::sum(const Rational& constant, const std::vector<Term>& terms) {
         const int gathered = sum(rest, constants);
         if (nodes_[gathered].is_number()) return sum(nodes_[gathered].number, kept);
         rest = 0;
-        // A numeric factor of the gathered constant stays inside it, but for the sign, which costs nothing.
+        // A numeric factor of the collected constant stays inside it, except for the sign, which costs nothing.
         const bool flip = nodes_[gathered].is_scaled() && cln::minusp(nodes_[gathered].coefficients[0]);
         constants = {{flip ? -1 : 1, flip ? scaled(-1, gathered) : gathered}};
     } else if (!kept.empty() && constants.size() == 1) {
@@ -210,7 +210,7 @@ int Program::product(const Rational& coefficient, const std::vector<Factor>& fac
     if (kept.size() == 1 && kept[0].second == -1)
         return scaled(content, intern(Node{.op = Op::product, .args = {kept[0].first}, .exponents = {-1}}));
     for (auto& [id, exponent] : kept)
-        if (exponent < 0) {  // one division, shared by all who divide by it
+        if (exponent < 0) {  // one division, shared by all quotients with this divisor
             id = product(1, {{id, -1}});
             exponent = -exponent;
         }

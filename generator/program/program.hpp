@@ -8,12 +8,13 @@
 ///     const int y = program.sum(0, {{2, x}, {-1, program.call(Op::sin, {x})}});      // 2x − sin x
 ///     program.roots.push_back({Group::output, "y", y});
 ///
-/// Rules that make the graph the same in every run, whatever order the terms came in:
-///  - terms and factors are ordered by content (`before`), never by when they were made;
-///  - a sum's leading coefficient is positive, and all equal coefficients are drawn out: b − a is −1·(a − b);
-///  - cos is even, sin and the other odd functions are odd: no negative argument;
-///  - what depends on parameters alone is gathered inside sums and products, to be computed once a run.
-/// A node's arguments precede it. No GiNaC here: `lower` is where it ends.
+/// The following rules make the graph the same in every run, in whatever order terms are given:
+///  - terms and factors are ordered by content (`before`), never by the time at which they were made;
+///  - a sum's leading coefficient is positive, and a factor that all coefficients share is taken out: b − a is
+///    −1·(a − b);
+///  - no even or odd function such as cos or sin has a negative argument;
+///  - parts of sums and products that depend on parameters only are collected, to be computed once in a run.
+/// A node's arguments precede it. GiNaC is not used from here on; `lower` is the last room that uses it.
 
 #include <cln/rational.h>
 
@@ -54,11 +55,11 @@ enum class Op : unsigned char {
     max,
 };
 
-/// "sin" for Op::sin …; as in the scene language.
+/// The scene language's name: "sin" for Op::sin …
 const char* name_of(Op op);
 
 struct Variable {
-    /// `unknown`: what no state gives, such as a multiplier or a constant of the motion.
+    /// `unknown` is a variable that no state gives, such as a multiplier or a constant of the motion.
     enum class Kind : unsigned char { parameter, time, coordinate, rate, acceleration, unknown };
     Kind kind;
     int index = 0;
@@ -67,52 +68,53 @@ struct Variable {
 
 struct Node {
     Op op = Op::number;
-    Variable variable{};  ///< of a variable
-    Rational number = 0;  ///< of a number; the constant of a sum
+    Variable variable{};  ///< set if the node is a variable
+    Rational number = 0;  ///< the value of a number, or the constant of a sum
     std::vector<int> args{};
-    std::vector<Rational> coefficients{};  ///< of a sum: one for each argument
-    std::vector<int> exponents{};          ///< of a product: one for each argument, positive; or a lone −1
-    unsigned depends = 0;                  ///< bits 1 << Variable::Kind
-    int lead = 0;                          ///< position of the first variable in it, for the order
-    double size = 1;                       ///< operations when written out as a tree
-    std::uint64_t hash = 0;                ///< of the content; the same in every run
-    std::vector<int> sources{};            ///< indices into Program::source_labels: whose term it is
+    std::vector<Rational> coefficients{};  ///< for a sum, one for each argument
+    std::vector<int> exponents{};  ///< for a product, one for each argument, all positive; or a single −1
+    unsigned depends = 0;          ///< bits 1 << Variable::Kind
+    int lead = 0;                  ///< the position of its first variable, for the order of terms
+    double size = 1;               ///< operations if the node were written out as a tree
+    std::uint64_t hash = 0;        ///< of the contents; the same in every run
+    std::vector<int>
+        sources{};  ///< indices into Program::source_labels: the parts of the mechanism from which it comes
 
     bool is_number() const { return op == Op::number; }
-    /// Depends on nothing that changes during a run.
+    /// Whether it does not change during a run.
     bool is_constant() const { return (depends & ~1U) == 0; }
-    /// 1/x: the only place of a negative exponent.
+    /// Whether it is 1/x, the only form with a negative exponent.
     bool is_reciprocal() const { return op == Op::product && args.size() == 1 && exponents[0] == -1; }
-    /// A number times something: c·x.
+    /// Whether it is a number times another node: c·x.
     bool is_scaled() const { return op == Op::sum && args.size() == 1 && cln::zerop(number); }
 };
 
-/// A coordinate, a speed or a parameter as people know it.
+/// The name and unit of a coordinate, a speed or a parameter.
 struct Quantity {
     std::string name, unit;
-    double value = 0;  ///< of a parameter
-    int rate_of = -1;  ///< of a speed that is the rate of a coordinate: which
+    double value = 0;  ///< the value of a parameter
+    int rate_of = -1;  ///< for a speed that is the rate of a coordinate, the index of that coordinate
 };
 
-/// What a root is. The roots of a group stand in the order of their entries, matrices row by row.
+/// The meaning of a root. The roots of a group stand in the order of their entries, matrices row by row.
 enum class Group : unsigned char {
-    // M u' = f + Aᵀλ with A u' = γ; u = q' where the program has no speeds of its own.
+    // M u' = f + Aᵀλ with A u' = γ; u = q' if the program has no other speeds.
     mass,          ///< M, its lower triangle
     forcing,       ///< f
     acceleration,  ///< u'
-    rate,          ///< q', where the speeds are not the rates
-    second_rate,   ///< q'', likewise
+    rate,          ///< q', if the speeds are not the rates
+    second_rate,   ///< q'', in the same case
     row,           ///< A in q', n for each constraint
     speed_row,     ///< A in speeds, s for each; zeros for constraints that the speeds have eliminated
-    gamma,         ///< γ, of each constraint that has a multiplier in the equations: Root::constraint
+    gamma,         ///< γ of each constraint that has a multiplier in the equations; Root::constraint tells which
     position,      ///< f(q, t) of each holonomic constraint, 0 of others
     velocity,      ///< A q' + b of each constraint
     multiplier,    ///< λ
     projected,     ///< the state after one step of Newton's method to the constraints
-    pivot,         ///< what this step divides by
-    speed,         ///< the scene's generalized speeds, in the state or in rates
+    pivot,         ///< the divisors of this step
+    speed,         ///< the scene's generalized speeds, as functions of the state or of the rates
     speed_rate,
-    form_row,  ///< of a speed as a linear form in q', n for each
+    form_row,  ///< the coefficients of a speed as a linear form in q', n for each
     kinetic,
     potential,
     energy,
@@ -120,26 +122,26 @@ enum class Group : unsigned char {
     jacobi,
     output,
     event,
-    slip,         ///< of each dry friction: its sliding velocity,
+    slip,         ///< for each dry friction: its sliding velocity,
     stick_bound,  ///< its static coefficient over the kinetic one,
     friction,     ///< its coefficient while it slides,
     normal,       ///< its normal force,
-    determinant,  ///< and what this is divided by where it is a multiplier, else 1 (lower/normal_forces.hpp)
+    determinant,  ///< and the divisor of that force if it is a multiplier, else 1 (lower/normal_forces.hpp)
     load,         ///< inverse dynamics: M q'' − f
     force,
-    moment,  ///< of joints, three components for each
+    moment,  ///< the moments of joints, three components for each
     input,   ///< prescribed motions and their derivatives
     jacobian,
     parameter_jacobian,
     power_gradient,  ///< differentiate.hpp
 };
 
-/// A value that somebody wants.
+/// A value that the program computes for its users.
 struct Root {
     Group group;
     std::string name;  ///< for people and for identifiers of emitted code; decides nothing
     int node;
-    int constraint = -1;  ///< of γ: the position of its constraint
+    int constraint = -1;  ///< for γ, the position of its constraint
 };
 
 struct Operations {
@@ -159,7 +161,7 @@ public:
     int sum(const Rational& constant, const std::vector<Term>& terms);
     /// coefficient · Π node^exponent
     int product(const Rational& coefficient, const std::vector<Factor>& factors);
-    /// base^exponent for a whole or half exponent exactly, through `pow` otherwise.
+    /// base^exponent, exactly for a whole or half exponent, otherwise by `pow`.
     int power(int base, const Rational& exponent);
     int call(Op op, std::vector<int> args);
 
@@ -175,32 +177,34 @@ public:
     std::vector<int> nodes_of(Group group) const;
     /// The constraints that have multipliers in the equations, in the order of γ.
     std::vector<int> kept_constraints() const;
-    /// What a step of an integration evaluates: the accelerations, and the rates where the speeds are not the
-    /// rates.
+    /// The nodes that a step of an integration evaluates: the accelerations, and the rates if the speeds are not
+    /// the rates.
     std::vector<int> right_hand_side() const;
 
-    /// Operations at each evaluation of `roots`: what depends on parameters alone is not counted.
+    /// The operations at each evaluation of `roots`. Nodes that depend on parameters only are not counted.
     Operations count(std::span<const int> roots) const;
 
-    /// Names and labels without any node or root: where a copy begins.
+    /// A program with the same names and labels but without nodes and roots, from which a copy starts.
     Program shell() const;
 
-    /// The same program with its nodes in the order in which the roots meet them, and without those that no root
-    /// needs. Numbers of nodes are then the same in every run, whatever order they were made in.
+    /// The same program with its nodes in the order in which the roots meet them, and without nodes that no root
+    /// needs. The numbers of nodes are then the same in every run, in whatever order they were made.
     Program canonical() const;
 
-    /// New nodes get these sources from now on (indices into `source_labels`; 0 is the scene as a whole). Gives
-    /// the former ones.
+    /// Sets the sources of new nodes from now on (indices into `source_labels`; 0 is the scene as a whole).
+    /// Returns the former sources.
     std::vector<int> set_sources(std::vector<int> sources) { return std::exchange(sources_, std::move(sources)); }
 
     std::vector<Root> roots;
     std::vector<std::string> source_labels;
-    std::string name;                               ///< of the scene, a file's stem
-    std::vector<Quantity> parameters, coordinates;  ///< what the variables' indices mean
-    std::vector<Quantity> speeds;                   ///< of the state beside the coordinates; empty: their rates
-    std::string formulation;                        ///< formalism and form, for people
-    bool is_textbook = false;  ///< the equations are in their readable form; the order of terms is the book's
-    bool singular = false;     ///< no state makes the mass matrix regular; the accelerations are missing
+    std::string name;                               ///< the name of the scene, that of its file without ending
+    std::vector<Quantity> parameters, coordinates;  ///< the quantities to which the indices of variables refer
+    std::vector<Quantity> speeds;  ///< the speeds in the state; if empty, the rates of the coordinates
+    std::string formulation;       ///< formalism and form, for people
+    /// Whether the equations are in their readable form, with the order of terms of a book.
+    bool is_textbook = false;
+    /// Whether the mass matrix is singular at every state, so that there are no accelerations.
+    bool singular = false;
 
 private:
     int intern(Node node);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Numbers of 34 digits: IEEE binary128, in the compiler's arithmetic and with glibc's functions (2.26 or later,
+/// Numbers with 34 digits: IEEE binary128, with the compiler's arithmetic and glibc's functions (2.26 or later,
 /// x86-64).
 ///
 ///     const Quad x = quad_of(Rational(1)/10);
@@ -45,7 +45,7 @@ inline bool is_finite(Quad x) {
     return x - x == 0;
 }
 
-/// To the last bit or two: three doubles hold 159 bits.
+/// Exact to the last bit or two, because three doubles hold 159 bits.
 inline Quad quad_of(cln::cl_RA r) {
     Quad sum = 0;
     for (int part = 0; part < 3; ++part) {

@@ -52,7 +52,7 @@ std::vector<Readiness::Term> Readiness::arranged(std::vector<Term> list) const {
     return list;
 }
 
-/// When the last of the terms is added.
+/// The time at which the last of the terms is added.
 int Readiness::end(const Node& node, const std::vector<Term>& list) const {
     const bool has_number = node.op == Op::sum && !cln::zerop(node.number);
     int at = has_number ? 0 : list[0].ready + (list[0].fuses ? step : 0);

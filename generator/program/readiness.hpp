@@ -4,11 +4,11 @@
 /// When each value of a program is ready, in cycles, and the order in which terms are best taken.
 ///
 ///     const Readiness ready(program, roots);
-///     ready[node];                       // with as many units as one likes
+///     ready[node];                       // with an unlimited number of units
 ///     ready.order(node);                 // of a sum's or a product's arguments: what is late comes last
 ///
-/// Cycles are those of processor.hpp. A compiler keeps the order of a sum; the textbook's is kept, too, since it
-/// is there to be read.
+/// Cycles are those of processor.hpp. A compiler keeps the order of a sum. The order of the textbook form is kept
+/// too, because that form is meant to be read.
 
 #include <span>
 #include <vector>
@@ -22,7 +22,7 @@ public:
     Readiness(const Program& program, std::span<const int> roots);
 
     int operator[](int node) const { return ready_[node]; }
-    /// Positions of the arguments. A term of a sum that is no product goes first where that costs no time: it
+    /// Positions of the arguments. If it costs no time, a term of a sum that is no product comes first, which
     /// saves an addition.
     std::vector<std::size_t> order(int node) const;
     bool is_ordered() const { return !is_textbook_; }
@@ -30,8 +30,8 @@ public:
 private:
     struct Term {
         std::size_t position;
-        int ready;   ///< of a product: of its factors
-        bool fuses;  ///< a product that nobody else needs
+        int ready;   ///< for a product, the time at which its factors are ready
+        bool fuses;  ///< whether it is a product that is not used elsewhere
     };
     std::vector<Term> terms(int node) const;
     std::vector<Term> arranged(std::vector<Term> list) const;

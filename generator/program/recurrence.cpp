@@ -45,7 +45,7 @@ Recurrences SeriesBuilding::implicit() {
     for (const int id : lower) result_.matrix.push_back(entry(form(id)));
     std::vector<SeriesForm> forms;
     for (const int id : right) forms.push_back(form(id));
-    // Unknowns follow the residuals, which name them.
+    // The unknowns follow the residuals, which refer to them.
     const int first = static_cast<int>(nodes().size()) + s + m;
     for (int i = 0; i < s + m; ++i) result_.unknowns.push_back(first + i);
     for (int i = 0; i < s + m; ++i) result_.residuals.push_back(add(residual(forms[i], i)));
@@ -53,7 +53,7 @@ Recurrences SeriesBuilding::implicit() {
     result_.preferred = s;
     for (int i = 0; i < s + m; ++i) add({.kind = Kind::unknown, .index = i});
     result_.accelerations.assign(result_.unknowns.begin(), result_.unknowns.begin() + s);
-    // What else needs the solution finds it by the nodes that the Program has for it.
+    // Other nodes that need the solution find it under the nodes that the Program has for it.
     for (int i = 0; const int id : p().nodes_of(Group::acceleration)) remember(id, result_.unknowns[i++], 1);
     const std::vector<int> multipliers = p().nodes_of(Group::multiplier);
     for (int k = s; const int c : kept) remember(multipliers.at(c), result_.unknowns[k++], -1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The Taylor coefficients of a motion, order by order: what each node of a Program becomes when its arguments are
-/// power series in time.
+/// The Taylor coefficients of a motion, order by order: the power series in time of each node of a Program, from
+/// those of its arguments.
 ///
 ///     const Recurrences series = recurrences(program);
 ///     series.nodes[7];          // sum: z_k = 2 x_k + Σ_j a_j b_(k−j)
@@ -20,13 +20,13 @@
 ///     ratio       z' = a'/w: log with w = a, atan with 1 + a², asin
 ///     turn        z' = (x y' − y x')/w: atan2
 ///
-/// Accelerations come by one of two ways, whichever takes fewer Cauchy products: as the nodes that the Program has
-/// for them, or coefficient by coefficient from M u' = f (and A u' = γ where there are multipliers), with one
-/// factorization at order 0:
+/// Accelerations are computed in one of two ways, whichever takes fewer Cauchy products: as the nodes that the
+/// Program has for them, or coefficient by coefficient from M u' = f (and A u' = γ where there are multipliers),
+/// with one factorization at order 0:
 ///
 ///     M_0 u'_k = f_k − Σ_{j≥1} M_j u'_{k−j}
 ///
-/// Functions with a kink are an obstacle: abs, sign, min and max have no series there.
+/// Functions with a kink are an obstacle, because abs, sign, min and max have no series at the kink.
 
 #include <optional>
 #include <string>
@@ -35,7 +35,8 @@
 
 namespace alembert {
 
-/// A factor that does not change during a run: a number times, unless `constant` is negative, that node.
+/// A factor that does not change during a run: a number, multiplied by the node `constant` unless that is
+/// negative.
 struct Weight {
     Rational number = 1;
     int constant = -1;
@@ -47,7 +48,7 @@ struct SeriesNode {
         coordinate,
         speed,
         work,
-        unknown,  // given from outside: `index` says which
+        unknown,  // given from outside; `index` tells which
         sum,
         residual,
         quotient,
@@ -72,12 +73,12 @@ struct SeriesNode {
     };
     Kind kind = Kind::sum;
     int index = 0;
-    std::vector<Weight> constants = {};   ///< of a sum or a numerator: at order 0 only
+    std::vector<Weight> constants = {};   ///< for a sum or a numerator: terms at order 0 only
     std::vector<Linear> linear = {};      ///< likewise
     std::vector<Bilinear> bilinear = {};  ///< likewise
-    std::vector<Bilinear> implied = {};   ///< of a residual: −M⊗u', without M_0 u'_k
+    std::vector<Bilinear> implied = {};   ///< for a residual: −M⊗u', without M_0 u'_k
     int a = -1, b = -1, w = -1;           ///< arguments; the divisor of a quotient is w
-    Op op = Op::number;                   ///< of a ratio or an area: the function, for its value
+    Op op = Op::number;                   ///< for a ratio or an area: the function, for its value at order 0
     Weight exponent = {};
 };
 
@@ -88,27 +89,26 @@ struct SeriesEntry {
 };
 
 struct Recurrences {
-    Program program;                    ///< with the constants that the weights name
-    std::vector<SeriesNode> nodes;      ///< arguments first, but for `w` of an area
-    std::vector<int> coordinate_rates;  ///< where the speeds are not the rates: the node of each q'
+    Program program;                    ///< with the constants to which the weights refer
+    std::vector<SeriesNode> nodes;      ///< arguments come first, except `w` of an area
+    std::vector<int> coordinate_rates;  ///< the node of each q', if the speeds are not the rates
     std::vector<int> accelerations;     ///< the node of each u'
-    int work = -1;                      ///< the node of the power, where it is integrated
-    std::vector<SeriesEntry>
-        matrix;                  ///< lower triangle of [M Aᵀ; A 0], empty where accelerations are ordinary nodes
-    std::vector<int> residuals;  ///< a row each
-    std::vector<int> unknowns;   ///< of each row: u', then −λ
-    int solved_at = 0;           ///< nodes before this one precede the solution
-    int preferred = 0;           ///< how many of the unknowns are accelerations
+    int work = -1;                      ///< the node of the power, if it is integrated
+    std::vector<SeriesEntry> matrix;  ///< lower triangle of [M Aᵀ; A 0], empty if accelerations are ordinary nodes
+    std::vector<int> residuals;       ///< one for each row
+    std::vector<int> unknowns;        ///< one for each row: u', then −λ
+    int solved_at = 0;                ///< nodes before this one precede the solution
+    int preferred = 0;                ///< how many of the unknowns are accelerations
 
-    /// Cauchy products at each order, a square being half of one.
+    /// The number of Cauchy products at each order; a square counts as half of one.
     double products() const;
 };
 
-/// Why a motion has no such series: it has no accelerations, or holds a function without a series. `with_work`:
-/// the power of loads is integrated beside the state.
+/// The reason why a motion has no such series: it has no accelerations, or it contains a function without a
+/// series. With `with_work` the power of loads is integrated together with the state.
 std::optional<std::string> obstacle_to_recurrences(const Program& program, bool with_work = false);
 
-/// Throws ModelError with the obstacle where there is one.
+/// Throws ModelError with the obstacle if there is one.
 Recurrences recurrences(const Program& program, bool with_work = false);
 
 }  // namespace alembert

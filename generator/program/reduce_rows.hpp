@@ -11,8 +11,8 @@
 
 namespace alembert {
 
-/// Gauss-Jordan elimination modulo the prime: the reduced row echelon form, which is the same for all systems of
-/// equations with the same solutions. Gives the rank among the first `columns` columns.
+/// Gauss-Jordan elimination modulo the prime: makes the reduced row echelon form, which is the same for all
+/// systems of equations with the same solutions. Returns the rank among the first `columns` columns.
 inline int reduce_rows(std::vector<std::vector<Prime>>& rows, std::size_t columns) {
     std::size_t rank = 0;
     for (std::size_t column = 0; column < columns && rank < rows.size(); ++column) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Copies a program node by node; `rebuilt` decides what becomes of each.
+/// Copies a program node by node; the function given to `finish` makes the new node for each old one.
 ///
 ///     Rewriting rewriting(old);
 ///     return rewriting.finish([&](int id) { return rewriting.plain(id); });      // the same again

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How far rounding alone may carry a value of a program from what the exact state would give: a value with a
-/// bound on its error, to first order (Higham, Accuracy and Stability of Numerical Algorithms (2002), §3.3).
+/// How far rounding may move a value of a program away from the value at the exact state: numbers with a bound on
+/// their error, to first order (Higham, Accuracy and Stability of Numerical Algorithms (2002), §3.3).
 ///
 ///     const std::vector<double> error = rounding_errors(program, state);   // cos(θ) at θ = 1.5707963…: 3.5e-16
 
@@ -42,7 +42,8 @@ inline RoundedValue real_of<RoundedValue>(const Rational& r) {
     return {cln::double_approx(r), 0};
 }
 
-/// f(x) with the spread of f over x's error. Where f has no value beyond (√ below 0), x itself stands for the end.
+/// f(x) with the spread of f over x's error. If f has no value at an end of that interval (√ below 0), x itself is
+/// used instead of that end.
 template <typename Function>
 RoundedValue spread(const RoundedValue& x, const Function& f) {
     const double at = f(x.value), above = f(x.value + x.error), below = f(x.value - x.error);
@@ -82,7 +83,7 @@ inline RoundedValue log(const RoundedValue& x)  { return spread(x, [](double v) 
 inline RoundedValue sqrt(const RoundedValue& x) { return spread(x, [](double v) { return std::sqrt(v); }); }
 // clang-format on
 
-/// For each node, how far rounding of the state, the parameters and of each operation may carry its value.
+/// For each node, how far rounding of the state, of the parameters and of each operation may move its value.
 inline std::vector<double> rounding_errors(const Program& program, const State<double>& state) {
     const auto rounded = [](const std::vector<double>& values) {
         std::vector<RoundedValue> result;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// From the nodes of a Program to the recurrences of recurrence.hpp.
+/// Converts the nodes of a Program to the recurrences of recurrence.hpp.
 ///
 ///     SeriesBuilding(program, false).direct();        // accelerations as the nodes that the Program has for them
 ///     SeriesBuilding(program, false).implicit();      // accelerations from M u' = f, order by order
 ///
-/// A sum stays a form, without a node, as long as its terms can join those of another sum. recurrence.cpp has the
-/// two ways, series_products.cpp forms and products, series_functions.cpp powers and functions.
+/// A sum stays a form, without a node, as long as its terms can be merged with those of another sum.
+/// recurrence.cpp has the two ways, series_products.cpp forms and products, series_functions.cpp powers and
+/// functions.
 
 #include <map>
 #include <optional>
@@ -48,7 +49,7 @@ private:
     int add(SeriesNode node);
     void remember(int id, int node, const Rational& factor);
 
-    /// Counts uses, makes the states.
+    /// Counts uses and makes the nodes of the state.
     void begin(std::vector<int> roots);
     Recurrences finished();
     SeriesEntry entry(const SeriesForm& f);
@@ -57,7 +58,7 @@ private:
     SeriesNode residual(const SeriesForm& f, int i);
     int constant_product(int a, int b, int exponent_of_b);
 
-    /// The node may have become a number, or a multiple of another.
+    /// The weight number·constant, whose node may have become a number or a multiple of another node.
     Weight tidy(Rational number, int constant);
     Weight times(const Weight& a, const Weight& b);
     Weight over(const Weight& a, const Weight& b);
@@ -66,27 +67,28 @@ private:
         return {.constants = {}, .linear = {{weight, node}}, .bilinear = {}};
     }
 
-    /// The node of a form, with its factor outside.
+    /// The node of a form, with its factor taken out.
     ScaledNode scaled(const SeriesForm& f);
     int node_of(const SeriesForm& f);
 
-    /// The form of a Program's node; a node of its own where it is used more than once and is more than a
-    /// multiple.
+    /// The form of a Program's node; it gets a node of its own if it is used more than once and is more than a
+    /// multiple of another node.
     SeriesForm form(int id);
     SeriesForm made(int id);
     int variable(const Variable& v);
     SeriesForm product(const Node& node);
     SeriesForm assembled(Weight weight, const std::vector<int>& factors, const std::vector<ScaledNode>& divisors);
 
-    /// Factors of factors and what stands under their roots, each with its exponent in `exponents`.
+    /// Collects the factors of factors and the arguments of their roots, each with its exponent, in `exponents`.
     void flatten(int id, const Rational& exponent, std::map<int, Rational>& exponents) const;
 
-    /// A product in which something stands under roots with an exponent beyond 1, as in r^(-3): one recurrence
-    /// instead of a quotient for each r. Nothing where there is no such thing.
+    /// A product with a root whose exponent exceeds 1, as in r^(-3): it gets one recurrence instead of a quotient
+    /// for each r. Nothing if there is no such root.
     std::optional<SeriesForm> product_with_roots(int id);
     int power_of(int base, const Rational& exponent);
 
-    /// Divided by as often as its reciprocal is used, which its own count of uses does not show.
+    /// The divisor of a quotient. It is used as often as its reciprocal, which its own count of uses does not
+    /// show.
     ScaledNode divisor(int id);
     int quotient(const SeriesForm& numerator, int divisor);
     int with(SeriesNode::Kind kind, int a, int w = -1, Op op = Op::number) {
@@ -98,10 +100,10 @@ private:
         return add({.kind = SeriesNode::Kind::sum, .constants = {{}}, .bilinear = {{{sign, -1}, x, x}}});
     }
 
-    /// z' = z'-of-itself: the function's node, then its w.
+    /// A function with z' = a'·w, where w depends on z: makes the function's node, then that of its w.
     int area(int a, int sign, Op op);
 
-    /// The pair; both belong to the recurrence of each.
+    /// The nodes of sine and cosine; the recurrence of each needs both.
     int pair(int a, bool hyperbolic, bool second);
     SeriesForm function(const Node& node);
     int arc(int a) {

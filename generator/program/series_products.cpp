@@ -87,7 +87,7 @@ SeriesForm SeriesBuilding::form(int id) {
 }
 
 SeriesForm SeriesBuilding::made(int id) {
-    const Node node = p()[id];  // a copy: constants may be added
+    const Node node = p()[id];  // a copy, because constants may be added
     if (node.is_constant()) {
         if (p().is_zero(id)) return {};
         return {.constants = {tidy(1, id)}, .linear = {}, .bilinear = {}};

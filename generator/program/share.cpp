@@ -66,7 +66,8 @@ private:
     }
 
     void enter(std::size_t k, int sign) {
-        if (bags_[k].items.size() > 24) return;  // pairs grow with the square; sums that long share little
+        // The number of pairs grows with the square, and such long sums share little.
+        if (bags_[k].items.size() > 24) return;
         for (const Pair& pair : pairs_of(bags_[k])) {
             std::set<std::size_t>& users = users_[pair];
             if (const auto known = order_.find(pair); known == order_.end())
@@ -151,7 +152,7 @@ Program with_shared_pairs(const Program& old) {
     });
 }
 
-/// a·b + a·c → a·(b + c), for products that have one user.
+/// a·b + a·c → a·(b + c), for products that are used once.
 Program with_common_factors(const Program& old) {
     Rewriting rewriting(old);
     std::map<int, int> uses;
@@ -222,7 +223,7 @@ Program with_common_factors(const Program& old) {
     });
 }
 
-/// k·(k′·a) → (k·k′)·a, where k and k′ depend on parameters alone and no other acceleration wants k′·a.
+/// k·(k′·a) → (k·k′)·a, where k and k′ depend on parameters only and k′·a is not needed elsewhere.
 Program with_gathered_constants(const Program& old) {
     Rewriting rewriting(old);
     std::map<int, int> uses;

@@ -39,7 +39,7 @@ public:
         return back_substituted({b_.size(), std::vector<int>(n_, -1)});
     }
 
-    /// After `solve`.
+    /// Valid after `solve`.
     const std::vector<int>& later_pivots() const { return later_pivots_; }
 
 private:
@@ -47,8 +47,8 @@ private:
     int minus(int a, int b) { return p_.sum(0, {{1, a}, {-1, b}}); }
     bool zero(int i, int j) const { return p_.is_zero(rows_[i][j]); }
 
-    /// The position in `left` of the regular pivot with the fewest neighbours; the last of equals, so that a chain
-    /// is eliminated from its tip.
+    /// The position in `left` of the regular pivot with the fewest neighbours; among equals the last one, so that
+    /// a chain is eliminated from its tip.
     int next_pivot(const std::vector<int>& left) const {
         int best = -1, fewest = 0;
         for (std::size_t place = 0; place < left.size(); ++place) {
@@ -78,7 +78,7 @@ private:
         for (auto& b : b_) b[k] = times(b[k], inverse);
     }
 
-    /// Lᵀ x = z for the rows in `order_`, last first; `x` holds what is known already.
+    /// Lᵀ x = z for the rows in `order_`, last first; `x` holds the components that are known already.
     std::vector<std::vector<int>> back_substituted(std::vector<std::vector<int>> solutions) {
         for (std::size_t side = 0; side < b_.size(); ++side)
             for (auto k = order_.rbegin(); k != order_.rend(); ++k) {
@@ -127,7 +127,7 @@ private:
     std::vector<std::vector<int>> b_;     // right-hand sides, one after the other
     std::vector<std::vector<int>> rows_;  // the matrix, symmetric; eliminated rows hold Lᵀ
     std::vector<int> order_;
-    std::vector<int> later_pivots_;  // with the sign changed; −1 where rows were exchanged
+    std::vector<int> later_pivots_;  // with the sign changed; −1 if rows were exchanged
 };
 
 }  // namespace

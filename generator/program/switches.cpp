@@ -19,7 +19,7 @@ constexpr unsigned bit(Variable::Kind kind) {
     return 1U << static_cast<unsigned>(kind);
 }
 
-/// Copies the program and collects the functions whose signs are held.
+/// Copies the program and collects the functions whose signs are kept constant.
 class Holding {
 public:
     explicit Holding(const Program& old)
@@ -52,7 +52,7 @@ private:
         return value;
     }
 
-    /// ±σ, where the sign of `g` is asked for; one σ for g and c·g.
+    /// ±σ for the sign of `g`; g and c·g have the same σ.
     int side_of(int g, int function) {
         Program& made = rewriting_.made();
         if (made[g].is_number()) return made.number(cln::signum(made[g].number));
@@ -77,9 +77,9 @@ private:
     std::vector<int> conditions_, functions_;
 };
 
-/// ġ for the accelerations that stand for u'; nothing where it would be too long.
+/// ġ in terms of the given accelerations u'; nothing if it would be too long.
 std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& conditions) {
-    const std::vector<int> second = p.nodes_of(Group::rate);  // q' = h, where the speeds are not the rates
+    const std::vector<int> second = p.nodes_of(Group::rate);  // q' = h, if the speeds are not the rates
     const auto n = static_cast<int>(p.coordinates.size());
     const auto s = static_cast<int>(p.speeds.empty() ? p.coordinates.size() : p.speeds.size());
     std::vector<int> inputs{p.variable({Variable::Kind::time, 0})}, directions{p.number(1)};
@@ -103,8 +103,8 @@ std::optional<std::vector<int>> rates_of(Program& p, const std::vector<int>& con
     return rates;
 }
 
-/// +1 or −1 where b is a positive or negative multiple of a in three states of no meaning, else 0. (One may have
-/// come through a readable form.)
+/// +1 or −1 if b is a positive or negative multiple of a at three arbitrary states, else 0. (The nodes may differ
+/// because one of them comes from a readable form.)
 int ratio_of(const Program& p, int a, int b) {
     constexpr double same = 1e-9;
     double first = 0;
@@ -132,7 +132,7 @@ int ratio_of(const Program& p, int a, int b) {
     return first > 0 ? 1 : -1;
 }
 
-/// Which frictions each condition belongs to.
+/// The frictions to which each condition belongs.
 std::vector<std::vector<Switched::Rubbing>> frictions_of(const Program& p, const std::vector<int>& conditions) {
     std::vector<std::vector<Switched::Rubbing>> result(conditions.size());
     const std::vector<int> slips = p.nodes_of(Group::slip);
@@ -143,8 +143,9 @@ std::vector<std::vector<Switched::Rubbing>> frictions_of(const Program& p, const
     return result;
 }
 
-/// What friction can hold over what it resists when it slides, and what must not become negative; 1 where there is
-/// none. Where several have one sliding velocity, the bound is that of all together.
+/// Adds the bound, the largest static friction divided by the sliding friction, and the number that must not
+/// become negative; both are 1 if there is no friction. If several frictions have the same sliding velocity, the
+/// bound is that of all together.
 void add_bounds(Program& p, const Switched& s) {
     const std::vector<int> bounds = p.nodes_of(Group::stick_bound), sliding = p.nodes_of(Group::friction),
                            normals = p.nodes_of(Group::normal), determinants = p.nodes_of(Group::determinant);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A program in which sign, |·|, min and max have become smooth: the sign of what they look at is a parameter of
-/// its own, +1 or −1, that a run holds until that function is zero (alembert/switching.hpp).
+/// Makes a program in which sign, |·|, min and max are smooth. The sign of the function on which each depends
+/// becomes a parameter, +1 or −1, which a run keeps constant until that function is zero (alembert/switching.hpp).
 ///
 ///     if (const auto s = switched(program)) …        // nothing where the program has none of them
 ///     s->program.parameters.back().name;             // "side_1", after the scene's parameters
 ///
-/// With σ for the sign of g:   sign g → σ,   |g| → σ g,   max(a, b) → (a + b)/2 + σ (a − b)/2 with g = a − b, and
-/// min with −σ. A function of parameters alone stays as it is. The events of the program are followed by g_1 … g_K
-/// and then by ġ_1 … ġ_K, for the rates that events are given: ġ = ∂g/∂t + Σ ∂g/∂q q' + Σ ∂g/∂u u'. With dry
-/// friction two numbers more follow for each σ, 1 where it has none: the bounds of |σ| while it sticks, and what
-/// must not become negative, the normal force, or its determinant (Group::determinant).
+/// With σ for the sign of g: sign g → σ, |g| → σ g, max(a, b) → (a + b)/2 + σ (a − b)/2 with g = a − b, and min
+/// with −σ. A function of parameters only is not changed. The events of the program are followed by g_1 … g_K and
+/// then by ġ_1 … ġ_K, for the rates that events are given: ġ = ∂g/∂t + Σ ∂g/∂q q' + Σ ∂g/∂u u'. With dry friction
+/// two further numbers follow for each σ: the bound of |σ| while the contact sticks, and a number that must not
+/// become negative, the normal force or its determinant (Group::determinant). Both are 1 for a σ without friction.
 
 #include <optional>
 #include <vector>
@@ -28,11 +28,12 @@ struct Switched {
         int friction;
         int direction;
     };
-    std::vector<std::vector<Rubbing>> frictions = {};  ///< of each σ
+    std::vector<std::vector<Rubbing>> frictions = {};  ///< for each σ
     bool has_frictions() const;
 };
 
-/// Nothing too where some g contains accelerations, or a derivative of it would be longer than the program.
+/// Nothing if there is no such function, if some g contains accelerations, or if a derivative of a g would be
+/// longer than the program.
 std::optional<Switched> switched(const Program& program);
 
 }  // namespace alembert

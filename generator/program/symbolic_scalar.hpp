@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A node as a scalar; zeros and constants fold in the program.
+/// A node as a scalar type; the program simplifies zeros and constants.
 ///
 ///     const Symbolic x(program, node);
 ///     (x * 2 - x).node(program)
@@ -18,7 +18,7 @@ public:
     Symbolic(Program& program, int node) : p_(&program), node_(node) {}
 
     int node(Program& program) const { return p_ != nullptr ? node_ : program.number(number_); }
-    /// The value, where it is a plain number.
+    /// The value, if it is a plain number.
     std::optional<Rational> number() const {
         if (p_ == nullptr) return number_;
         if ((*p_)[node_].is_number()) return (*p_)[node_].number;

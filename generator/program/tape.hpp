@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A Program as a list of instructions over any Real, for evaluation again and again without a compiler.
+/// A Program as a list of instructions over any Real, for repeated evaluation without a compiler.
 ///
 ///     Tape<Quad> rhs(program, program.nodes_of(Group::acceleration), parameters);
 ///     rhs(t, q, u, out);                                   // out: a value for each of the nodes wanted
 ///
-/// What depends on parameters alone is computed once; constants are exact rationals until they become a Real. It
-/// is `interpret` (the oracle) with the decisions taken beforehand: three to five times its speed, and in Quad the
-/// arithmetic itself takes nearly all of the time. Real is double, long double or Quad. One object serves one
-/// thread.
+/// Values that depend on parameters only are computed once; constants are exact rationals until they are converted
+/// to Real. A tape gives the same results as `interpret`, with all decisions taken beforehand. It is three to five
+/// times as fast, and with Quad the arithmetic itself takes nearly all of the time. Real is double, long double or
+/// Quad. One object serves one thread.
 
 #include <span>
 #include <utility>
@@ -76,7 +76,7 @@ private:
     struct Term {
         int arg;
         Real coefficient;
-        int exponent;  ///< of a sum: the coefficient where it is 1 or −1, else 0
+        int exponent;  ///< for a sum: the coefficient if it is 1 or −1, else 0
     };
 
     static int unity(const Rational& r) { return r == 1 ? 1 : r == -1 ? -1 : 0; }

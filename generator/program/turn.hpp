@@ -2,8 +2,8 @@
 #pragma once
 
 /// Angles modulo 2⁶¹ − 1: points of the circle x² + y² = 1, which multiply as complex numbers. Those with plain
-/// coordinates (program/prime.hpp) are a cyclic group of order 2⁶¹, so every odd part of a turn is in it, and
-/// every π/2ᵏ; π/3 is beside it.
+/// coordinates (program/prime.hpp) form a cyclic group of order 2⁶¹, which contains every odd fraction of a turn
+/// and every π/2ᵏ, but not π/3.
 ///
 ///     const PrimeTurn third = turn.power(*PrimeTurn::exponent(Rational(1) / 3));    // third.power(3) is turn
 ///     // cos(π/8), the same in every program
@@ -38,10 +38,10 @@ struct PrimeTurn {
         for (int k = 0; k < 6; ++k) inverse *= 2 - d * inverse;
         return (low(cln::numerator(c)) * inverse) & ((std::uint64_t{1} << 61) - 1);
     }
-    /// By c·π; nothing if the denominator of c is neither 2ᵏ nor 3·2ᵏ with k up to 40.
+    /// The turn by c·π; nothing if the denominator of c is neither 2ᵏ nor 3·2ᵏ with k up to 40.
     static std::optional<PrimeTurn> by_pi(const Rational& c) {
         constexpr int most_halves = 40;
-        if (cln::zerop(cln::mod(cln::denominator(c), cln::cl_I(3)))) {  // a third of a half turn, and what is left
+        if (cln::zerop(cln::mod(cln::denominator(c), cln::cl_I(3)))) {  // a third of a half turn, and the rest
             const PrimeTurn third{Prime(2).inverse(), *Prime::root_of(3) * Prime(2).inverse()};
             for (int k = 1; k <= 2; ++k)
                 if (const Rational rest = c - Rational(k) / 3;
@@ -62,7 +62,7 @@ struct PrimeTurn {
         }
         return quarter.power(*exponent(eighths));
     }
-    /// Of order 2⁶¹ or a part of it: has every odd part.
+    /// Whether the turn is in the group of order 2⁶¹, which contains every odd fraction of it.
     constexpr bool is_plain() const { return cos.is_plain() && sin.is_plain(); }
     /// ((1 − t²)/(1 + t²), 2t/(1 + t²)); −1 is no square, so the denominator is never zero.
     static constexpr PrimeTurn rational(Prime t) {

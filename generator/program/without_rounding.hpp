@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which values are rounding alone: those that change as much as they are when they are calculated with eleven
-/// more bits, from the same state.
+/// Finds values that are only rounding: those that change by as much as their own size when they are computed with
+/// eleven more bits from the same state.
 ///
 ///     without_rounding(interpret(program, state), interpret(program, in_long_double(state)))
 
@@ -24,7 +24,7 @@ inline State<long double> in_long_double(const State<double>& state) {
             .unknown = wide(state.unknown)};
 }
 
-/// `values`, with 0 for those that are rounding alone.
+/// `values`, with 0 for those that are only rounding.
 inline std::vector<double> without_rounding(std::vector<double> values, const std::vector<long double>& wider) {
     for (std::size_t k = 0; k < values.size(); ++k)
         if (std::abs(wider[k]) <= std::abs(values[k] - wider[k])) values[k] = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A released joint K between the parent's side and the joint itself: moment about the joint's point of the parent
-// M₀, so that about the point of the child, which is d away, M = M₀ − d × F.
+// A released joint K between the parent's side and the joint itself: M₀ is the moment about the joint's point of
+// the parent, so that the moment about the point of the child, at the distance d, is M = M₀ − d × F.
 #include "reaction/joint_reactions.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Vector no_shift() {
     return {.component = {nothing(), nothing(), nothing()}, .place = {}};
 }
 
-/// A massless body that a joint places.
+/// Adds a massless body that a joint places.
 void add_link(Scene& scene, Joint joint) {
     scene.bodies.push_back({.name = joint.child.body,
                             .mass = nothing(),
@@ -41,19 +41,20 @@ void add_link(Scene& scene, Joint joint) {
     scene.joints.push_back(std::move(joint));
 }
 
-/// No name of a scene has a dot.
+/// A name with a dot, which no name of a scene has.
 std::string named(const Joint& joint, const std::string& what) {
     return joint.name.text + "." + what;
 }
 
-/// The same with all joints released; their coordinates come after the scene's own.
+/// The scene with all joints released; their coordinates come after the scene's own.
 Scene released(Scene scene) {
     const std::size_t count = scene.joints.size();
     scene.speeds.clear();
     scene.outputs.clear();
     scene.events.clear();
     for (Body& body : scene.bodies) {
-        if (!body.inertia || !body.inertia->planar) continue;  // turned out of its plane by no motion
+        // A planar body that no motion turns out of its plane.
+        if (!body.inertia || !body.inertia->planar) continue;
         for (Expression& element : body.inertia->tensor) element = nothing();
         body.inertia->tensor[2] = *std::exchange(body.inertia->planar, {});
     }
@@ -82,7 +83,7 @@ Scene released(Scene scene) {
                                          .unit = {},
                                          .about = {}});
         }
-        if (joint.closes_loop) {  // where its point of the child is
+        if (joint.closes_loop) {  // the position of its point of the child
             Joint mark = release;
             mark.name.text = named(joint, "mark");
             mark.type = Joint::Type::fixed;
@@ -156,7 +157,7 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
     int i = n;
     for (const JointArc& arc : mechanism.joints) {
         result.joints.push_back(arc.name);
-        const int sign = arc.role == JointArc::Role::places_parent ? -1 : 1;  // on the child
+        const int sign = arc.role == JointArc::Role::places_parent ? -1 : 1;  // the sign for the child
         std::array<int, 6> R;
         for (int k = 0; k < 6; ++k, ++i) {
             for (Program::Term& term : terms[i]) term.first = sign * term.first;
@@ -187,7 +188,7 @@ JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism) {
 
 namespace {
 
-/// Values of the program of reactions at a state, with q'' and the multipliers that `solved` gives there.
+/// The values of the program of reactions at a state, with the q'' and multipliers from `solved`.
 template <typename Real>
 std::vector<Real> values_at(const JointReactions& r, const Program& solved, State<Real> whole) {
     std::vector<Real> value = interpret(solved, whole);

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What joints bear: the force and the moment that a joint exerts on its child, by cutting it.
+/// Reactions of joints: the force and the moment that a joint exerts on its child, found by cutting the joint.
 ///
 ///     const JointReactions reactions = joint_reactions(scene, mechanism);
 ///     // program: of any formalism, at q, q' (or q, u)
 ///     const std::vector<JointLoad> loads = reactions.at(program, state);
 ///     loads[0].force[2];
 ///
-/// Before each joint a massless link with six coordinates c (three shifts, three turns along the joint's axes) is
-/// put. Held at c = 0 these need the loads
+/// Before each joint a massless link with six coordinates c (three shifts and three turns along the joint's axes)
+/// is inserted. To hold them at c = 0 takes the loads
 ///     R = ∂T-terms(c) − Q(c) − A_cᵀλ,
-/// which are the force and the moment that the joint bears: the principle of virtual displacements for a released
-/// joint (Schiehlen, Technische Dynamik (1986), §4.2: the columns Q̄ of the reactions; Featherstone, Rigid Body
-/// Dynamics Algorithms (2008), §5.3: f_i). All that acts along c is counted, springs, dampers, forces at points,
-/// rolling and loops included. Loads along the joint's own coordinate ([forces], dampers along it) do nothing
-/// along c and so belong to what the joint bears: along a free axis R is the drive's share. A joint that closes a
-/// loop bears what its multipliers do, R = −A_cᵀλ, its link hanging on the parent alone. The first two terms come
-/// from one sweep for all joints (lower/held_loads.hpp); with [energy] kinetic from M and f.
+/// which are the force and the moment in the joint, by the principle of virtual displacements for a released joint
+/// (Schiehlen, Technische Dynamik (1986), §4.2: the columns Q̄ of the reactions; Featherstone, Rigid Body Dynamics
+/// Algorithms (2008), §5.3: f_i). Everything that acts along c counts, including springs, dampers, forces at
+/// points, rolling and loops. Loads along the joint's own coordinate ([forces], dampers along it) do no work along
+/// c and therefore belong to the reaction: along a free axis R is the contribution of the drive. The reaction of a
+/// joint that closes a loop comes from its multipliers only, R = −A_cᵀλ, because its link is attached to the
+/// parent only. The first two terms come from one sweep for all joints (lower/held_loads.hpp); with [energy]
+/// kinetic from M and f.
 ///
 /// The force acts on the child at the joint's point of the child, the moment is about that point; both along the
-/// joint's axes in that of the two bodies which the joint finds placed: the parent, but for a joint that places
-/// its parent. Multipliers of constraints that were left out because they say nothing are taken as 0; those of
-/// constraints that follow from others are the least ones.
+/// joint's axes in the body that is placed before the joint: the parent, unless the joint places its parent.
+/// Multipliers of constraints that were left out because they hold identically are 0; those of constraints that
+/// follow from others are the multipliers of least norm.
 
 #include <array>
 #include <string>
@@ -40,17 +41,18 @@ struct JointLoad {
 
 struct JointReactions {
     std::vector<std::string> joints;       ///< in the order of the scene
-    std::vector<std::string> multipliers;  ///< variables of kind `unknown`
-    Program program;                       ///< "force", "moment": three for each joint, in q, q', q'', multipliers
+    std::vector<std::string> multipliers;  ///< the names of the variables of kind `unknown`
+    Program
+        program;  ///< roots "force" and "moment", three for each joint, as functions of q, q', q'' and multipliers
 
-    /// `program` gives q'' and the multipliers at the state that it counts by.
+    /// `program` gives q'' and the multipliers; `state` is in the order of that program.
     std::vector<JointLoad> at(const Program& program, const State<double>& state) const;
 
-    /// The same, with 0 for what is rounding alone (rounding.hpp).
+    /// The same, with 0 for values that are only rounding (program/without_rounding.hpp).
     std::vector<JointLoad> without_rounding(const Program& program, const State<double>& state) const;
 };
 
-/// Throws what `build` throws for the scene that has been cut, and ModelError where a Lagrangian is given.
+/// Throws what `build` throws for the scene with released joints, and ModelError if a Lagrangian is given.
 JointReactions joint_reactions(const Scene& scene, const Mechanism& mechanism);
 
 }  // namespace alembert

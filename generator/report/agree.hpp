@@ -10,9 +10,9 @@ namespace alembert {
 Json as_json(const Agreed& agreed);
 std::string as_text(const Agreed& agreed, const Ink& ink = {});
 
-/// In a sentence.
+/// The method of the proof, in a sentence.
 std::string how_it_was_proved(const Agreement& agreement);
-/// "proved".
+/// The verdict as a word: "proved" …
 const char* name_of(Agreement::Verdict verdict);
 
 }  // namespace alembert

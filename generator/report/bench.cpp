@@ -58,7 +58,7 @@ std::vector<Curve> curves_of(const std::vector<Measured>& runs) {
     return list;
 }
 
-/// The fastest run of each party at each error.
+/// Adds the fastest run of each library at each error.
 void add_best(std::string& page, const std::vector<Measured>& runs) {
     put(page, "\nfastest to an error of at most\n");
     for (int decade = 3; decade <= 13; ++decade) {

@@ -9,7 +9,7 @@ namespace alembert {
 Json as_json(const Bench& bench);
 std::string as_text(const Bench& bench);
 std::string as_csv(const Bench& bench);
-/// Time against error (work_precision.hpp).
+/// The diagram of time against error (work_precision.hpp).
 std::string as_svg(const Bench& bench);
 
 }  // namespace alembert

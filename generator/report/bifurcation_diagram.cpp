@@ -15,13 +15,13 @@ constexpr std::size_t most_panels = 4;
 struct Range {
     double from = HUGE_VAL, to = -HUGE_VAL;
     void take(double x) { from = std::min(from, x), to = std::max(to, x); }
-    /// A little room, so that no line runs along the frame.
+    /// Widens the range a little, so that no line runs along the frame.
     void widen() {
         const double room = to > from ? 0.05 * (to - from) : std::max(0.5, 0.1 * std::abs(from));
         from -= room, to += room;
     }
     double part(double x) const { return (x - from) / (to - from); }
-    /// A round number of which five to ten fit.
+    /// A round number of which five to ten fit into the range.
     double tick() const {
         const double raw = (to - from) / 6, power = std::pow(10.0, std::floor(std::log10(raw)));
         const double times = raw / power;
@@ -61,7 +61,7 @@ const char* colour_of(PointKind kind) {
 struct Panel {
     const Branches& found;
     std::size_t coordinate;
-    double y0;  ///< of its upper edge
+    double y0;  ///< the height of its upper edge
     Range p = {}, q = {};
 
     double shown(double value) const {
@@ -98,7 +98,7 @@ struct Panel {
             unit.empty() ? "" : ", " + escaped(unit));
     }
 
-    /// A line for each run of equal stability; an angle that leaves at one edge comes back at the other.
+    /// Draws a line for each stretch of equal stability. An angle that leaves at one edge comes back at the other.
     void curve(std::string& svg, const Branch& branch) const {
         std::string path;
         const auto flush = [&](Stable stable) {

@@ -10,8 +10,8 @@ Json as_json(const Branches& found);
 std::string as_text(const Branches& found);
 /// A row for each point: branch, parameter, coordinates, stable, kind of a special point.
 std::string as_csv(const Branches& found);
-/// The bifurcation diagram: a panel for each coordinate over the parameter; solid where stable, dashed where not,
-/// dotted where undecided.
+/// The bifurcation diagram: a panel for each coordinate over the parameter; solid where states are stable, dashed
+/// where they are unstable, dotted where that is undecided.
 std::string as_svg(const Branches& found);
 
 }  // namespace alembert

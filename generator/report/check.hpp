@@ -10,9 +10,9 @@ namespace alembert {
 Json as_json(const CheckedScene& checked);
 std::string as_text(const CheckedScene& checked, const Ink& ink = {});
 
-/// "a sign: of the term -m*g".
+/// A mistake in words: "a sign: of the term -m*g".
 std::string words_of(const Slip& slip);
-/// "proved".
+/// The verdict as a word: "proved" …
 const char* name_of(Verdict verdict);
 
 }  // namespace alembert

@@ -11,7 +11,7 @@ namespace alembert {
 
 namespace {
 
-/// The four steps of the book but for the equations themselves.
+/// The four steps of the book without the equations themselves.
 std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     const auto statements = [&](const std::vector<Statement>& list) {
         std::vector<std::pair<std::string, std::string>> result;
@@ -57,7 +57,7 @@ std::vector<Block> steps(const Derivation& shown, const Notation& n) {
     return blocks;
 }
 
-/// "The equation of x has been divided by m*l." or, where that is 1/6, "… multiplied by 6."
+/// "The equation of x has been divided by m*l." or, if that is 1/6, "… multiplied by 6."
 std::string scaling(const Phrase& row, const Phrase& divisor, const Notation& n) {
     const bool is_fraction = divisor.kind == Phrase::Kind::quotient && divisor.args[0].is_number(1);
     const bool is_part = divisor.kind == Phrase::Kind::number && divisor.value < 1;

@@ -11,10 +11,10 @@ Json as_json(const DerivedScene& derived);
 
 struct PageOptions {
     std::string format = "text";  ///< text, latex or mathml
-    bool steps = false;           ///< coordinates, energies, generalized forces, then the equations
+    bool steps = false;  ///< whether to show coordinates, energies and generalized forces before the equations
 };
 
-/// The derivation as words and formulas in that notation; `with_steps`: all that stands before the equations too.
+/// The derivation as words and formulas in a notation; with `with_steps`, also everything before the equations.
 std::vector<Block> blocks_of(const DerivedScene& derived, const Notation& notation, bool with_steps);
 
 /// The whole derivation in one notation.

@@ -6,7 +6,7 @@
 
 namespace alembert {
 
-/// `paths`: where the files were written.
+/// `paths` are the paths of the written files.
 Json as_json(const Emission& emission, const std::vector<std::string>& paths);
 std::string as_text(const Emission& emission, const std::vector<std::string>& paths);
 

@@ -9,7 +9,7 @@ namespace alembert {
 Json as_json(const Equilibria& found);
 std::string as_text(const Equilibria& found);
 
-/// Values of coordinates, or of their rates, by name.
+/// The values of coordinates, or of their rates, by name.
 Json by_name_of(const Mechanism& mechanism, const std::vector<double>& values);
 
 }  // namespace alembert

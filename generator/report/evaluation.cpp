@@ -23,7 +23,7 @@ std::size_t widest_name(const Evaluation& e) {
     return width;
 }
 
-/// As `audit` calls the modes of a dry friction.
+/// The name that `audit` gives to a mode of dry friction.
 const char* mode_of(int side) {
     return side == 0 ? "stick" : side > 0 ? "slip +" : "slip -";
 }

@@ -6,7 +6,7 @@
 
 namespace alembert {
 
-/// `reactions`: whether they were asked for; then their objects are there, empty or not.
+/// `reactions` tells whether these were requested; if so, their objects are present even if they are empty.
 Json as_json(const Evaluation& evaluation, bool reactions);
 std::string as_text(const Evaluation& evaluation);
 

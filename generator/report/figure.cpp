@@ -59,7 +59,7 @@ std::string figure_of(const Scene& scene) {
     Start start = start_of(mechanism);
     assemble(start, mechanism, lower_constraints(mechanism), {}, false);
     Pose pose = pose_at(drawing, start.state());
-    // A force that is zero at the start is shown where it will act.
+    // A force that is zero at the start is shown at the point where it will act.
     for (const FigureElement& e : drawing.elements)
         for (int k = 1; k <= 8 && e.kind == FigureElement::Kind::force && pose[e.points[1]].isZero(1e-12); ++k) {
             State<double> later = start.state();

@@ -12,7 +12,7 @@ namespace alembert {
 /// An SVG file in the style of a textbook. Throws ModelError for a scene that has no geometry.
 std::string figure_of(const Scene& scene);
 
-/// What a drawing shows, in a sentence or two for somebody who does not see it.
+/// A description of a drawing in a sentence or two, for readers who cannot see it.
 std::string description_of(const Drawing& drawing);
 
 }  // namespace alembert

@@ -80,7 +80,7 @@ private:
         return put(Kind::path, style, {between(a, b, 0, 0, 0, true), between(a, b, 1)});
     }
 
-    /// Where a label beside a point is least in the way of what ends there, at the first pose.
+    /// The side of a point at which a label is farthest from the elements that end there, at the first pose.
     Vector2d free_side(int point) const {
         Vector2d taken(0, 0);
         for (const FigureElement& e : d_.elements) {
@@ -212,7 +212,7 @@ private:
         text("name", at(e.points[0], side[0] + (side[0] < 0 ? -longer : longer), side[1] + 5), mass_label(e));
     }
 
-    /// Left of a rod that points down, above one that points right: where nothing else is.
+    /// The side of a label: left of a rod that points down, above one that points right, where nothing else is.
     double label_side(int a, int b) const {
         const Vector2d way = screen(first()[b] - first()[a]);
         const double sign = std::abs(way[0]) >= std::abs(way[1]) ? (way[0] > 0 ? -1 : 1) : (way[1] > 0 ? -1 : 1);
@@ -221,7 +221,7 @@ private:
 
     void add_support(const FigureElement& e) {
         const int p = e.points[0];
-        // On the side away from what hangs there.
+        // The label is on the side away from the elements that are attached there.
         double below = 0;
         for (const FigureElement& other : d_.elements)
             if (other.kind == Element::rod || other.kind == Element::bar || other.kind == Element::tie ||
@@ -304,7 +304,7 @@ private:
 
     void add_damper(const FigureElement& e) {
         const int a = e.points[0], b = e.points[1];
-        // Beside the spring between the same points.
+        // The damper is drawn beside a spring between the same points.
         const double off = std::any_of(d_.elements.begin(), d_.elements.end(),
                                        [&](const FigureElement& other) {
                                            return other.kind == Element::spring && other.points == e.points;
@@ -420,7 +420,7 @@ private:
         }
     }
 
-    /// A dimension line beside it; an arrow of one length where it is too short for that.
+    /// Adds a dimension line beside a length, or an arrow of fixed length if that is too short.
     void add_length(const FigureElement& e) {
         const int a = e.points[0], b = e.points[1];
         const double off = 26 + 9 * (lengths_++ % 3);

@@ -44,7 +44,7 @@ public:
         return a + v.part * way + v.along * e + v.across * Vector2d(-e[1], e[0]);
     }
 
-    /// The arrow of a direction: of one length, or as long as its size says.
+    /// The arrow of a direction, with fixed length or with a length that shows its size.
     Vector2d arrow(const FigureShape& shape) const {
         const Vector3d& v = pose_[shape.vector];
         const Vector2d on_screen = direction(v);
@@ -54,7 +54,7 @@ public:
         return on_screen / size * length;
     }
 
-    /// Start of an arc, and by how much it goes on, with y downwards.
+    /// The start of an arc and its sweep, with y downwards.
     std::pair<double, double> arc(const FigureShape& shape) const {
         const Vector2d from = place(shape.vertices[1].a) - place(shape.vertices[0].a),
                        to = place(shape.vertices[2].a) - place(shape.vertices[0].a);
@@ -141,7 +141,7 @@ bool is_hidden(const Screen& screen, const FigureShape& shape) {
     return length < shape.least || (shape.most > 0 && length >= shape.most);
 }
 
-/// Of the letter of an angle: inside the arc, or behind its end where the arc is short.
+/// The direction of the letter of an angle: inside the arc, or beyond its end if the arc is short.
 double letter_angle(double start, double sweep) {
     constexpr double roomy = 0.5, behind = 0.32;
     return std::abs(sweep) >= roomy ? start + sweep / 2 : start + sweep + (sweep < 0 ? -behind : behind);

@@ -17,7 +17,7 @@ namespace alembert {
 
 namespace {
 
-/// What `mathml` puts into its <math> element.
+/// The contents of the <math> element of `mathml`.
 std::string mathml_row(const Phrase& phrase) {
     const std::string whole = mathml(phrase);
     const std::size_t begin = whole.find('>') + 1, end = whole.rfind("</math>");
@@ -57,7 +57,7 @@ std::string escaped(const std::string& words, bool xml) {
     return result;
 }
 
-/// Formulas that the words of steps hold, the longer before those that they begin with.
+/// Formulas that occur in the words of steps; longer ones come before shorter ones with which they begin.
 struct Spelled {
     std::string_view plain, latex;
 };
@@ -97,7 +97,7 @@ constexpr std::array<Spelled, 27> spelled{{
      "\\mathrm{gap} \\ge 0,\\ \\lambda \\ge 0,\\ \\lambda \\, \\mathrm{gap} = 0"},
 }};
 
-/// Words for LaTeX: formulas among them are typeset.
+/// Words for LaTeX, with the formulas among them typeset.
 std::string typeset(const std::string& words) {
     std::string result;
     for (std::size_t i = 0; i < words.size();) {
@@ -189,7 +189,7 @@ std::string text_page(const std::vector<Block>& blocks) {
 
 constexpr int line_width = 75;  // letters of a formula that fit on a page
 
-/// Letters that a reader sees, roughly: a command is one, braces are none.
+/// The approximate number of visible letters: a command counts as one, braces do not count.
 int visible(const std::string& formula) {
     int count = 0;
     for (std::size_t i = 0; i < formula.size(); ++i) {
@@ -210,7 +210,7 @@ std::string broken(const std::string& formula) {
         if (c == '}' || c == ')') --depth;
         const bool is_sign = depth == 0 && c == ' ' && i + 2 < formula.size() &&
                              (formula[i + 1] == '+' || formula[i + 1] == '-') && formula[i + 2] == ' ';
-        std::size_t next = i + 2;  // where the term that begins here ends
+        std::size_t next = i + 2;  // the end of the term that begins here
         for (int inside = 0; is_sign && next < formula.size(); ++next) {
             if (formula[next] == '{' || formula[next] == '(') ++inside;
             if (formula[next] == '}' || formula[next] == ')') --inside;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Formulas among words, as text, LaTeX or MathML.
+/// Words with formulas, as text, LaTeX or MathML.
 ///
 ///     const Notation n = notation_of("latex");
 ///     n.page({{"Kinetic energy:", {{n.left(statement), n.phrase(statement.value)}}}});
@@ -10,17 +10,17 @@
 
 namespace alembert {
 
-/// Around a formula among words, until both are written as the page needs them. (The reader of scenes refuses
-/// control characters.)
+/// Characters that enclose a formula among words until both are written in the form that the page needs. (The
+/// reader of scenes refuses control characters.)
 inline constexpr char formula_begins = '\x01', formula_ends = '\x02';
 
-/// Words, then what they announce.
+/// Words, then the formulas that they announce.
 struct Block {
     std::string words;
     std::vector<std::pair<std::string, std::string>> equalities;
 };
 
-/// How one format writes formulas, left sides of statements, and blocks.
+/// The functions with which a format writes formulas, left-hand sides of statements, and blocks.
 struct Notation {
     std::string (*phrase)(const Phrase&);
     std::string (*inline_phrase)(const Phrase&);  ///< for use among words

@@ -9,7 +9,7 @@ namespace alembert {
 
 namespace {
 
-/// The children of a row of MathML, an <mrow> around all of them left out.
+/// The children of a row of MathML, without an <mrow> around all of them.
 std::vector<std::string> children(const std::string& mathml) {
     std::vector<std::string> parts;
     int depth = 0;

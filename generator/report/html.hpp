@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Text of a scene on its way into a page: nothing in it may become markup or script.
+/// Escapes the text of a scene for a page, so that nothing in it becomes markup or script.
 ///
 ///     put(page, "<h1>{}</h1>", html(scene.title));
 ///     put(page, "<script type=\"application/json\">{}</script>", script_json(data));
@@ -17,7 +17,7 @@ namespace alembert {
 /// & < > " ' escaped; for text and for values of attributes in quotes.
 std::string html(const std::string& text);
 
-/// JSON in ASCII alone, without < > and &: it cannot end the script element that holds it.
+/// JSON in ASCII only, without < > and &, so that it cannot end the script element around it.
 std::string script_json(const Json& json);
 
 /// A formula in a line of text.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Results as JSON: what all reports share.
+/// Functions for results as JSON that all reports share.
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,7 +12,7 @@ namespace alembert {
 
 using Json = nlohmann::ordered_json;
 
-/// null where there is no value.
+/// null if there is no value.
 template <typename T>
 Json or_null(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);

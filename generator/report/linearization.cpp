@@ -16,13 +16,13 @@ Json json_of(const Matrix& matrix) {
     Json rows = Json::array();
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
         Json row = Json::array();
-        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j) + 0.0);  // no −0
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j) + 0.0);  // avoids −0
         rows.push_back(std::move(row));
     }
     return rows;
 }
 
-/// Columns of equal width, under their names where these are given.
+/// Adds columns of equal width, under their names if these are given.
 void add(std::string& page, const char* letter, const Matrix& matrix, const std::vector<std::string>& rows,
          const std::vector<std::string>& columns) {
     const std::size_t title = std::string_view(letter).size();
@@ -45,7 +45,7 @@ void add(std::string& page, const char* letter, const Matrix& matrix, const std:
 }
 
 void add_matrices(std::string& page, const Linearization& near) {
-    std::vector<std::string> own, rates;  // the speeds' coordinates, the speeds' rates
+    std::vector<std::string> own, rates;  // the coordinates and rates that belong to speeds
     for (const std::string& name : near.speeds) {
         own.push_back(name.substr(0, name.find('\'')));
         rates.push_back(name + "'");

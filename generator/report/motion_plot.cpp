@@ -11,15 +11,15 @@ namespace alembert {
 
 namespace {
 
-/// What the numbers of a column are. Outputs may be anything, so each is a group of its own, from the last number
-/// on.
+/// The kind of the numbers in a column. Outputs may have any meaning, so each is a group of its own, from the last
+/// number on.
 enum Group { coordinate, rate, multiplier, energy, speed, reaction, output };
 
 std::string per_second(const std::string& unit) {
     return unit.empty() ? "" : unit + "/s";
 }
 
-/// All columns but the time, in the order of row_columns, without their points.
+/// All columns except the time, in the order of row_columns, without their points.
 std::vector<PlottedLine> columns_of(const Run& run) {
     const Mechanism& m = run.mechanism;
     std::vector<PlottedLine> result;
@@ -41,7 +41,7 @@ std::vector<PlottedLine> columns_of(const Run& run) {
     return result;
 }
 
-/// The named columns, or all but reactions, with their points.
+/// The named columns, or all except reactions, with their points.
 std::vector<PlottedLine> lines_of(const Run& run, const std::vector<std::string>& names) {
     std::vector<PlottedLine> all = columns_of(run), result;
     const MotionTable& rows = run.rows;
@@ -88,8 +88,7 @@ std::string account_of(const Run& run) {
     return text;
 }
 
-/// What happens in time, behind the lines: grey while a contact is closed, thin lines at impacts, dashed ones at
-/// events.
+/// Marks behind the lines: grey while a contact is closed, thin lines at impacts, dashed lines at events.
 std::string happenings(const Run& run, const PlotArea& area) {
     std::string svg, impacts, events;
     const double top = area.y.end, height = area.y.begin - area.y.end;

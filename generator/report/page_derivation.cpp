@@ -12,7 +12,8 @@ namespace alembert {
 
 namespace {
 
-constexpr std::size_t definitions_shown = 150;  // of equations in intermediate symbols
+// The most definitions shown for equations with intermediate symbols.
+constexpr std::size_t definitions_shown = 150;
 
 Notation html_notation() {
     Notation n = notation_of("mathml");
@@ -83,7 +84,7 @@ void add_derivation(PageParts& page, const Overview& all) {
 
 namespace {
 
-/// The claim as its author wrote it, the term at fault marked.
+/// The claim as its author wrote it, with the wrong term marked.
 std::string marked(const std::string& equation, const std::optional<Slip>& likely) {
     const bool is_there = likely && likely->kind != "missing_term" && !likely->term.empty();
     std::string term = is_there ? likely->term : "";

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Poses as whole numbers on a grid of 1/16 of a pixel: for a plane figure to the right and up, in space along N.
+/// Poses as whole numbers on a grid of 1/16 of a pixel: to the right and up for a plane figure, along N in space.
 Json frames_of(const FigureShapes& shapes, const std::vector<Pose>& poses) {
     const double grid = 16 * shapes.scale;
     Json frames = Json::array();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Plots of the motion, how it was made, the C++, and the commands.
+/// Plots of the motion, its computation, the C++, and the commands.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t lines_in_plot = 6, plots_of_a_kind = 4, portraits = 4;
 
-/// Are the scene's units those of SI, as far as it gives any? Then the time is in s and energies are in J.
+/// Are the units that the scene gives those of SI? Then the time is in s and energies are in J.
 bool is_in_SI(const Scene& scene) {
     static const std::vector<std::string> known{"m", "kg", "s",  "rad", "N", "J",   "W", "Pa", "V", "T",
                                                 "C", "A",  "Hz", "deg", "1", "mol", "K", "Wb", "F", "H"};
@@ -101,7 +101,7 @@ private:
                                 times_, lines);
     }
 
-    /// Values in groups of the same unit, a few lines to a plot.
+    /// Plots values in groups of the same unit, with a few lines in each plot.
     template <typename Name, typename Unit>
     void by_unit(const std::string& title, std::size_t from, std::size_t to, const Name& name, const Unit& unit,
                  std::size_t first_column) {
@@ -182,7 +182,7 @@ private:
     const MotionTable& rows_;
     bool si_;
     std::vector<double> times_;
-    std::map<std::size_t, int> columns_;  ///< of the table → of the page
+    std::map<std::size_t, int> columns_;  ///< column of the table → column of the page
 };
 
 const char* kind_of(const ContactEvent& event) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The sections of a scene's page. Each adds its markup to the page and what the script needs to the data.
+/// The sections of a scene's page. Each adds its markup to the page, and the data that the script needs.
 
 #include "overview/overview.hpp"
 #include "report/html.hpp"
@@ -12,14 +12,14 @@ namespace alembert {
 struct PageParts {
     std::string body = {};
     Json data = Json::object();
-    std::vector<std::pair<std::string, std::string>> contents = {};  ///< of sections: id, heading
+    std::vector<std::pair<std::string, std::string>> contents = {};  ///< id and heading of each section
 
     /// Begins a section with its heading.
     void section(const std::string& id, const std::string& heading);
     void end() { body += "</section>\n"; }
-    /// A button that copies the text.
+    /// Adds a button that copies the text.
     void copy(const std::string& what, const std::string& text);
-    /// Why a part is missing.
+    /// Adds the reason why a part is missing.
     void problem(const std::string& message);
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Lines over time or over each other as an SVG picture for the page, whose script moves a cursor over it.
+/// Lines over time, or one value over another, as an SVG picture for the page, whose script moves a cursor over
+/// it.
 ///
 ///     page_plot({.title = "Angles", .x_name = "t", .x_unit = "s", .y_unit = "rad"}, times, {{"theta1", values,
 ///     1}});
@@ -13,19 +14,19 @@ namespace alembert {
 
 struct PagePlotLabels {
     std::string title;
-    std::string x_name, x_unit;  ///< a value of the scene; the unit may be empty
+    std::string x_name, x_unit;  ///< name and unit of a value of the scene; the unit may be empty
     std::string y_name, y_unit;
 };
 
 struct PagePlotLine {
-    std::string name;  ///< of a value of the scene
+    std::string name;  ///< the name of a value of the scene
     std::vector<double> y;
-    int column;  ///< in the page's table of values
+    int column;  ///< the column in the page's table of values
 };
 
 /// One <figure> with its caption. `x_column` is −1 for the time. Values that are not finite are left out. Lines
-/// have the colours of Okabe and Ito, which people who do not see all colours can tell apart, and dashes from the
-/// eighth line on.
+/// have the colours of Okabe and Ito, which colour-blind people can distinguish, and dashes from the eighth line
+/// on.
 std::string page_plot(const PagePlotLabels& labels, const std::vector<double>& x,
                       const std::vector<PagePlotLine>& lines, int x_column = -1);
 

@@ -38,7 +38,8 @@ std::string mark(const PlotStyle& style, double x, double y, double opacity) {
     return text + "/>";
 }
 
-/// Where many points fall into one column of the picture: the first, the lowest, the highest and the last of them.
+/// If many points fall into one column of the picture, keeps the first, the lowest, the highest and the last of
+/// them.
 PlotPoints thinned(const PlotPoints& drawn) {
     constexpr double column = 0.5;
     PlotPoints result;

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double left = 84, chart_width = 560, chart_height = 150, gap = 34, bottom_room = 52,
                  longest_heading = 400;
-constexpr std::size_t most_lines = 7;  // in one chart: as many as there are colours
+constexpr std::size_t most_lines = 7;  // the most lines in one chart, as many as there are colours
 constexpr double small_change = 1e-6;
 
 struct PlotPanel {
     std::vector<PlottedLine> lines;
-    double offset = 0;  ///< taken off the numbers
+    double offset = 0;  ///< the number that is subtracted
 };
 
 std::vector<PlotPanel> panels_of(const std::vector<PlottedLine>& lines) {
@@ -49,7 +49,7 @@ double second(const std::pair<double, double>& point) {
     return point.second;
 }
 
-/// Lets a small change of one large quantity be seen.
+/// Makes a small change of one large quantity visible.
 void shift(PlotPanel& panel) {
     if (panel.lines.size() != 1 || panel.lines.front().points.empty()) return;
     const auto [least, most] = range_of(panel, second);

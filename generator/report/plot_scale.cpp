@@ -10,7 +10,8 @@ namespace alembert {
 
 namespace {
 
-constexpr double most_plain = 1e5, least_plain = 1e-4;  // numbers beyond are written with a power of ten
+// Numbers outside this range are written with a power of ten.
+constexpr double most_plain = 1e5, least_plain = 1e-4;
 
 std::string superscript(int number) {
     static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -19,7 +20,7 @@ std::string superscript(int number) {
     return text;
 }
 
-/// With the sign that print has.
+/// The number with a typographic minus sign.
 std::string fixed(double value, int decimals) {
     const std::string digits = fmt::format("{:.{}f}", std::abs(value), decimals);
     const bool is_zero = digits.find_first_not_of("0.") == std::string::npos;
@@ -33,9 +34,9 @@ int decimals_for(double step) {
     return decimals;
 }
 
-constexpr double slack = 1e-9;  // of a step: so much beyond an end is still at the end
+constexpr double slack = 1e-9;  // relative to a step; a number this little beyond an end counts as at the end
 
-/// 1, 2 or 5 times a power of ten: the least of which at most `most` multiples lie in the range.
+/// The step, 1, 2 or 5 times a power of ten: the least of which at most `most` multiples are in the range.
 double step_for(double low, double high, int most) {
     const double unit = std::pow(10.0, std::floor(std::log10((high - low) / most)) - 1);
     for (double decade = unit;; decade *= 10)
@@ -74,7 +75,7 @@ std::vector<PlotTick> PlotScale::ticks(int most) const {
 PlotScale linear_scale(double least, double most, double begin, double end, double margin) {
     if (!std::isfinite(least) || !std::isfinite(most)) least = 0, most = 1;
     const double size = std::max(std::abs(least), std::abs(most));
-    if (most - least <= 1e-14 * size || most == least) {  // nothing but rounding between them
+    if (most - least <= 1e-14 * size || most == least) {  // the difference is only rounding
         const double half = size > 0 ? 0.1 * size : 1;
         least -= half;
         most += half;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The scale of an axis: where a number stands in a picture, and which round numbers are its ticks.
+/// The scale of an axis: the place of a number in a picture, and the round numbers at its ticks.
 ///
 ///     const PlotScale x = linear_scale(0, 9.7, 60, 660);      // 60 and 660: coordinates of the picture
 ///     x.at(4.85);                                             // 360
@@ -24,18 +24,19 @@ struct PlotScale {
     bool decades = false;       ///< logarithmic, base 10
 
     double at(double value) const;
-    /// Round numbers from `low` to `high`, at most `most` of them (2 where that is less).
+    /// Round numbers from `low` to `high`, at most `most` of them (at most 2 if that is smaller).
     std::vector<PlotTick> ticks(int most) const;
 };
 
-/// From `least` to `most`; where they are equal or not finite, a range around them. `margin`: added at both ends,
-/// as a part of the range.
+/// A scale from `least` to `most`; if these are equal or not finite, a range around them. `margin`, as a part of
+/// the range, is added at both ends.
 PlotScale linear_scale(double least, double most, double begin, double end, double margin = 0);
 
-/// From the power of ten below `least` to the one above `most`, both above zero.
+/// A scale from the power of ten below `least` to the one above `most`; both must be positive.
 PlotScale decade_scale(double least, double most, double begin, double end);
 
-/// A number with as many digits as tell it from its neighbour at a distance of `step`: "0.25", "−3", "2·10⁻⁹".
+/// A number with as many digits as are needed to distinguish it from its neighbour at a distance of `step`:
+/// "0.25", "−3", "2·10⁻⁹".
 std::string plot_number(double value, double step);
 
 }  // namespace alembert

@@ -103,7 +103,7 @@ std::string text_of(const std::vector<Run::FrictionChange>& changes, const Mecha
     return text;
 }
 
-/// "radau from t = 0.31 on: …", for a person.
+/// A change of method in words: "radau from t = 0.31 on: …".
 std::string described(const Switch& s) {
     return fmt::format(
         "{} from t = {:.6g} on: the system is stiff there (an eigenvalue of size {:.3g}/s held the step at {:.3g} "
@@ -158,12 +158,12 @@ std::string text_of(const std::vector<Run::Side>& changes) {
     return page;
 }
 
-/// Why the result is not to be trusted; empty where nothing speaks against it.
+/// The reason why the result should not be trusted; empty if there is none.
 std::string warning_of(const Run& run) {
     return run.doubts.empty() ? std::string() : fmt::format("NOT TRUSTWORTHY: {}", fmt::join(run.doubts, "; "));
 }
 
-/// " of 67 operations"; nothing where all accelerations are constants.
+/// " of 67 operations"; empty if all accelerations are constants.
 std::string of_operations(const Run& run) {
     const int count = run.solver.operations;
     if (count == 0) return "";
@@ -171,7 +171,7 @@ std::string of_operations(const Run& run) {
     return fmt::format(" of {}{}", varies ? "at most " : "", counted(count, "operation"));
 }
 
-/// The method, the end of the motion and who was in contact then.
+/// Adds the method, the end of the motion and the contacts that were closed then.
 void add_motion(std::string& page, const Run& run) {
     const Statistics& s = run.motion.statistics;
     put(page, "{} with {}: {}, {} rejected, {}{}\n", run.solver.formulation, s.method, counted(s.steps, "step"),
@@ -198,7 +198,7 @@ void add_motion(std::string& page, const Run& run) {
     put(page, "closed: {}\n", closed.empty() ? "no contact" : closed);
 }
 
-/// How far the numbers can be trusted.
+/// Adds the accuracy of the numbers.
 void add_account(std::string& page, const Run& run) {
     if (run.estimate && run.estimate->value) {
         const ErrorEstimate& e = *run.estimate;

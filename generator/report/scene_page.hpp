@@ -14,7 +14,7 @@ namespace alembert {
 
 struct ScenePageOptions {
     std::string version = {};
-    std::string by = {};  ///< the formalism that was asked for
+    std::string by = {};  ///< the requested formalism
 };
 
 std::string as_html(const Overview& overview, const ScenePageOptions& options = {});

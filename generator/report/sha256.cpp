@@ -11,7 +11,7 @@ namespace alembert {
 
 namespace {
 
-/// The first 32 bits behind the point of the square or cube roots of the first primes.
+/// The first 32 bits of the fractional parts of the square or cube roots of the first primes.
 template <std::size_t N>
 std::array<std::uint32_t, N> root_bits(long double (*root)(long double)) {
     std::array<std::uint32_t, N> bits{};

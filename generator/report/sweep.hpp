@@ -6,12 +6,12 @@
 
 namespace alembert {
 
-/// All but the rows.
+/// Everything except the rows.
 Json as_json(const Sweep& sweep);
-/// One for each member.
+/// One row for each member.
 Json rows_as_json(const Sweep& sweep);
 std::string as_csv(const Sweep& sweep);
-/// What came of it, in a few lines.
+/// A summary in a few lines.
 std::string as_text(const Sweep& sweep);
 
 }  // namespace alembert

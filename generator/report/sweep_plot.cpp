@@ -19,7 +19,7 @@ constexpr double left = 84, top_gap = 34, map_width = 460, map_height = 360, bet
 constexpr std::size_t most_cells = 256;  // along each axis of a map
 constexpr int levels = 128;              // of colour
 
-/// Where the axes are that do vary.
+/// The positions of the axes that vary.
 std::vector<std::size_t> varying(const Grid& grid) {
     std::vector<std::size_t> axes;
     for (std::size_t k = 0; k < grid.axes.size(); ++k)
@@ -44,7 +44,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
     return unit.empty() ? name : name + " in " + unit;
 }
 
-/// What is varied: "initial theta1 in rad", "l1 in m".
+/// The varied quantity in words: "initial theta1 in rad", "l1 in m".
 std::string varied(const Axis& axis, const Mechanism& m) {
     const bool is_parameter =
         std::any_of(m.parameters.begin(), m.parameters.end(),
@@ -52,7 +52,7 @@ std::string varied(const Axis& axis, const Mechanism& m) {
     return with_unit((is_parameter ? "" : "initial ") + axis.name, unit_of(axis.name, m));
 }
 
-/// What the numbers of one column are at the ends of all motions.
+/// The values of one column at the ends of all motions.
 std::vector<double> ends(const Sweep& s, const std::string& name) {
     const std::vector<std::string> columns = end_columns(s);
     const auto k = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
@@ -61,7 +61,7 @@ std::vector<double> ends(const Sweep& s, const std::string& name) {
     return values;
 }
 
-/// The colours of the map "viridis": their lightness grows evenly, for any colour vision.
+/// The colours of the map "viridis": their lightness increases evenly, for readers with any colour vision.
 std::string colour(double part) {
     static constexpr std::array<std::array<double, 3>, 9> stops{{{68, 1, 84},
                                                                  {71, 44, 122},
@@ -97,7 +97,7 @@ PlotScale cells_of(const Axis& axis, double begin, double end) {
 
 struct PlotMap {
     const Axis &x, &y;
-    std::vector<double> values;  ///< y the faster
+    std::vector<double> values;  ///< y varies faster
     std::size_t stride(const Axis& axis) const { return (axis.count - 1) / most_cells + 1; }
 };
 
@@ -186,7 +186,7 @@ std::string lines(const Sweep& s, std::size_t axis, const std::vector<std::strin
         const std::vector<double> values = ends(s, name);
         for (std::size_t k = 0; k < values.size(); ++k)
             line.points.emplace_back(s.members[k].varied[axis], values[k]);
-        if (line.unit.empty()) line.group = static_cast<int>(all.size()) + 1;  // it may be anything
+        if (line.unit.empty()) line.group = static_cast<int>(all.size()) + 1;  // outputs may have any meaning
         all.push_back(std::move(line));
     }
     return plot_panels(sheet, all, varied(s.grid.axes[axis], s.mechanism), {});

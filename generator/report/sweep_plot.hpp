@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A sweep as an SVG picture: over one varied quantity, lines; over two, a map in colours with its scale.
+/// A sweep as an SVG picture: lines over one varied quantity, or a coloured map with its scale over two.
 ///
 ///     write_file("map.svg", sweep_plot(sweep(scene, grid), {"theta1"}), {});
 ///
-/// Motions that failed leave a gap in a line, and a grey place in a map. Of more values than can be seen in a map
-/// every second, third … is drawn, which the picture says.
+/// Motions that failed leave a gap in a line, and a grey cell in a map. If a map has more values than can be seen,
+/// only every second, third … is drawn, and the picture says so.
 
 #include <string>
 #include <vector>
@@ -15,11 +15,11 @@
 
 namespace alembert {
 
-/// `shown`: names of end_columns; empty: all coordinates. Throws ModelError where more than two quantities vary
+/// `shown` are names of end_columns; if empty, all coordinates. Throws ModelError if more than two quantities vary
 /// (need_pictured).
 std::string sweep_plot(const Sweep& sweep, const std::vector<std::string>& shown);
 
-/// Throws ModelError where a grid varies more quantities than a picture can show.
+/// Throws ModelError if a grid varies more quantities than a picture can show.
 void need_pictured(const Grid& grid);
 
 }  // namespace alembert

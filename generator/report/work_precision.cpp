@@ -14,7 +14,7 @@ namespace alembert {
 namespace {
 
 constexpr double width = 900, height = 560, left = 84, bottom_room = 56, least_right = 120;
-constexpr double largest_error = 1, largest_useful = 0.1;  // beyond, nothing is right
+constexpr double largest_error = 1, largest_useful = 0.1;  // with a larger error no digit is right
 
 void clean(std::vector<Curve>& curves) {
     for (Curve& one : curves) {
@@ -27,7 +27,7 @@ void clean(std::vector<Curve>& curves) {
     std::erase_if(curves, [](const Curve& one) { return one.points.empty(); });
 }
 
-/// The least time in which a curve reaches an error.
+/// The least time at which a curve reaches an error.
 double time_to(const Curve& curve, double error) {
     double best = std::numeric_limits<double>::infinity();
     for (const auto& p : curve.points)
@@ -35,7 +35,7 @@ double time_to(const Curve& curve, double error) {
     return best;
 }
 
-/// Is it the fastest to one of the errors 10⁻ᵏ that lie in the picture?
+/// Which curves are the fastest for one of the errors 10⁻ᵏ in the picture?
 std::vector<bool> fastest(const std::vector<Curve>& curves, const PlotScale& errors) {
     std::vector<bool> result(curves.size(), false);
     for (double error = errors.low; error <= 1.01 * largest_useful; error *= 10) {
@@ -83,7 +83,7 @@ std::string work_precision(std::vector<Curve> curves, const std::string& title) 
     std::size_t style = 0;
     std::string pale, strong;
     for (const bool is_strong :
-         {true, false})  // the strong ones have the plainest styles, and lie above the others
+         {true, false})  // the strong ones have the plainest styles and are drawn above the others
         for (std::size_t k = 0; k < curves.size(); ++k) {
             if (wins[k] != is_strong) continue;
             const PlotStyle drawn = plot_style(style++);

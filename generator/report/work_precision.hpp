@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Time against error as an SVG picture, both logarithmic: to the right more digits, further down less time.
+/// Time against error as an SVG picture, both logarithmic. More digits are to the right, less time is further
+/// down.
 ///
 ///     const Curve curve{.name = "dop853", .points = {{1e-6, 2e-4}, {1e-9, 4e-4}}};
 ///     const std::string svg = work_precision({curve}, "Pleiades");
 ///
-/// Curves are told apart by colour, dashes and marks, and named at their ends. Those that are the fastest to an
-/// error of 0.1, 0.01 … are drawn strongly, the others pale. Points without positive error and time, and errors
-/// above 1, are left out.
+/// Curves differ by colour, dashes and marks, and are named at their ends. Those that are the fastest for an error
+/// of 0.1, 0.01 … are drawn strongly, the others pale. Points without positive error and time, and errors above 1,
+/// are left out.
 
 #include <string>
 #include <utility>

@@ -51,8 +51,8 @@ MeasuredLine measured(std::string_view line) {
     return result;
 }
 
-/// The last one that fits, of those the least deep in parentheses and before an operator; not in the first half of
-/// the line where it can be avoided.
+/// The last break that fits, among those least deep in parentheses and before an operator; if possible not in the
+/// first half of the line.
 std::optional<std::size_t> best(const MeasuredLine& line, int width) {
     const int half = line.indent + (width - line.indent) / 2;
     const BreakPoint* chosen = nullptr;
@@ -64,7 +64,7 @@ std::optional<std::size_t> best(const MeasuredLine& line, int width) {
     return chosen == nullptr ? std::nullopt : std::optional(chosen->at);
 }
 
-/// A row of a table: words stand apart at two places or more. It stays as it is.
+/// Whether the line is a row of a table, in which at least two gaps separate words. Such rows are not changed.
 bool is_row(std::string_view line) {
     int gaps = 0;
     for (std::size_t at = line.find_first_not_of(' '); at < line.size();) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Long lines of formulas and words as several lines.
+/// Breaks long lines of formulas and words.
 ///
 ///     wrapped("  m*l^2*theta'' + m*g*l*sin(theta) = 0\n", 24)
 ///         "  m*l^2*theta''\n      + m*g*l*sin(theta) = 0\n"
@@ -11,9 +11,8 @@
 
 namespace alembert {
 
-/// Breaks lines of more than `width` columns at spaces, before operators and outside parentheses where that is
-/// possible; what goes on stands four columns further right. Words that are longer stay whole, and so do rows of
-/// tables.
+/// Breaks lines of more than `width` columns at spaces, if possible before operators and outside parentheses.
+/// Continuations are indented by four columns. Longer words are not broken, and neither are rows of tables.
 std::string wrapped(std::string_view text, int width);
 
 }  // namespace alembert

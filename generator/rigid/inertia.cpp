@@ -22,7 +22,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double largest_shown = 3000;  // nodes of a tree
+constexpr double largest_shown = 3000;  // the most nodes of an expression
 constexpr int most_terms_shown = 40;
 
 std::string name_of(const Scene& scene, const Origin& origin) {
@@ -62,12 +62,13 @@ void check_point(const Scene& scene, const std::string& point) {
     refuse_unknown("point", point, known);
 }
 
-/// plain + over/m, with m the whole mass: what is divided by a sum stays apart, so that it can be read.
+/// plain + over/m, with m the whole mass. The part that is divided by a sum is kept separate, so that it can be
+/// read.
 struct Entry {
     ex plain = 0, over = 0;
 };
 
-/// Mass, centre and tensor as expressions.
+/// Computes mass, mass centre and tensor as expressions.
 class Adding {
 public:
     Adding(SceneInertia& s, std::vector<const MassElement*> elements)
@@ -89,7 +90,7 @@ public:
 
     const ex& mass() const { return mass_; }
 
-    /// Centre, then the tensor row by row.
+    /// The mass centre, then the tensor row by row.
     std::vector<Entry> entries() {
         std::vector<Entry> result;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -105,7 +106,7 @@ public:
     }
 
 private:
-    /// The bodies' own tensors. That of a single one, along its own axes, has not to be turned.
+    /// The sum of the bodies' own tensors. That of a single body, along its own axes, need not be turned.
     ex own(std::size_t i, std::size_t j) {
         constexpr std::size_t place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
         GiNaC::exvector terms;
@@ -130,7 +131,7 @@ private:
         return {z_.name(to[0] - from[0]), z_.name(to[1] - from[1]), z_.name(to[2] - from[2])};
     }
 
-    /// Of the mass centres about a point that is given.
+    /// The contribution of the mass centres about a given point.
     ex steiner(std::size_t i, std::size_t j) {
         GiNaC::exvector terms;
         if (reference_)
@@ -139,8 +140,8 @@ private:
         return GiNaC::add(terms);
     }
 
-    /// Of the mass centres about the common one: Σ m_k m_l (d·d E − d dᵀ)/m over all pairs, d from one to the
-    /// other.
+    /// The contribution of the mass centres about the common one: Σ m_k m_l (d·d E − d dᵀ)/m over all pairs, with
+    /// d from one to the other.
     ex pairs(std::size_t i, std::size_t j) {
         GiNaC::exvector terms;
         for (std::size_t k = 0; k < elements_.size() && !reference_; ++k)

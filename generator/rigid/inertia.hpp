@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Mass, mass centre and tensor of inertia of a body, or of several together as if they were one (Zhang & Qin
-/// (2004), chapter 3).
+/// The mass, mass centre and inertia tensor of a body, or of several bodies together as one rigid body (Zhang &
+/// Qin (2004), chapter 3).
 ///
 ///     const SceneInertia found = inertia(read_scene("scenes/textbook/gyrocompass.toml"), {.of = {"rotor"}});
 ///     found.tensor(0, 0);            // about the mass centre, along the body's own axes
 ///     found.principal[0].moment;
 ///
-/// Steiner: I_P = I_C + m (d·d E − d dᵀ), d from P to the mass centre.
+/// Steiner's theorem: I_P = I_C + m (d·d E − d dᵀ), with d from P to the mass centre.
 
 #include <array>
 #include <optional>
@@ -22,9 +22,9 @@
 namespace alembert {
 
 struct InertiaOptions {
-    std::vector<std::string> of = {};  ///< bodies and particles; empty: all of the scene
-    std::string about = {};            ///< a point, particle or body; empty: the common mass centre
-    Overrides at = {};                 ///< as `--at`: the state that numbers are for
+    std::vector<std::string> of = {};  ///< bodies and particles; if empty, all of the scene
+    std::string about = {};            ///< a point, particle or body; if empty, the common mass centre
+    Overrides at = {};                 ///< the state and parameters for the numbers, as with `--at`
 };
 
 struct PrincipalMoment {
@@ -34,20 +34,19 @@ struct PrincipalMoment {
 
 struct SceneInertia : Prepared {
     std::vector<std::string> of = {};
-    std::string about = {};   ///< empty: the mass centre
-    std::string along = "N";  ///< the frame whose axes the tensor is along: that of a single body is its own
+    std::string about = {};   ///< if empty, the mass centre
+    std::string along = "N";  ///< the frame along whose axes the tensor is given; for a single body, its own
     double mass = 0;
     std::array<double, 3> centre{};  ///< along N, from O
     Matrix3<double> tensor = Matrix3<double>::Zero();
     std::vector<PrincipalMoment> principal = {};  ///< ascending, along the same axes
-    /// The same in symbols, where they are short; products of inertia in the tensor are its elements.
+    /// The same in symbols, if they are short; the products of inertia are given as elements of the tensor.
     std::optional<std::string> mass_text = {};
     std::array<std::optional<std::string>, 3> centre_text = {};
     std::array<std::array<std::optional<std::string>, 3>, 3> tensor_text = {};
 };
 
-/// Throws what `prepared` throws; ModelError for names that are none, and for a scene without bodies and
-/// particles.
+/// Throws what `prepared` throws, and ModelError for unknown names and for a scene without bodies and particles.
 SceneInertia inertia(Scene scene, const InertiaOptions& options = {});
 
 }  // namespace alembert

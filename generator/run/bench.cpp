@@ -28,12 +28,13 @@ namespace alembert {
 
 namespace {
 
-constexpr double most_seconds = 2;  // of one run; a method goes no further when a run has taken that
+constexpr double most_seconds = 2;  // of one run; after such a run a method is not run with stricter tolerances
 constexpr int first_decade = 3, last_decade = 14;
 
-/// The end in double precision by two methods, where there is no better one; the digits in which they agree.
+/// The end in double precision by two methods, if there is no better reference, and the digits in which they
+/// agree.
 std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
-    // Stiff systems are for the second pair.
+    // The second pair is for stiff systems.
     for (const auto& [one, other, tolerance] : {std::tuple{Method::verner98, Method::dop853, 1e-14},
                                                 std::tuple{Method::radau13, Method::radau9, 1e-13}}) {
         Options strict = options;
@@ -51,7 +52,7 @@ std::optional<Judgement> by_doubles(Workbench& bench, const Options& options) {
     return std::nullopt;
 }
 
-/// Runs of one method, from loose to strict, as long as it pays.
+/// Runs of one method from loose to strict tolerances, as long as that is useful.
 std::vector<Measured> ladder(Workbench& bench, Options options, double each, long guess,
                              const std::function<void(double)>& progress) {
     std::vector<Measured> runs;
@@ -76,14 +77,14 @@ std::vector<Measured> ladder(Workbench& bench, Options options, double each, lon
         if (last.failure.find("not enough") != std::string::npos || last.seconds > most_seconds / 4) break;
         if (!last.failure.empty() || !last.error) continue;
         if (*last.error < 1e-13) break;
-        worse = *last.error > best / 1.5 && *last.error < 1e-6 ? worse + 1 : 0;  // rounding has the word
+        worse = *last.error > best / 1.5 && *last.error < 1e-6 ? worse + 1 : 0;  // rounding dominates
         if (worse > 1) break;
         best = std::min(best, *last.error);
     }
     return runs;
 }
 
-/// Null where the motion has no power series, or its method is not asked for.
+/// Null if the motion has no power series, or if the method that needs it is not measured.
 SeriesModule series_of(const Program& program, bool with_work, const RunOptions& wishes) {
     if (!wishes.method.empty() && wishes.method != name(Method::taylor)) return nullptr;
     if (obstacle_to_recurrences(program, with_work)) return nullptr;
@@ -92,7 +93,7 @@ SeriesModule series_of(const Program& program, bool with_work, const RunOptions&
                            .object);
 }
 
-/// Null where the scene has no such form, or no method that needs it is asked for.
+/// Null if the scene has no such form, or if no method that needs it is measured.
 std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& module,
                                               const std::vector<double>& parameters, const RunOptions& wishes) {
     const auto asked = method_named(wishes.method);
@@ -104,7 +105,7 @@ std::shared_ptr<const Canonical> canonical_of(const Derived& d, const Module& mo
     return make_canonical(module, load(compiled.object), parameters);
 }
 
-/// The solver of a scene with all that the methods measured need.
+/// The solver of a scene with everything that the measured methods need.
 struct Compilation {
     Source source;
     Compiled compiled;
@@ -225,7 +226,8 @@ private:
     }
 
     void measure(Workbench& workbench, const Options& options, const Compilation& c) {
-        // One right-hand side, and how many steps a loose run takes: where fixed steps begin.
+        // The cost of one right-hand side, and the number of steps of a loose run, from which fixed steps are
+        // chosen.
         Options loose = options;
         loose.tolerance = 1e-4;
         const Measured trial = workbench.measure(loose);

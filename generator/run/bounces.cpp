@@ -34,7 +34,8 @@ std::vector<double> kicks_of(const PhasedMotion& motion) {
     return list;
 }
 
-/// Infinite where one lacks a release, a coming to rest or a kick.
+/// The difference between two motions; infinite if one lacks a release, a contact coming to rest or a kick of the
+/// other.
 double apart(const PhasedMotion& motion, const PhasedMotion& reference) {
     double largest = 0;
     const auto states = [&](const std::vector<double>& a, const std::vector<double>& b) {
@@ -65,7 +66,8 @@ Bounces measured_bounces(const RunOptions& request, const Derived& d, const Star
     const ContactView view(d.mechanism);
     const KickView kicks(d.mechanism);
     const Contacts contacts = contacts_of(d, start, view, kicks);
-    const MethodChoice choice;  // for its compilation: methods that need nothing else are measured
+    // Only for the compilation, because only methods that need nothing else are measured.
+    const MethodChoice choice;
     LoadedModes modes(request, d, start, first, Work::left_out, choice,
                       [](LoadedMode&, double, std::span<const double>, std::span<const double>) {});
     std::vector<double> initial = start.q;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What rattle steps with, from a scene: M, p = ∂L/∂q' and F = ∂L/∂q + Q as the outputs of a file of their own.
+/// The functions that the method rattle needs: M, p = ∂L/∂q' and F = ∂L/∂q + Q of a scene, as the outputs of a
+/// separate file.
 ///
 ///     need_canonical(derived, name(method));                 // refuses, with the reason
 ///     const Program form = canonical_form(derived);
@@ -15,13 +16,14 @@
 
 namespace alembert {
 
-/// Nothing where the state is (q, q') and all constraints are holonomic, else the reason why not.
+/// Nothing if the state is (q, q') and all constraints are holonomic; otherwise the reason why the method does not
+/// apply.
 std::optional<std::string> not_canonical(const Derived& derived);
 
 /// Throws ModelError with that reason and what to do.
 void need_canonical(const Derived& derived, std::string_view method);
 
-/// Quaternions have their constraint in L: see lib/alembert/canonical.hpp.
+/// L contains the constraints of quaternions; see lib/alembert/canonical.hpp.
 Program canonical_form(const Derived& derived);
 
 }  // namespace alembert

@@ -8,7 +8,7 @@ namespace alembert {
 
 namespace {
 
-/// The main program knows equations and constraints alone.
+/// The main program supports equations and constraints only.
 SourceFile main_program(const Emission& e, const Program& program, CodeLanguage language) {
     const Mechanism& m = e.mechanism;
     if (!m.unilateral.empty() || m.has_kicks() || !program.nodes_of(Group::slip).empty())

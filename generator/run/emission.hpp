@@ -15,24 +15,25 @@
 namespace alembert {
 
 struct EmissionOptions {
-    std::string by = {};    ///< a formalism; empty: the program chooses
-    bool fold = false;      ///< parameters become constants
-    bool jacobian = false;  ///< with the derivatives of the right-hand side by state and parameters
-    bool batch = false;     ///< the same functions for eight systems at once too
+    std::string by = {};  ///< a formalism; if empty, the program chooses
+    bool fold = false;    ///< whether parameters become constants
+    /// Whether to add the derivatives of the right-hand side with respect to state and parameters.
+    bool jacobian = false;
+    bool batch = false;  ///< whether to add the same functions for eight systems at once
     CodeLanguage language = CodeLanguage::cpp;
-    bool standalone = false;  ///< a main program too, which integrates and prints
+    bool standalone = false;  ///< whether to add a main program that integrates and prints
 };
 
 struct Emission : Derived {
     Choice choice = {};
     std::optional<Differentiated> derivatives = {};
     Source source = {};
-    std::optional<SourceFile> main = {};  ///< where it was asked for
+    std::optional<SourceFile> main = {};  ///< set if it was requested
 };
 
 /// Throws what `derived` throws; ModelError for a main program of a scene with contacts, dry friction or events
-/// that change the motion, which it would pass over; for a singular system, and for derivatives that are too long
-/// to be written out.
+/// that change the motion, which it would ignore; for a singular system; and for derivatives that are too long to
+/// be written out.
 Emission emission(Scene scene, const EmissionOptions& options = {});
 
 }  // namespace alembert

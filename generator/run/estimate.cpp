@@ -73,12 +73,12 @@ double apart_of(std::span<const double> a, std::span<const double> b, const std:
     return largest;
 }
 
-/// Of the ends: |t − t₂| / max(1, |t₂|).
+/// The difference of the end times, |t − t₂| / max(1, |t₂|).
 double later(const PhasedMotion& a, const PhasedMotion& b) {
     return std::abs(a.final_time() - b.final_time()) / std::max(1.0, std::abs(b.final_time()));
 }
 
-/// On the rows that both have.
+/// The separations on the rows that both runs have.
 std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b, std::size_t compared) {
     struct Row {
         double time;
@@ -105,7 +105,8 @@ std::vector<Separation> separations(const PhasedMotion& a, const PhasedMotion& b
     return result;
 }
 
-/// Slope of ln size over the second half of what is below saturation; nothing where it does not gain e³ there.
+/// The slope of ln size over the second half of the time before saturation; nothing if the size does not gain e³
+/// there.
 std::optional<double> exponent(std::vector<Separation> list) {
     std::size_t count = 0;
     while (count < list.size() && list[count].size < saturated) ++count;
@@ -125,7 +126,7 @@ std::optional<double> exponent(std::vector<Separation> list) {
     return slope * (list.back().time - middle) > 3 ? std::optional(slope) : std::nullopt;
 }
 
-/// q' at the end of a motion, where the state has speeds in their place.
+/// q' at the end of a motion, if the state has speeds in place of rates.
 std::vector<double> rates_at_end(const PhasedMotion& motion, const Components& components) {
     std::vector<double> rates;
     if (components.rates) {
@@ -135,14 +136,14 @@ std::vector<double> rates_at_end(const PhasedMotion& motion, const Components& c
     return rates;
 }
 
-/// Of the ends, in the norm of ErrorEstimate::value.
+/// The difference of the end states, in the norm of ErrorEstimate::value.
 double difference(const PhasedMotion& a, const PhasedMotion& b, const Components& components) {
     const std::vector<double> rates_a = rates_at_end(a, components), rates_b = rates_at_end(b, components);
     return std::max({apart(a.final_state(), b.final_state(), components.kinds.size()),
                      apart(rates_a, rates_b, rates_a.size()), later(a, b)});
 }
 
-/// What `steps` roundings of a state make of it, if nothing amplifies them: a random walk.
+/// The error from rounding the state `steps` times if nothing amplifies it: a random walk.
 double rounding_of(const PhasedMotion& motion, const Components& components) {
     double size = 1;
     const auto& first = motion.phases.front().motion;
@@ -154,15 +155,15 @@ double rounding_of(const PhasedMotion& motion, const Components& components) {
     return size * (4 + std::sqrt(steps)) * std::numeric_limits<double>::epsilon();
 }
 
-/// The runs that the first is held against.
+/// The runs with which the first is compared.
 class Rerunning {
 public:
     Rerunning(const PhasedMotion& motion, const Rerun& run, const Options& given,
               const std::vector<double>& initial)
         : motion_(motion), run_(run), given_(given), initial_(initial) {}
 
-    /// With a tenth of the tolerance or half the step; where that does not come to the same end, with ten times
-    /// the tolerance or twice the step. Nothing where neither does. `options` becomes what it was run with.
+    /// A run with a tenth of the tolerance or half the step; if that does not reach the same end, with ten times
+    /// the tolerance or twice the step. Nothing if neither does. `options` is set to the options of the run.
     std::optional<PhasedMotion> other(Options& options) const {
         options = given_;
         options.budget = std::min(given_.budget, 4 * motion_.statistics.evaluations + 10'000);
@@ -178,7 +179,7 @@ public:
         return std::nullopt;
     }
 
-    /// With steps of at most half the mean one: for runs whose steps do not depend on the tolerance.
+    /// A run with steps of at most half the mean length, for motions whose steps do not depend on the tolerance.
     std::optional<PhasedMotion> with_short_steps(Options options) const {
         const double elapsed = motion_.final_time() - given_.start;
         options.longest_step = elapsed / (2 * static_cast<double>(motion_.statistics.steps));
@@ -190,7 +191,8 @@ private:
     std::optional<PhasedMotion> at_same_end(const Options& options) const {
         PhasedMotion second = run_(options, initial_);
         const bool stopped =
-            motion_.ending == Ending::stopped_by_event && second.ending == motion_.ending;  // each at its own time
+            // Each ends at its own time.
+            motion_.ending == Ending::stopped_by_event && second.ending == motion_.ending;
         if (second.ending == Ending::failed || !(later(second, motion_) <= (stopped ? no_digit : 1e-6)))
             return std::nullopt;
         return second;

@@ -1,38 +1,40 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// How good a result is, from other runs of the same motion, and whether errors grow exponentially.
+/// Estimates the error of a result from other runs of the same motion, and finds out whether errors grow
+/// exponentially.
 ///
 ///     const ErrorEstimate estimate = error_estimate(motion, run, options, initial, components);
 ///     estimate.value;          // max |error| / max(1, |y|) of coordinates, rates and speeds at the end: a bound
 ///     estimate.scaled;         // max |error| / (how far components of its kind move)
 ///
-/// Both are meant as bounds: tests/bench/honesty.py counts how often the true error is larger. With d the largest
-/// difference to a second run,
+/// Both are meant as bounds; tests/bench/honesty.py counts how often the true error is larger. With d the largest
+/// difference from a second run,
 ///
 ///     value = 2.5 d + (4 + √steps) ε · max(1, |y(0)|/|y|)
 ///
-/// The factor 2.5 stands for the second run's own error, which d leaves out, in 95 % of runs (honesty.py). The
-/// rest is what rounding makes of every step, like a random walk; what amplifies it amplifies d as well.
+/// The factor 2.5 covers the second run's own error, which d does not contain, in 95 % of runs (honesty.py). The
+/// second term is the rounding of all steps, which adds up like a random walk; anything that amplifies it
+/// amplifies d as well.
 ///
-/// How far components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the run, and
-/// the largest |u| of their speeds, in the run that moves less. No motion counts as smaller than what rounding may
-/// be: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its kind (for speeds: of these
-/// coordinates, a duration), 1e-16.
+/// The distance that components of a kind move is the largest |y − y(0)| of these coordinates on the rows of the
+/// run, or the largest |u| of their speeds, in the run that moves less. It counts as at least the size of possible
+/// rounding: 1e-12 of the largest coordinate (speed), 1e-10 of the largest of its kind (for speeds: of these
+/// coordinates, divided by the duration), and 1e-16.
 ///
-/// The second run has a tenth of the tolerance (half the step); where that takes more than four times the
+/// The second run has a tenth of the tolerance (half the step); if that takes more than four times the
 /// evaluations, because rounding limits the steps, it has ten times the tolerance, and the estimate is then that
-/// run's error. Where it takes no more steps than the first, its errors may be the same ones, and a third run has
-/// steps of at most half the mean length. What all runs have in common (rounding of initial values and of the
-/// right-hand side, a wrong scene) they cannot show. Where an event stops the runs, each has its own end, and the
-/// difference of these times counts as one of the state does. A run of fewer than 16 fixed steps is held against
-/// one of a quarter of the step too, as two so coarse runs may agree by chance.
+/// run's error. If the second run takes no more steps than the first, its errors may be the same, and a third run
+/// has steps of at most half the mean length. Errors that all runs have in common (rounding of initial values and
+/// of the right-hand side, a wrong scene) remain unseen. If an event stops the runs, each has its own end, and the
+/// difference of these times counts like a difference of the state. A run of fewer than 16 fixed steps is also
+/// compared with one of a quarter of the step, because two such coarse runs may agree by chance.
 ///
-/// Where the estimate is 1000 times the tolerance or more, another run from a state 1e-8 beside the first tells
-/// chaos from plain accumulation: the separation of the two grows exponentially if it gains e³ or more in the
-/// second half of the time in which it is below 0.01 (a power of time, k ≤ 3, gains 2^k). The Lyapunov exponent is
-/// the slope of its logarithm over that half; `horizon` is the time at which the difference of the first two runs
-/// reaches 0.1, found on the rows or extrapolated with the exponent.
+/// If the estimate is 1000 times the tolerance or more, another run from an initial state at a distance of 1e-8
+/// distinguishes chaos from plain accumulation: the separation of the two grows exponentially if it gains e³ or
+/// more in the second half of the time in which it is below 0.01 (a power of time, k ≤ 3, gains 2^k). The Lyapunov
+/// exponent is the slope of its logarithm over that half; `horizon` is the time at which the difference of the
+/// first two runs reaches 0.1, found on the rows or extrapolated with the exponent.
 
 #include <functional>
 #include <optional>
@@ -43,20 +45,20 @@
 namespace alembert {
 
 struct ErrorEstimate {
-    std::optional<double> value;  ///< nothing where no second run came to the end
+    std::optional<double> value;  ///< nothing if no second run reached the end
     std::string by;
     std::optional<double> scaled;  ///< likewise
-    double moved = 0;  ///< the largest |y − y(0)| of a coordinate on the rows; 0 where that is rounding
-    std::optional<double> lyapunov, horizon;  ///< only where errors grow exponentially
+    double moved = 0;  ///< the largest |y − y(0)| of a coordinate on the rows; 0 if that is only rounding
+    std::optional<double> lyapunov, horizon;  ///< only if errors grow exponentially
 };
 
 using Rerun = std::function<PhasedMotion(const Options&, const std::vector<double>& initial)>;
 
-/// The state's components that count, from the first.
+/// The components of the state that count; they come first in the state.
 struct Components {
-    std::size_t coordinates = 0;  ///< the first of them; speeds follow
-    std::vector<int> kinds = {};  ///< a number for each; equal where they have a unit in common
-    /// q' of a state at a time, where the state has speeds in place of rates; may be empty.
+    std::size_t coordinates = 0;  ///< the number of coordinates, which come first; speeds follow
+    std::vector<int> kinds = {};  ///< a number for each component, equal for components with the same unit
+    /// q' of a state at a time, if the state has speeds in place of rates; may be empty.
     std::function<void(double t, std::span<const double> state, std::span<double> rates)> rates = {};
 };
 

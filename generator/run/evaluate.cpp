@@ -43,7 +43,8 @@ std::vector<double> accelerations_at(const Derived& d, const Program& program, c
     return result;
 }
 
-/// Contacts that are closed at the state and stay so. Their mechanism takes the place of the free one in `d`.
+/// The contacts that are closed at the state and stay closed. In `d` the mechanism is replaced by the one with
+/// these contacts.
 std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     need_rates(d);
     const ContactView view(d.mechanism);
@@ -53,7 +54,7 @@ std::vector<int> close_contacts(Derived& d, const State<double>& state) {
     return closed;
 }
 
-/// `value` with 0 for what is rounding alone; accelerations are calculated anew in more bits too.
+/// `value` with 0 for values that are only rounding; accelerations are recomputed with more bits as well.
 std::vector<double> reactions_without_rounding(const Program& program, const State<double>& state,
                                                const std::vector<double>& value) {
     State<long double> wide = in_long_double(state);
@@ -85,7 +86,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         e.frictions = std::move(held.frictions);
     }
     state.qddot = accelerations_at(e, program, state);
-    const std::vector<double> value = interpret(program, state);  // outputs may hold accelerations
+    const std::vector<double> value = interpret(program, state);  // outputs may contain accelerations
     const auto single = [&](Group group) { return value[program.nodes_of(group)[0]]; };
 
     e.time = state.t;
@@ -101,7 +102,7 @@ Evaluation evaluate(Scene scene, const EvaluateOptions& options) {
         const std::string name = contact.gap.multiplier.get_name();
         if (std::none_of(e.multipliers.begin(), e.multipliers.end(),
                          [&](const auto& known) { return known.first == name; }))
-            e.multipliers.emplace_back(name, 0.0);  // open
+            e.multipliers.emplace_back(name, 0.0);  // the contact is open
     }
     e.kinetic = single(Group::kinetic);
     e.potential = single(Group::potential);

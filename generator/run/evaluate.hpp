@@ -16,9 +16,10 @@
 namespace alembert {
 
 struct EvaluateOptions {
-    std::string by = {};     ///< a formalism; empty: the program chooses
-    Overrides at = {};       ///< coordinates, rates, speeds, parameters, t
-    bool reactions = false;  ///< of each constraint along each coordinate, and what joints bear
+    std::string by = {};  ///< a formalism; if empty, the program chooses
+    Overrides at = {};    ///< coordinates, rates, speeds, parameters, t
+    /// Whether to give the reaction of each constraint along each coordinate, and those of joints.
+    bool reactions = false;
 };
 
 /// Names and values stand in the order of the scene; units are the scene's.
@@ -27,26 +28,28 @@ struct Evaluation : Derived {
     double time = 0;
     std::vector<std::string> coordinates = {};
     std::vector<double> q = {}, rates = {}, accelerations = {};
-    Named speeds = {}, speed_rates = {};  ///< of the scene's generalized speeds; empty where there are none
-    Named multipliers = {};               ///< of open contacts too, where they are 0
+    Named speeds = {},
+          speed_rates = {};  ///< the scene's generalized speeds and their rates; empty if there are none
+    Named multipliers = {};  ///< also those of open contacts, which are 0
     double kinetic = 0, potential = 0, energy = 0;
     std::vector<std::pair<std::string, std::array<double, 2>>> residuals =
-        {};                                               ///< of each constraint: position, velocity
+        {};  ///< for each constraint, the residuals of position and velocity
     std::optional<std::vector<std::string>> closed = {};  ///< unilateral contacts that are closed and stay so
-    /// Of each dry friction: +1 or −1 where it slides along that side, 0 where it sticks.
+    /// For each dry friction +1 or −1 if it slides in that direction, 0 if it sticks.
     std::vector<std::pair<std::string, int>> frictions = {};
-    std::vector<std::string> adjusted = {};  ///< in words, what was moved so that the constraints hold
+    /// Lines that tell which values were moved so that the constraints hold.
+    std::vector<std::string> adjusted = {};
     Named outputs = {};
     struct Reaction {
         std::string constraint, coordinate;
         double force;
     };
-    std::vector<Reaction> reactions = {};     ///< where they were asked for
+    std::vector<Reaction> reactions = {};     ///< set if they were requested
     std::vector<JointLoad> joint_loads = {};  ///< likewise
 };
 
 /// Throws what `derived` throws; ModelError for a name in `at` that the scene does not have and for a gap that is
-/// negative; IntegrationError where the accelerations are not finite, with the reason in terms of the scene.
+/// negative; IntegrationError if the accelerations are not finite, with the reason in terms of the scene.
 Evaluation evaluate(Scene scene, const EvaluateOptions& options = {});
 
 }  // namespace alembert

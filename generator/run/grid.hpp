@@ -6,7 +6,7 @@
 ///     const Grid grid{{{"theta1", 0, 3, 4}, {"l1", 1, 2, 2}}};     // 8 points, the last name the fastest
 ///     grid.point(3);                                               // {1, 2}
 ///
-/// `count` values from `from` to `to`, both included, evenly; one value is `from`.
+/// `count` evenly spaced values from `from` to `to`, both included; a single value is `from`.
 
 #include <string>
 #include <vector>

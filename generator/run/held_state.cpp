@@ -13,9 +13,10 @@ namespace alembert {
 
 namespace {
 
-constexpr double on_zero = 1e-12;  // of a sliding velocity, relative to the rates
+constexpr double on_zero = 1e-12;  // a sliding velocity below this, relative to the rates, is zero
 
-/// The program as the runtime asks for it, by interpretation; y is q and then the rates or speeds.
+/// The program in the form that the runtime needs, evaluated by interpretation; y is q, followed by the rates or
+/// speeds.
 Switching interpreted(const Switched& s, const State<double>& state) {
     const std::size_t count = s.functions.size(), n = state.q.size(), all = n + state.qdot.size();
     const auto at = [state, n](double t, const double* y, const double* sigma, std::size_t signs) {

@@ -23,7 +23,7 @@ struct Loads {
     Eigen::VectorXd acceleration, load, multiplier;
 };
 
-/// M q'' = f + Aᵀλ + τ,  A q'' = γ, the loads being affine in q'':  τ + Aᵀλ = M q'' − f.
+/// M q'' = f + Aᵀλ + τ, A q'' = γ, where the loads are affine in q'': τ + Aᵀλ = M q'' − f.
 struct Affine {
     Eigen::MatrixXd M, A;
     Eigen::VectorXd minus_f, gamma;
@@ -52,12 +52,13 @@ Affine affine(const Program& program, State<double> state) {
     return result;
 }
 
-/// The loads act along the coordinates whose accelerations are given, if these are not more than the freedom; the
-/// others follow.
+/// The case in which at most as many accelerations are given as there are degrees of freedom. The loads act along
+/// these coordinates, and the other accelerations follow.
 Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& given, double t,
                    const std::vector<double>& q) {
     const Eigen::Index n = s.M.rows(), m = s.A.rows();
-    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n + m, n + m);  // of (τ or q'' for each coordinate, λ)
+    // The coefficients of (τ or q'' for each coordinate, λ).
+    Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n + m, n + m);
     Eigen::VectorXd right(n + m);
     right << -s.minus_f, s.gamma;
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -84,7 +85,8 @@ Loads partly_given(const Affine& s, const std::vector<std::optional<double>>& gi
     return result;
 }
 
-/// All accelerations are known; of the loads that bring them about with the constraints' help the least.
+/// The case in which all accelerations are known: the loads of least norm that produce them together with the
+/// constraint forces.
 Loads all_given(const Affine& s, const Eigen::VectorXd& a, const Mechanism& m) {
     for (Eigen::Index k = 0; k < s.A.rows(); ++k) {
         const double size = std::abs(s.gamma[k]) + s.A.row(k).cwiseAbs().dot(a.cwiseAbs()),
@@ -116,13 +118,13 @@ Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given
                         count, freedom, n));
     Eigen::VectorXd a = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
     if (count == 0 && !m.constraints.empty())
-        a = least_norm(s.A, s.gamma).x;  // the least that the constraints allow
+        a = least_norm(s.A, s.gamma).x;  // the accelerations of least norm that the constraints allow
     for (std::size_t j = 0; j < n; ++j)
         if (given[j]) a[static_cast<Eigen::Index>(j)] = *given[j];
     return all_given(s, a, m);
 }
 
-/// The accelerations among the names of `at`; takes them out.
+/// Takes the accelerations out of the names of `at`.
 std::vector<std::optional<double>> take_accelerations(Overrides& at, const Mechanism& m) {
     std::vector<std::optional<double>> given(m.q.size());
     std::vector<std::string> known;

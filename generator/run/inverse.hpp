@@ -13,7 +13,7 @@ namespace alembert {
 
 struct InverseOptions {
     std::string by = {};
-    Overrides at = {};  ///< "q''" an acceleration; other names as for `evaluate`
+    Overrides at = {};  ///< "q''" names an acceleration; other names as for `evaluate`
 };
 
 struct InverseLoads : Derived {
@@ -24,9 +24,9 @@ struct InverseLoads : Derived {
 };
 
 /// M q'' = f + Aᵀλ + τ with A q'' = γ, for the loads τ. Accelerations that are not given follow from those that
-/// are (as many as there are degrees of freedom, or fewer), or are 0; without constraints. Where all are given,
-/// the loads are the least that bring them about. Throws ModelError for accelerations of unknown names and for
-/// those that break a constraint; IntegrationError where the given ones do not determine the motion.
+/// are (as many as there are degrees of freedom, or fewer); without constraints they are 0. If all are given, the
+/// loads are those of least norm that produce them. Throws ModelError for accelerations of unknown names and for
+/// those that break a constraint; IntegrationError if the given ones do not determine the motion.
 InverseLoads inverse(Scene scene, const InverseOptions& options);
 
 }  // namespace alembert

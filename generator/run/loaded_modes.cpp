@@ -18,7 +18,8 @@ namespace alembert {
 
 namespace {
 
-constexpr int most_operations = 8000;  // of a Jacobian that compiles in a second or two; beyond, differences serve
+// Of a Jacobian that compiles in a second or two; for larger ones, differences are used.
+constexpr int most_operations = 8000;
 
 std::optional<Differentiated> affordable_derivatives(const Program& program, Work work) {
     if (program.count(program.right_hand_side()).total() > most_operations / 2) return std::nullopt;
@@ -27,7 +28,7 @@ std::optional<Differentiated> affordable_derivatives(const Program& program, Wor
     return result;
 }
 
-/// Why a motion cannot go on with this friction, with the numbers that make it so.
+/// The reason why a motion cannot go on with this friction, with the numbers that show it.
 std::string refusal_of(const Mechanism::Friction& f, const Program& p, double t, const double* y) {
     std::string numbers;
     const auto list = [&](const std::vector<Quantity>& of, const auto& value) {
@@ -280,7 +281,7 @@ std::unique_ptr<LoadedMode> LoadedModes::made(const std::vector<int>& closed) {
     mode->contact.rhs.canonical = canonical;
     if (method_.when_stiff)
         mode->contact.rhs_when_stiff = [this, self = mode.get()] { return with_jacobian(*self); };
-    // The work is to balance the energy: it has a tolerance like the rest, where there is one.
+    // The work must balance the energy, so it is integrated with the same tolerance as the state, if there is one.
     if (!has_contacts && !has_fixed_step(method_.method)) mode->contact.rhs.extra = 0;
     if (!method_.sundials.empty()) mode->contact.by = sundials_integrator(method_.sundials, module, values);
     LoadedMode* const self = mode.get();

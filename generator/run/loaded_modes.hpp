@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The contact modes of a scene, each derived, emitted, compiled and loaded when the motion first asks for it. A
-/// scene without unilateral constraints has the one mode {}.
+/// The contact modes of a scene. Each is derived, emitted, compiled and loaded when the motion first needs it. A
+/// scene without unilateral constraints has only the mode {}.
 ///
 ///     LoadedModes modes(request, derived, start, first, Work::left_out, method, on_step);
 ///     const LoadedMode& lying = modes({0});
@@ -26,63 +26,66 @@
 namespace alembert {
 
 struct LoadedMode {
-    Derived derived;  ///< its mechanism has the closed contacts as constraints
+    Derived derived;  ///< with a mechanism in which the closed contacts are constraints
     Program program;
     Source source;
     Module module;
-    std::vector<double> par;  ///< prepared
+    std::vector<double> par;  ///< the parameters after `prepare`
     Projection projection;
     ContactMode contact;
     bool from_cache = false;
-    std::optional<int> jacobian_operations = {};  ///< where it is emitted
-    std::optional<Rhs> when_stiff = {};           ///< once the motion was found stiff
-    /// The largest size on the way of each function whose sign is held.
+    std::optional<int> jacobian_operations = {};  ///< set if it is emitted
+    std::optional<Rhs> when_stiff = {};           ///< set after the motion was found stiff
+    /// The largest size during the motion of each function whose sign is held constant.
     std::vector<double> side_sizes = {};
-    /// Before anything is evaluated with `par`: sets it to the signs at a state of the motion, or to those given.
+    /// Sets the signs in `par` to those at a state of the motion, or to given ones. To be called before anything
+    /// is evaluated with `par`.
     void hold_sides(double t, const double* state);
     void hold(const std::vector<double>& sigma);
-    /// Lets `side_sizes` know a motion.
+    /// Updates `side_sizes` from a motion.
     void measure_sides(const Trajectory& motion);
 };
 
-/// The same program with the Jacobian of its right-hand side where `method` is one that solves equations with it,
-/// and it is not too long to be written out; else as it is. `with_power`: of the power too.
+/// The program with the Jacobian of its right-hand side, if `method` solves equations with it and it is not too
+/// long to be written out; otherwise the unchanged program. With `with_power`, the gradient of the power is added
+/// too.
 Program with_jacobian(Program program, Method method, bool with_power);
 
-/// What makes rates jump: contacts, and events with impulses.
+/// Whether rates may jump: the mechanism has contacts, or events with impulses.
 bool has_jumps(const Mechanism& mechanism);
 
-/// These as the runtime asks for them: gaps, rows and impulses by interpretation. The views must outlive them.
-/// Throws ModelError where the state has speeds that the motion with jumps is not followed in.
+/// Contacts and events in the form that the runtime needs: gaps, rows and impulses by interpretation. The views
+/// must outlive the result. Throws ModelError if the state has speeds with which motions with jumps are not
+/// supported.
 Contacts contacts_of(const Derived& derived, const Start& start, const ContactView& view, const KickView& kicks);
 
 class LoadedModes {
 public:
-    /// What it is given must outlive it; `start` is assembled, `first` the state there. `on_step` is told the mode
-    /// of each step. Implicit methods have the solvers emitted with their Jacobian, unless it would take long to
-    /// compile; those that turn to one where the motion is stiff have it emitted then. taylor has the series
-    /// emitted.
+    /// The arguments must outlive this object; `start` is assembled, and `first` is the state there. `on_step`
+    /// gets the mode of each step. For implicit methods the solvers are emitted with their Jacobian, unless that
+    /// would take long to compile; for methods that change to an implicit one when the motion is stiff, the
+    /// Jacobian is emitted at that time. For taylor the series is emitted.
     using OnModeStep =
         std::function<void(LoadedMode&, double t, std::span<const double> state, std::span<const double> rate)>;
     LoadedModes(const RunOptions& wishes, const Derived& derived, const Start& start, const State<double>& first,
                 Work work, const MethodChoice& method, OnModeStep on_step);
 
-    /// `closed` ascending. Throws IntegrationError where there are no finite accelerations at the start, and what
-    /// the stages throw.
+    /// The mode with the contacts `closed`, in ascending order. Throws IntegrationError if there are no finite
+    /// accelerations at the start, and what the stages throw.
     LoadedMode& operator()(const std::vector<int>& closed);
 
-    /// Told what happens to the signs that a right-hand side holds, their names, and the frictions whose sliding
-    /// velocities have them; may be empty.
+    /// Called with changes of the signs that a right-hand side holds constant, their names, and the frictions
+    /// whose sliding velocities have these signs; may be empty.
     std::function<void(const SideChange&, const std::string& name, const std::vector<Switched::Rubbing>&)>
         on_side_change = {};
 
-    /// Takes the program of the mode {} from one who has it.
+    /// Uses a given program for the mode {}.
     void take_free(Program program);
 
-    /// Of one right-hand side: the largest of the modes that have been asked for.
+    /// The operations of one right-hand side, the largest number of all modes used so far.
     int operations() const;
 
-    /// Before another run (Projection::forget).
+    /// To be called before another run (Projection::forget).
     void forget();
 
     struct Seconds {

@@ -40,7 +40,7 @@ Workbench::Workbench(Parts parts)
     const Mechanism& m = parts_.derived.mechanism;
     if (!m.constraints.empty())
         rhs_ = projection_.guarded(std::move(rhs_)), with_work_ = projection_.guarded(std::move(with_work_));
-    if (!m.constraints.empty()) return;  // their forces change the momenta
+    if (!m.constraints.empty()) return;  // the forces of constraints change the momenta
     const std::vector<int> cyclic = cyclic_coordinates(m);
     if (cyclic.empty()) return;
     const std::vector<GiNaC::ex> p = m.z->pull_back({{m.lagrangian(), 1}}, m.qdot);

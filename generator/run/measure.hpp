@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// One run measured: how long it took, how far it is from the reference, what it lost of what should stay.
+/// Measures a run: its time, its distance from the reference, and the drift of conserved quantities.
 ///
 ///     const Workbench workbench(derived, program, module, start, initial, reference_state);
 ///     const Measured run = workbench.measure({.method = Method::dop853, .duration = 10, .tolerance = 1e-9});
 ///
 /// `error` is the largest |y − reference| / max(1, |reference|) of coordinates and rates at the end. `seconds` is
-/// processor time of the integration alone, without rows, dense output or anything recorded: the median of as many
-/// runs as fit in 20 ms (three at least, one where it takes longer than 0.3 s). Drifts are those of a run of their
-/// own.
+/// processor time of the integration only, without rows, dense output or records: the median of as many runs as
+/// fit in 20 ms (at least three, or one if it takes longer than 0.3 s). Drifts come from a separate run.
 
 #include <optional>
 
@@ -25,13 +24,13 @@ namespace alembert {
 
 struct Measured {
     std::string who = "alembert", method = {};
-    std::optional<double> tolerance = {}, step = {};  ///< one of the two
-    std::optional<double> error = {};                 ///< nothing where the run failed, or there is no reference
+    std::optional<double> tolerance = {}, step = {};  ///< one of the two is set
+    std::optional<double> error = {};                 ///< nothing if the run failed or there is no reference
     double seconds = 0;
     long evaluations = 0, steps = 0;
     std::optional<double> energy_drift = {}, constraint_error = {},
-                          momentum_error = {};  ///< nothing where there is nothing to keep
-    bool work = false;                          ///< energy_drift is that of E − E₀ − W
+                          momentum_error = {};  ///< nothing if the quantity is not conserved
+    bool work = false;                          ///< whether energy_drift is that of E − E₀ − W
     std::string failure = {};
 };
 
@@ -46,10 +45,10 @@ public:
     struct Parts {
         const Derived& derived;
         const Module& module;
-        SeriesModule series = {}, series_with_work = {};  ///< null where methods that need them are not measured
+        SeriesModule series = {}, series_with_work = {};  ///< null if methods that need them are not measured
         std::shared_ptr<const Canonical> canonical = {};  ///< likewise
         std::vector<double> parameters, initial;
-        bool conserved = true;               ///< the energy is
+        bool conserved = true;               ///< whether the energy is conserved
         std::vector<double> reference = {};  ///< coordinates, then rates, at the end; may be empty
     };
     explicit Workbench(Parts parts);

@@ -14,9 +14,9 @@ namespace alembert {
 namespace {
 
 constexpr double many_steps = 1e4;
-constexpr double most_products = 300;  // of a series that compiles in about a second
+constexpr double most_products = 300;  // the most products of a series that compiles in about a second
 
-/// Cauchy products at each order; nothing where there is no series.
+/// The number of Cauchy products at each order; nothing if there is no series.
 std::optional<double> products_of_series(const Program& program, const Derived& d) {
     if (!d.mechanism.unilateral.empty()) return std::nullopt;
     if (program.count(program.right_hand_side()).total() > 20 * most_products) return std::nullopt;
@@ -77,7 +77,7 @@ MethodChoice method_for(const RunOptions& request, const Derived& d, const Progr
     const std::string name = name_given(request, d);
     if (is_sundials(name)) {
         need_sundials(d, name);
-        return {.method = Method::bdf, .sundials = name};  // which has the Jacobian emitted
+        return {.method = Method::bdf, .sundials = name};  // for which the Jacobian is emitted
     }
     if (const auto given = given_method(request, d)) {
         if (request.step >= 0 && !request.method.empty() && !has_fixed_step(*given))

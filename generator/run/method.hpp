@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Which method integrates a scene, and why.
+/// Chooses the method that integrates a scene, and gives the reason.
 ///
 ///     const MethodChoice choice = method_for(request, derived, program, start);
 ///     choice.why;      // "the tolerance is 1e-09; if the system turns out stiff, radau goes on"
@@ -18,7 +18,7 @@
 /// | below, the motion has a power series of at most 300 products an order | taylor |
 /// | below | verner98 |
 ///
-/// and those that choose their steps watch for stiffness while they run (stiffness.hpp), and give way to radau.
+/// Methods that choose their steps watch for stiffness while they run (stiffness.hpp) and then change to radau.
 
 #include "alembert/integrate.hpp"
 #include "derive/derived.hpp"
@@ -29,23 +29,23 @@ namespace alembert {
 struct MethodChoice {
     Method method = Method::dop853;
     std::optional<Method> when_stiff = {};
-    std::string why = {};       ///< empty where the method was given
-    std::string sundials = {};  ///< a method of somebody else's in the place of `method` (sundials_methods.hpp)
+    std::string why = {};       ///< empty if the method was given
+    std::string sundials = {};  ///< a method of SUNDIALS that replaces `method` (sundials_methods.hpp)
 };
 
-/// The method that was asked for; nothing where it is `auto`. Throws ModelError for a name that is none, and for a
-/// method that the scene does not allow.
+/// The requested method; nothing if it is `auto`. Throws ModelError for an unknown name, and for a method that the
+/// scene does not allow.
 std::optional<Method> given_method(const RunOptions& request, const Derived& derived);
 
-/// That, or the one that suits. `program` is what will run.
+/// The requested method, or the one that suits the scene. `program` is the program that will run.
 MethodChoice method_for(const RunOptions& request, const Derived& derived, const Program& program,
                         const Start& start);
 
-/// The longest step allowed (s; 0: no bound).
+/// The longest allowed step in s; 0 means no bound.
 double longest_step(const RunOptions& wishes, const Start& start);
 
-/// The scene's wishes, those of `wishes` first. Throws ModelError for a longest step with a method that has a
-/// fixed one.
+/// The settings of the scene, overridden by those of `wishes`. Throws ModelError for a longest step with a method
+/// that has a fixed step.
 Options options_of(const RunOptions& wishes, const MethodChoice& choice, const Start& start);
 
 }  // namespace alembert

@@ -18,7 +18,7 @@ namespace alembert {
 
 namespace {
 
-/// Beside this program.
+/// The program in the same folder as this one.
 std::filesystem::path peers_program() {
     std::error_code failed;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -32,7 +32,7 @@ void write_list(std::ofstream& out, const std::vector<double>& list) {
     out << "\n";
 }
 
-/// Empty, in the folder for temporary files, under a name that nobody else knows before.
+/// A new empty file in the folder for temporary files, with a name that nobody can predict.
 std::filesystem::path new_file() {
     std::string pattern = (std::filesystem::temp_directory_path() / "alembert-peers-XXXXXX").string();
     const int made = mkstemp(pattern.data());

@@ -24,7 +24,7 @@ public:
           middle_(size),
           rate_(size) {}
 
-    /// The state at t + h; gives the error estimate.
+    /// Computes the state at t + h and returns the error estimate.
     double operator()(Quad t, const QuadVector& y, const QuadVector& first_rate, Quad h, QuadVector& out) {
         const std::size_t columns = table_.size();
         double error = HUGE_VAL;
@@ -68,7 +68,7 @@ private:
 };
 
 /// Nodes on (0, 1) and weights ∫ of the Lagrange polynomials from 0 to each node and to 1, by Legendre's
-/// polynomials, in which interpolation on Gauss's nodes loses nothing: l_j(x) = w_j Σ (2k+1) P_k(x_j) P_k(x).
+/// polynomials, with which interpolation on Gauss's nodes loses no digits: l_j(x) = w_j Σ (2k+1) P_k(x_j) P_k(x).
 struct Gauss {
     static constexpr int stages = 14;
     Quad c[stages], b[stages], a[stages][stages];
@@ -148,7 +148,7 @@ private:
     using Rough = std::vector<double>;
     static constexpr int most_rounds = 60;
 
-    /// Where the corrections no longer shrink, rounding has the word.
+    /// Iterates until the corrections no longer shrink, that is, to rounding.
     bool iterate(Quad t, const QuadVector& y, Quad h) {
         rhs_(t, y.data(), change_.data());
         ++evaluations;
@@ -175,7 +175,8 @@ private:
         return false;
     }
 
-    /// k_i = f(y + h Σ a_ij k_j) in doubles, to rounding; each uses what the others have become (Gauss & Seidel).
+    /// Solves k_i = f(y + h Σ a_ij k_j) in doubles, to rounding; each k_i uses the newest values of the others
+    /// (Gauss-Seidel).
     bool begin(double t, double h) {
         double former = HUGE_VAL;
         for (int round = 0; round < most_rounds; ++round) {
@@ -199,7 +200,7 @@ private:
         return false;
     }
 
-    /// f(y + h Σ a_ij k_j) − k_i, and the largest of them times h.
+    /// Computes the residuals f(y + h Σ a_ij k_j) − k_i and returns the largest of them times h.
     double defects(Quad t, const QuadVector& y, Quad h) {
         double largest = 0;
         for (std::size_t i = 0; i < Gauss::stages; ++i) {
@@ -220,8 +221,8 @@ private:
         return largest;
     }
 
-    /// δ_i = d_i + J h Σ a_ij δ_j in doubles, J along the change by a difference of f: seven digits of δ, whatever
-    /// its size.
+    /// δ_i = d_i + J h Σ a_ij δ_j in doubles, with J along the change from a difference of f. This gives seven
+    /// digits of δ, whatever its size.
     void correct(double t, double h, double unit) {
         constexpr double apart = 1e-8;
         for (std::size_t i = 0; i < Gauss::stages; ++i) {

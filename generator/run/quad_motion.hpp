@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Motions in numbers of 34 digits, by two methods that have nothing in common but the right-hand side.
+/// Motions in numbers with 34 digits, by two methods that have only the right-hand side in common.
 ///
 ///     const QuadMotion first = extrapolate(rhs, state, 0, 10, {.tolerance = 1e-28});
 ///     const QuadMotion second = collocate(rhs, rough, state, first.mesh, {});
 ///     agreement(first.state, second.state);        // 1e-22: so many digits are beyond doubt
 ///
 /// `extrapolate`: Gragg's modified midpoint rule with 2, 4, … 2K substeps, extrapolated to h² = 0 (Bulirsch &
-/// Stoer; Hairer, Nørsett, Wanner I, §II.9), order 2K, K from the tolerance; the step from the difference of the
-/// last two columns, held against tolerance · max(1, |y|). `collocate`: Gauss's nodes, 14 of them, order 28
-/// (Hairer & Wanner II, §IV.5), solved to `tolerance` on the first one's mesh: by iteration in doubles, then by
-/// corrections that doubles find for what is left over in 34 digits, each of which brings seven digits for the
-/// price of one round. A step on which the iteration does not contract is halved.
+/// Stoer; Hairer, Nørsett, Wanner I, §II.9), order 2K with K from the tolerance. The step follows from the
+/// difference of the last two columns, compared with tolerance · max(1, |y|). `collocate`: Gauss's nodes, 14 of
+/// them, order 28 (Hairer & Wanner II, §IV.5), solved to `tolerance` on the first one's mesh: first by iteration
+/// in doubles, then by corrections of the residual in 34 digits, which are computed in doubles; each correction
+/// gains seven digits at the cost of one round. A step on which the iteration does not contract is halved.
 ///
-/// Neither throws: `finished` is false where evaluations ran out or a step vanished.
+/// Neither throws; `finished` is false if the evaluations were used up or a step became zero.
 
 #include <functional>
 #include <vector>

@@ -20,14 +20,14 @@ Quad quad_of_decimal(double x) {
     return quad_of(cln::rationalize(cln::cl_F(cln::cl_DF(x))));  // the simplest fraction that rounds to it
 }
 
-/// Moves `x[free]` until the nodes vanish, with the misfit in Quad and its derivatives in double: each round gains
-/// 15 digits.
+/// Moves `x[free]` until the nodes vanish. The residual is computed in Quad and its derivatives in double, so that
+/// each round gains 15 digits.
 class Settling {
 public:
     Settling(const Mechanism& m, const Program& p, const QuadStart& start) : m_(m), p_(p), start_(start) {}
 
     struct Rows {
-        std::vector<int> misfit, derivative;  ///< nodes; n derivatives to each
+        std::vector<int> misfit, derivative;  ///< nodes of the residuals, and n derivatives of each
         std::vector<Quad> target;
     };
 
@@ -70,7 +70,7 @@ private:
     const QuadStart& start_;
 };
 
-/// Nodes of a group with the derivatives of `rows`; of positions, those of holonomic constraints alone.
+/// The nodes of a group with their derivatives from `rows`; of positions, only those of holonomic constraints.
 Settling::Rows rows_of(const Program& p, const Mechanism& m, Group group, Group rows) {
     Settling::Rows result;
     const std::vector<int> misfit = p.nodes_of(group), derivative = p.nodes_of(rows);
@@ -162,7 +162,7 @@ std::optional<Reference> reference(const Program& program, const QuadStart& star
     const std::vector<int> accelerations = program.nodes_of(Group::acceleration);
     wanted.insert(wanted.end(), accelerations.begin(), accelerations.end());
     Tape<Quad> tape(program, wanted, start.parameters);
-    double share = 0;  // of the work, before this method
+    double share = 0;  // the share of the work before this method
     const QuadRhs rhs = [&](Quad t, const Quad* state, Quad* rate) {
         if (options.progress && start.duration > 0)
             options.progress(share + 0.5 * static_cast<double>((t - start.t) / start.duration));

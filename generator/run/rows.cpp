@@ -13,7 +13,7 @@ namespace alembert {
 
 namespace {
 
-/// One phase's rows, without the last one if it is said again by the next.
+/// Adds the rows of one phase, without the last one if the next phase begins with the same row.
 void add_rows(std::vector<double>& values, const Phase& phase, LoadedMode& mode, const Derived& d,
               std::size_t rows, const JointReactions* reactions, State<double> at) {
     const alembert_solver_table& table = mode.module.table();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The rows that a run leaves behind: what stands in its CSV file, and what plots are drawn from.
+/// The rows of a run, for its CSV file and for plots.
 
 #include "reaction/joint_reactions.hpp"
 #include "run/loaded_modes.hpp"
@@ -18,15 +18,15 @@ struct MotionTable {
 };
 
 /// t, coordinates, rates (theta1'), multipliers of constraints, then of unilateral contacts (0 while open),
-/// energy, outputs, the scene's own speeds, and with `reactions` (it may be null) JOINT.fx … JOINT.mz.
+/// energy, outputs, the scene's own speeds and, if `reactions` is not null, JOINT.fx … JOINT.mz.
 std::vector<std::string> row_columns(const Mechanism& mechanism, const Program& program,
                                      const JointReactions* reactions);
 
-/// Throws ModelError for a wanted name that is no column, with the nearest one and all others.
+/// Throws ModelError for a name that is no column; the message has the nearest name and all others.
 void check_columns(const std::vector<std::string>& columns, const std::vector<std::string>& wanted);
 
-/// The table with these columns. Where rates jump there are two rows for one time, before and after; where they
-/// only change their law, one. Reactions are at the parameters of `first`.
+/// The table with these columns. If rates jump, there are two rows for the same time, before and after; if only
+/// the equations change, there is one. Reactions are evaluated with the parameters of `first`.
 MotionTable rows_of(const PhasedMotion& motion, const Derived& derived, LoadedModes& modes,
                     const JointReactions* reactions, const State<double>& first);
 

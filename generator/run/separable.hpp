@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// What verlet and kahanli8 take for granted: q' = u, and M and u' = M⁻¹f in which no rate (and, for M, no
-/// coordinate) occurs. What occurs only to cancel counts as there.
+/// Checks what verlet and kahanli8 require: q' = u, and M and u' = M⁻¹f do not contain rates (and M no
+/// coordinates). Terms that would cancel count as present.
 ///
 ///     if (needs_separable(method)) need_separable(derived, name(method));
 
@@ -14,7 +14,7 @@
 
 namespace alembert {
 
-/// Nothing where the system is of that kind, else the reason why not.
+/// Nothing if the system has this form; otherwise the reason why not.
 std::optional<std::string> inseparable(const Derived& derived);
 
 /// Throws ModelError with the reason and what to do.

@@ -30,7 +30,7 @@ const double* HeldParameters::with(const double* sigma) {
 
 namespace {
 
-/// A node as people would type it, as far as it is short.
+/// A node as a person would type it, if it is short.
 std::string text_of(const Program& p, int id, int depth = 0) {
     const Node& node = p[id];
     if (depth > 4) return "…";

@@ -18,7 +18,7 @@ namespace alembert {
 
 namespace {
 
-/// The state where the numbers failed.
+/// The state at which the computation failed.
 State<double> state_at(State<double> state, const Failure& failure) {
     state.t = failure.time;
     const auto middle = failure.state.begin() + static_cast<std::ptrdiff_t>(state.q.size());
@@ -27,7 +27,7 @@ State<double> state_at(State<double> state, const Failure& failure) {
     return state;
 }
 
-/// Does E stay with the system? Not where an impact has taken some of it, or an impulse changed it.
+/// Whether energy was lost: an impact has taken some of it, or an impulse has changed it.
 bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
     return std::any_of(motion.events.begin(), motion.events.end(),
                        [](const EventRecord& e) { return !e.impulse.empty(); }) ||
@@ -37,7 +37,7 @@ bool is_lossy(const PhasedMotion& motion, const Contacts& contacts) {
            });
 }
 
-/// What is watched at every step of the run that is the result, and at none of those that estimate its error.
+/// The quantities that are watched at every step of the main run, but not in the runs that estimate its error.
 struct Watch {
     Drift drift;
     PoseWatch poses = {};
@@ -46,14 +46,14 @@ struct Watch {
     bool is_over = false;
 };
 
-/// One scene on its way to a Run.
+/// The computation of a Run from a scene.
 class Simulating {
 public:
     Simulating(Run& run, const RunOptions& wishes)
         : run_(run),
           wishes_(wishes),
           has_contacts_(!run.mechanism.unilateral.empty()),
-          // With contacts: of all that their modes can do.
+          // With contacts, the energy account must be valid in all their modes.
           energy_(energy_of(has_contacts_ ? with_all_closed(run.mechanism) : run.mechanism)) {}
 
     void run() {
@@ -109,7 +109,7 @@ private:
             check_gaps(run_.scene, run_.mechanism, *view_, start_.state(), std::max(options_.tolerance, 1e-9));
     }
 
-    /// What goes on as before is no news.
+    /// A change to the same state is not recorded.
     static void note(std::vector<Run::FrictionChange>& changes, const Run::FrictionChange& change) {
         const auto last = std::find_if(changes.rbegin(), changes.rend(),
                                        [&](const auto& known) { return known.friction == change.friction; });
@@ -124,7 +124,7 @@ private:
         if (wishes_.estimate) watch.poses(t, state, start_.q.size(), first_.qdot.size());
         if (mode.contact.project)
             watch.constraint_drift = std::max(watch.constraint_drift, mode.projection.residual(t, state.data()));
-        // Telling it costs more than a step of a small system.
+        // A report costs more than a step of a small system.
         if (wishes_.progress && ++watch.steps % 1000 == 0)
             wishes_.progress("integrating", (t - options_.start) / options_.duration);
     }
@@ -205,7 +205,7 @@ private:
         run_.timings.estimate = process_seconds() - begin;
     }
 
-    /// Names, rows and the end, so that nobody has to ask the loaded modes again.
+    /// Sets names, rows and the end, so that the loaded modes are not needed any more.
     void describe(LoadedModes& modes, const LoadedMode& free) {
         const Mechanism& m = run_.mechanism;
         run_.why_method = choice_.why;

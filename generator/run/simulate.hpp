@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The verb `simulate`: a scene's motion, with what the run measured of itself.
+/// The verb `simulate`: a scene's motion, with measurements of its accuracy.
 ///
 ///     const Scene scene = read_scene("scenes/textbook/double_pendulum.toml");
 ///     const Run run = simulate(scene, {.duration = 10, .tolerance = 1e-12});
@@ -10,7 +10,7 @@
 ///     run.doubts.empty();                // nothing speaks against trusting it
 ///
 /// The scene is derived, emitted, compiled (compiled solvers are kept in a cache) and integrated; contact modes
-/// are, when the motion first meets them.
+/// are treated in this way when the motion first reaches them.
 
 #include <optional>
 
@@ -21,12 +21,12 @@
 
 namespace alembert {
 
-/// What became of the energy.
+/// The balance of the energy.
 struct EnergyAccount {
-    bool conserved = true;          ///< E = T + V is; otherwise E − E₀ is held against the work
-    bool jacobi_conserved = false;  ///< T₂ − T₀ + V is, while E is not
-    double drift = 0;    ///< max |E − E₀| / max(|E₀|, the largest kinetic energy), where it is conserved
-    double balance = 0;  ///< the same of E − E₀ − W, where it is not
+    bool conserved = true;  ///< whether E = T + V is conserved; otherwise E − E₀ is compared with the work
+    bool jacobi_conserved = false;  ///< whether T₂ − T₀ + V is conserved while E is not
+    double drift = 0;    ///< max |E − E₀| / max(|E₀|, the largest kinetic energy), if E is conserved
+    double balance = 0;  ///< the same for E − E₀ − W, if E is not conserved
     double jacobi_drift = 0;
     double impact_loss = 0, impulse_work = 0;
 };
@@ -36,51 +36,52 @@ struct Timings {
     double derive = 0, emit = 0, compile = 0, integrate = 0, estimate = 0;
 };
 
-/// What was made to run.
+/// The solver that was compiled for the run.
 struct Solver {
-    std::string formulation;                 ///< formalism and form, for people
-    int operations = 0;                      ///< of one right-hand side, the largest of all contact modes
-    std::optional<int> jacobian_operations;  ///< where it is emitted
+    std::string formulation;  ///< formalism and form, for people
+    int operations = 0;       ///< operations of one right-hand side, the largest number of all contact modes
+    std::optional<int> jacobian_operations;  ///< set if the Jacobian is emitted
     bool from_cache = false;
 };
 
 struct Run : Derived {
     PhasedMotion motion = {};
-    std::string why_method = {};  ///< in words; empty where the method was given
+    std::string why_method = {};  ///< the reason in words; empty if the method was given
     Solver solver = {};
-    std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds where the scene has its own
+    std::vector<std::string> coordinates = {}, speeds = {};  ///< names; speeds only if the scene has its own
     std::vector<double> final_coordinates = {}, final_rates = {}, final_speeds = {};
     std::vector<std::string> contacts = {};  ///< names of all unilateral constraints
-    /// What happened to the signs in the right-hand side: of |x|, min, max, sign.
+    /// A change of a sign in the right-hand side: of |x|, min, max, sign.
     struct Side {
         double time;
         std::string name;
         SideChange::Kind kind;
     };
     std::vector<Side> side_changes = {};
-    /// A dry friction begins to stick, or to slip, or slips the other way.
+    /// A contact with dry friction begins to stick or to slip, or slips the other way.
     struct FrictionChange {
         double time;
         int friction;  ///< position in Mechanism::frictions
-        int side;      ///< the sign of the slip, 0 where it sticks
+        int side;      ///< the sign of the slip, 0 if it sticks
     };
     std::vector<FrictionChange> friction_changes = {};
     EnergyAccount energy = {};
     double constraint_drift = 0;  ///< the largest residual
     std::optional<ErrorEstimate> estimate = {};
-    std::vector<std::string> doubts = {};    ///< why the result is not to be trusted
-    std::vector<std::string> adjusted = {};  ///< what was moved at the start so that the constraints hold
+    std::vector<std::string> doubts = {};  ///< reasons why the result should not be trusted
+    /// The values that were moved at the start so that the constraints hold.
+    std::vector<std::string> adjusted = {};
     MotionTable rows = {};
     Timings timings = {};
-    /// Why the motion broke off, in terms of the scene. What was computed until then is there.
+    /// The reason why the motion ended early, in terms of the scene. The results until then are kept.
     std::optional<std::string> failure = {};
 
     bool is_constrained() const { return !mechanism.constraints.empty() || !contacts.empty(); }
 };
 
-/// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError where
-/// there are no finite accelerations at the start; CompileError where there is no compiler. A motion that breaks
-/// off later is a Run with a `failure`.
+/// Throws what `derived` throws; ModelError for a method that the scene does not allow; IntegrationError if there
+/// are no finite accelerations at the start; CompileError if there is no compiler. A motion that ends early later
+/// on is a Run with a `failure`.
 Run simulate(Scene scene, const RunOptions& wishes = {});
 
 }  // namespace alembert

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view cvode = "cvode", ida = "ida";
 
-/// Beside this program; it stays open to the end.
+/// The back end, in the same folder as this program; it stays loaded until the end.
 const Backend& backend(std::string_view method) {
     std::error_code failed;
     const std::filesystem::path beside =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// cvode and ida of SUNDIALS as methods of `simulate`, where the program was built with them (peers/backend.hpp).
+/// cvode and ida of SUNDIALS as methods of `simulate`, if the program was built with them (peers/backend.hpp).
 ///
 ///     if (is_sundials(name)) mode.by = sundials_integrator(name, module, parameters);
 
@@ -16,11 +16,11 @@ namespace alembert {
 
 bool is_sundials(std::string_view method);
 
-/// Throws ModelError for a scene that they do not follow: contacts, events that stop; for ida, speeds with
+/// Throws ModelError for a scene that they do not support: contacts, events that stop and, for ida, speeds with
 /// constraints.
 void need_sundials(const Derived& derived, std::string_view method);
 
-/// Throws CompileError where this build has no SUNDIALS.
+/// Throws CompileError if this build has no SUNDIALS.
 Integrator sundials_integrator(std::string_view method, const Module& module,
                                const std::vector<double>& parameters);
 

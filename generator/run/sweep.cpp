@@ -24,11 +24,11 @@ namespace alembert {
 
 namespace {
 
-/// Where the members of a sweep begin; one that cannot has its reason instead.
+/// The initial states of the members of a sweep; for a member that cannot begin, the reason.
 struct Beginnings {
     Ensemble ensemble;
-    std::vector<std::string> refused;   ///< empty where the member runs
-    std::vector<std::size_t> position;  ///< of a member in the ensemble
+    std::vector<std::string> refused;   ///< empty if the member runs
+    std::vector<std::size_t> position;  ///< the position of a member in the ensemble
 };
 
 Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& grid, Module module) {
@@ -64,7 +64,7 @@ Beginnings beginnings(const RunOptions& wishes, const Derived& d, const Grid& gr
     return result;
 }
 
-/// Throws SceneError for the first member with a mass or a moment that no body has; warns of broken triangle
+/// Throws SceneError for the first member with an impossible mass or moment; warns of broken triangle
 /// inequalities, once for each body.
 void check_bodies_along(Sweep& s) {
     const Mechanism& m = s.mechanism;
@@ -79,7 +79,7 @@ void check_bodies_along(Sweep& s) {
     for (std::size_t k = 0; k < s.grid.size(); ++k) {
         const std::vector<double> values = s.grid.point(k);
         const Possible<Start> start = starts.possible(values);
-        if (!start.exists()) continue;  // its row says why
+        if (!start.exists()) continue;  // its row gives the reason
         for (Diagnostic& one : check.findings(start.value().state())) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 one.message += fmt::format("{}{} = {:.6g}", i == 0 ? ", at " : ", ", names[i], values[i]);
@@ -89,10 +89,10 @@ void check_bodies_along(Sweep& s) {
     }
 }
 
-/// When the inputs of each member change fast; members that have their parameters in common, and their times,
+/// Finds the times at which the inputs of each member change fast. Members with the same parameters and times
 /// share one search.
 void find_quick_times(const Program& program, Ensemble& e, std::vector<std::string>& warnings) {
-    constexpr std::size_t most_searches = 2000;  // some seconds
+    constexpr std::size_t most_searches = 2000;  // take some seconds
     const std::size_t count = e.count(), p = count > 0 ? e.parameters.size() / count : 0;
     const std::vector<bool> used = parameters_of_inputs(program, p);
     std::map<std::vector<double>, std::vector<QuickTime>> known;
@@ -118,7 +118,7 @@ void find_quick_times(const Program& program, Ensemble& e, std::vector<std::stri
     if (any) e.quick_times = std::move(found);
 }
 
-/// The rates at the end of a member, where the state may hold speeds instead.
+/// The rates at the end of a member, whose state may have speeds instead.
 std::vector<double> rates_at(const Program& program, const Beginnings& begin, std::size_t at, double t,
                              std::span<const double> state) {
     const alembert_solver_table& table = begin.ensemble.module.table();

@@ -13,23 +13,23 @@
 namespace alembert {
 
 struct SweptMotion {
-    std::vector<double> varied;  ///< as Grid::names
+    std::vector<double> varied;  ///< in the order of Grid::names
     std::vector<double> final_coordinates, final_rates,
-        final_speeds;            ///< NaN where the motion did not begin; speeds of scenes that have their own
-    double time = 0, drift = 0;  ///< NaN likewise; the drift of the energy, or the balance of work
+        final_speeds;            ///< NaN if the motion did not begin; speeds only of scenes that have their own
+    double time = 0, drift = 0;  ///< NaN in the same case; `drift` is that of the energy, or the work balance
     long steps = 0, rejected = 0, evaluations = 0;
-    std::string status = {};  ///< "done", "stopped" (by an event), or why it failed
+    std::string status = {};  ///< "done", "stopped" (by an event), or the reason for a failure
     bool failed = false;
 };
 
 struct Sweep : Derived {
     Grid grid = {};
     std::vector<std::string> coordinates = {}, speeds = {};
-    std::vector<SweptMotion> members = {};  ///< as Grid::point
-    bool conserved = true;                  ///< the energy is; else `drift` is that of E − E₀ − W
+    std::vector<SweptMotion> members = {};  ///< in the order of Grid::point
+    bool conserved = true;  ///< whether the energy is conserved; if not, `drift` is that of E − E₀ − W
     std::string method = {}, formulation = {};
-    int operations = 0;   ///< of one right-hand side
-    bool packed = false;  ///< eight motions ran side by side
+    int operations = 0;   ///< operations of one right-hand side
+    bool packed = false;  ///< whether eight motions ran side by side
     int threads = 1;
     struct Timings {
         double compile = 0, start = 0, integrate = 0;
@@ -37,18 +37,18 @@ struct Sweep : Derived {
     Timings timings = {};  ///< processor time, s
 };
 
-/// `threads`: 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with contacts
-/// or impulses at events, and for methods that need more than the right-hand side; IntegrationError where the mass
-/// matrix is singular.
+/// `threads` is 0 for as many as there are cores. Throws what `derived` throws; ModelError for scenes with
+/// contacts or impulses at events, and for methods that need more than the right-hand side; IntegrationError if
+/// the mass matrix is singular.
 Sweep sweep(Scene scene, const Grid& grid, const RunOptions& wishes = {}, int threads = 0);
 
-/// What is known of the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and
+/// The names of the values at the end of each motion: t, coordinates, rates (theta1'), the scene's own speeds, and
 /// energy_drift or work_balance.
 std::vector<std::string> end_columns(const Sweep& sweep);
-/// As many numbers.
+/// The values under these names.
 std::vector<double> end_values(const SweptMotion& motion);
 
-/// What the whole sweep took, and what came of it.
+/// The cost of the whole sweep, and a summary of its results.
 struct SweepTotals {
     long steps = 0, rejected = 0, evaluations = 0, failed = 0;
     double drift = 0;

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double two_digits = 1e-2, two_digits_of_energy = 2e-2, near = 0.1;
 
-/// The shortest time in which an input changes, switches left out: a step lands on neither side of these by
-/// chance.
+/// The shortest time in which an input changes, apart from switches, which a step cannot pass over unnoticed.
 const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
     const QuickTime* found = nullptr;
     for (const QuickTime& q : inputs)
@@ -24,8 +23,7 @@ const QuickTime* quickest(const std::vector<QuickTime>& inputs) {
     return found;
 }
 
-/// The smallest eigenvalue of M (n×n, row-major) scaled to ones on its diagonal; nothing where it has no such
-/// form.
+/// The smallest eigenvalue of M (n×n, row-major) scaled to ones on its diagonal; nothing if M has no such form.
 std::optional<double> conditioning(const std::vector<double>& M, std::size_t n) {
     Eigen::MatrixXd scaled(n, n);
     for (std::size_t i = 0; i < n; ++i)
@@ -110,7 +108,7 @@ Components components_of(const Program& program, std::size_t coordinates, std::s
 }
 
 double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const PoseWatch& poses) {
-    constexpr int most_speeds = 40;  // eigenvalues of larger ones take as long as the run
+    constexpr int most_speeds = 40;  // for larger matrices the eigenvalues would take as long as the run
     const alembert_solver_table& table = mode.module.table();
     if (table.mass_forcing == nullptr || table.speeds > most_speeds || table.speeds < 2) return 1;
     const auto n = static_cast<std::size_t>(table.speeds);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Whether a run is to be trusted with two digits, from all that it measured of itself.
+/// Decides from all measurements of a run whether two digits of it can be trusted.
 ///
 ///     const Evidence evidence{.error = estimate, .energy = drift.energy_of_motion(), …};
 ///     const std::vector<std::string> reasons = doubts(evidence);
 ///     reasons.empty();         // trusted
 ///
-/// A run is doubted where one of these is above its limit:
+/// A run is not trusted if one of these is above its limit:
 ///
 /// | what | limit | because |
 /// | --- | --- | --- |
@@ -19,9 +19,9 @@
 /// | a fixed step, relative to the time in which an input changes | 2 pieces | no stage need have met it |
 ///
 /// Poses where the description is singular (gimbal lock, poles of spherical coordinates): there M, scaled to ones
-/// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value on the
-/// way in units of the largest, tells how near the motion came; an error e of the state becomes e/δ in the rates,
-/// e being the tolerance, or the estimated error of fixed steps.
+/// on its diagonal, has an eigenvalue that vanishes as the square of the distance. δ², its smallest value during
+/// the motion relative to the largest, shows how near the motion came. An error e of the state becomes e/δ in the
+/// rates, where e is the tolerance, or the estimated error of fixed steps.
 
 #include <optional>
 #include <span>
@@ -34,7 +34,7 @@
 
 namespace alembert {
 
-/// Missing: does not apply.
+/// A missing value means that the quantity does not apply.
 struct Evidence {
     const ErrorEstimate& error;
     std::optional<double> energy = {}, balance = {},
@@ -42,15 +42,16 @@ struct Evidence {
     double constraints = 0;  ///< the largest |f|, |A q' + b|, in units of the largest coordinate or rate
     double singular = 1;     ///< δ² above
     double precision = 0;    ///< e above
-    double fixed_step = 0;   ///< s; 0: steps were chosen
+    double fixed_step = 0;   ///< in s; 0 if the method chose its steps
     std::vector<QuickTime> inputs = {};
 };
 
-/// In sentences without capital and full stop, the weightiest first; none: trusted.
+/// The reasons as sentences without capital and full stop, the most important first. If there are none, the run is
+/// trusted.
 std::vector<std::string> doubts(const Evidence& evidence);
 
-/// Poses passed by a run, of which the most singular is wanted. M is looked at where a rate is at its largest,
-/// which it is near such a pose.
+/// Collects poses of a run to find the most singular one. M is evaluated where a rate is at its largest, because
+/// rates are large near such a pose.
 class PoseWatch {
 public:
     /// Remembers the state if one of its speeds is the largest so far.
@@ -63,15 +64,15 @@ private:
     std::vector<std::vector<double>> states_;
 };
 
-/// Of coordinates and speeds, for the estimate: those that have a unit are of one kind with others of it, one
-/// without is a kind of its own.
+/// The coordinates and speeds for the estimate. Those with the same unit are of one kind; one without a unit is a
+/// kind of its own.
 Components components_of(const Program& program, std::size_t coordinates, std::size_t speeds);
 
-/// δ² above: M at the rows, and where a rate was at its largest; 1 where M is not to be had, or of more than 40
-/// speeds.
+/// δ² above, from M at the rows and where a rate was at its largest; 1 if M is not available or there are more
+/// than 40 speeds.
 double most_singular(const PhasedMotion& motion, const LoadedMode& mode, const PoseWatch& poses);
 
-/// The largest of the first `count` components on the rows.
+/// The largest size of the first `count` components on the rows.
 double size_of(const PhasedMotion& motion, std::size_t count);
 
 }  // namespace alembert

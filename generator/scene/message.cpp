@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What is wrong, said where it stands: `file:line:column: message`, the line itself, a caret.
+// Messages about mistakes, with their places: `file:line:column: message`, the line itself, a caret.
 
 #include <fmt/format.h>
 

@@ -61,7 +61,7 @@ Series bracket(const Series& a, const Series& b) {
 }
 
 /// H to fourth order in (q₁, q₂, p₁, p₂), deviations of essential coordinates and their momenta; momenta of cyclic
-/// coordinates are held.
+/// coordinates are constant.
 std::optional<Series> hamiltonian(const Local& local, const ex& H) {
     const Mechanism& m = local.mechanism;
     const std::size_t n = m.q.size();

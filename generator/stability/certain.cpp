@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Intervals by their middle and radius: Rump, Acta Numerica 19 (2010) 287, §6. A middle is rounded to 113 bits;
-// what this may amount to is added to the radius, which is itself a little too large on purpose.
+// Intervals by their middle and radius: Rump, Acta Numerica 19 (2010) 287, §6. A middle is rounded to 113 bits.
+// The possible error is added to the radius, which is deliberately a little too large.
 #include "stability/certain.hpp"
 
 #include <cln/integer.h>
@@ -12,8 +12,9 @@ namespace alembert {
 
 namespace {
 
-constexpr double unit = 2e-34;            // a rounding, of the value; elementary functions err by a few
-constexpr double too_small = 1e-290;      // what radii lose below
+// Relative rounding error; errors of elementary functions are a few times larger.
+constexpr double unit = 2e-34;
+constexpr double too_small = 1e-290;      // added to radii, which lose accuracy below this
 constexpr std::uintptr_t longest = 4000;  // bits of a fraction
 constexpr unsigned most_trials = 20000;   // divisors tried for square factors
 
@@ -25,7 +26,7 @@ Certain rounded(Quad middle, double radius, double roundings = 1) {
     return Certain::about(middle, radius * (1 + 1e-12) + roundings * unit * size(middle) + too_small);
 }
 
-/// n = s²·rest; the rest has no square factor that is found.
+/// n = s²·rest; no square factor was found in the rest.
 std::pair<cln::cl_I, cln::cl_I> square_part(cln::cl_I n) {
     cln::cl_I s = 1, rest = 1, root;
     for (unsigned k = 2; k < most_trials && cln::cl_I(k) * k <= n; ++k) {
@@ -103,7 +104,7 @@ double Certain::radius() const {
 
 std::optional<int> Certain::sign() const {
     if (form_ == Form::root && cln::zerop(b_)) return cln::zerop(a_) ? 0 : cln::minusp(a_) ? -1 : 1;
-    if (form_ == Form::root) {  // a + b√d: the sign of the larger part
+    if (form_ == Form::root) {  // a + b√d has the sign of the larger part
         const int of_a = cln::zerop(a_) ? 0 : cln::minusp(a_) ? -1 : 1, of_b = cln::minusp(b_) ? -1 : 1;
         if (of_a == 0 || of_a == of_b) return of_b;
         return a_ * a_ > b_ * b_ * d_ ? of_a : of_b;
@@ -180,7 +181,7 @@ Certain operator/(const Certain& a, const Certain& b) {
 
 namespace {
 
-/// sin(b·π) where that is a root of a rational number; b in units of 1.
+/// sin(b·π), if that is a root of a rational number.
 std::optional<Certain> sine_of_turn(const Rational& multiple) {
     Rational b = multiple - 2 * cln::floor1(multiple / 2);  // 0 ≤ b < 2
     const bool negative = b >= 1;
@@ -196,7 +197,7 @@ std::optional<Certain> sine_of_turn(const Rational& multiple) {
     return value;
 }
 
-/// The b of arcs of which sin(b·π) is one of the exact values.
+/// The b for which sin(b·π) is the given exact value.
 std::optional<Rational> turn_of_sine(const Certain& x) {
     for (const Rational& b : {Rational(0), Rational(1) / 6, Rational(1) / 4, Rational(1) / 3, Rational(1) / 2})
         for (const int s : {1, -1})

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A real number that knows how well it is known: exact where that is possible, else a middle and a radius.
+/// A real number with its accuracy: exact if that is possible, otherwise an interval given by its middle and
+/// radius.
 ///
 ///     const Certain x = sqrt(Certain(Rational(8)));      // 2·√2, exactly
 ///     (x*x - 8).sign()                                   // 0
 ///     exp(Certain(1)).sign()                             // 1: the interval lies to the right of zero
 ///     (exp(Certain(1)) - exp(Certain(1))).sign()         // nothing: the interval holds zero
 ///
-/// Exact are a + b·√d (a and b rational, d a whole number without square factors) and a + b·π; sums and products
-/// that leave these forms become intervals in 34 digits. Sines and cosines of multiples of π/12 and the usual
-/// arcs are exact. A verdict of stability asks for signs; one that is not known gives no verdict.
+/// Exact numbers have the form a + b·√d (a and b rational, d a whole number without square factors) or a + b·π;
+/// sums and products of other forms become intervals with 34 digits. Sines and cosines of multiples of π/12 and
+/// the usual arcs are exact. A verdict of stability needs signs; if a sign is not known, there is no verdict.
 
 #include <optional>
 #include <string>
@@ -32,8 +33,8 @@ public:
 
     bool is_exact() const { return form_ != Form::interval; }
     std::optional<Rational> rational() const;
-    std::optional<Rational> multiple_of_pi() const;  ///< b of b·π; 0 of 0
-    std::optional<int> sign() const;                 ///< nothing where the interval holds zero
+    std::optional<Rational> multiple_of_pi() const;  ///< b if the number is b·π; 0 for 0
+    std::optional<int> sign() const;                 ///< nothing if the interval contains zero
     bool is_zero() const { return sign() == 0; }
     bool may_be_zero() const { return !sign() || sign() == 0; }
     Quad middle() const;
@@ -47,13 +48,13 @@ public:
     friend Certain operator-(const Certain& a, const Certain& b) { return a + -b; }
     friend Certain operator-(const Certain& a);
     friend Certain operator*(const Certain& a, const Certain& b);
-    /// An interval without bounds where b may be zero.
+    /// The quotient; an interval without bounds if b may be zero.
     friend Certain operator/(const Certain& a, const Certain& b);
 
 private:
     enum class Form { root, pi, interval };
     static Certain unknown() { return about(0, 1e300); }
-    Certain kept() const;  ///< an interval instead of fractions beyond all measure
+    Certain kept() const;  ///< the number, as an interval if its fractions are too long
 
     Form form_ = Form::root;
     Rational a_ = 0, b_ = 0;

@@ -21,7 +21,7 @@ SymbolicPolynomial monic(const SymbolicPolynomial& p) {
     return result;
 }
 
-/// An expression as factors with their powers; numbers apart from a sign are dropped.
+/// An expression as factors with their powers; numbers are dropped except for their sign.
 struct Factors {
     int sign = 1;
     std::vector<std::pair<ex, int>> list;
@@ -39,7 +39,8 @@ void split(const ex& e, int power, Factors& into) {
     }
 }
 
-/// Something of the same sign, without denominators: n/d has the sign of n·d. Nothing where it is positive.
+/// An expression of the same sign without denominators, because n/d has the sign of n·d. Nothing if it is
+/// positive.
 ex simplest(const ex& e, const std::vector<ex>& positive) {
     const ex parts = e.normal().numer_denom();
     if (parts.op(0).is_zero()) return 0;
@@ -69,7 +70,7 @@ ex simplest(const ex& e, const std::vector<ex>& positive) {
     return result;
 }
 
-/// Each simplified with the help of those before it; the short ones first.
+/// Simplifies each condition with the help of those before it, the short ones first.
 std::vector<ex> together(std::vector<ex> conditions, std::vector<ex> positive) {
     for (ex& c : conditions) c = simplest(c, positive);
     std::stable_sort(conditions.begin(), conditions.end(),

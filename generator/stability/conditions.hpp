@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Criteria of Routh and Hurwitz with symbolic coefficients.
+/// The criteria of Routh and Hurwitz with symbolic coefficients.
 ///
 ///     hurwitz_conditions({1, a1, a2, a3})        // a1, a1*a2 - a3, a3: each > 0
 ///     real_frequency_conditions({1, 0, b, 0, c}) // of an even polynomial: simple roots on the axis
@@ -23,19 +23,21 @@ namespace alembert {
 
 using SymbolicPolynomial = std::vector<GiNaC::ex>;  ///< highest power first
 
-/// Rows of Routh's array; entries are rational functions. Empty from a row on whose first entry is zero.
+/// The rows of Routh's array; entries are rational functions. The array ends before a row whose first entry is
+/// zero.
 std::vector<std::vector<GiNaC::ex>> routh_array(const SymbolicPolynomial& polynomial);
 
 /// Δ₁ … Δ_n of the polynomial divided by its first coefficient.
 std::vector<GiNaC::ex> hurwitz_determinants(const SymbolicPolynomial& polynomial);
 
 /// Expressions that are positive together if and only if all roots have negative real parts. The first coefficient
-/// is not zero. Numerators without denominators, squares and factors that are positive anyway: those that another
-/// condition has, and `positive` ones.
+/// must not be zero. The expressions are numerators without squares and without factors that are positive anyway,
+/// because they are in another condition or in `positive`.
 std::vector<GiNaC::ex> hurwitz_conditions(const SymbolicPolynomial& polynomial,
                                           const std::vector<GiNaC::ex>& positive = {});
 
-/// The same for distinct roots, all on the imaginary axis, of a polynomial without odd powers.
+/// The same for the condition that the roots of a polynomial without odd powers are distinct and all on the
+/// imaginary axis.
 std::vector<GiNaC::ex> real_frequency_conditions(const SymbolicPolynomial& polynomial,
                                                  const std::vector<GiNaC::ex>& positive = {});
 

@@ -132,7 +132,7 @@ bool operator<(const Expansion& a, const Expansion& b) {
 
 namespace {
 
-/// f, f', f'', f''' and so on in a circle, divided by k!.
+/// f, f', f'', f''' and so on cyclically, divided by k!.
 std::vector<Certain> cyclic(const std::vector<Certain>& derivatives, int degree) {
     std::vector<Certain> result;
     Rational factorial = 1;
@@ -143,7 +143,7 @@ std::vector<Certain> cyclic(const std::vector<Certain>& derivatives, int degree)
     return result;
 }
 
-/// Of (…)' with the series `slope`; the value at the point is given.
+/// The series whose derivative has the series `slope`; its value at the point is given.
 std::vector<Certain> integrated(const Certain& value, const std::vector<Certain>& slope) {
     std::vector<Certain> result{value};
     for (std::size_t k = 0; k + 1 < slope.size(); ++k)
@@ -151,7 +151,7 @@ std::vector<Certain> integrated(const Certain& value, const std::vector<Certain>
     return result;
 }
 
-/// The series of f(x₀ + h) in h alone.
+/// The series of f(x₀ + h) in h.
 std::vector<Certain> in_one(const Certain& x, int degree, const std::function<Expansion(const Expansion&)>& f) {
     const Monomials line(1, degree);
     const Expansion value = f(Expansion::variable(line, 0, x));

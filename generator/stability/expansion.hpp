@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Power series of several variables about a point, up to a degree: `interpret` over them expands every value of a
-/// Program, exactly where numbers are exact (certain.hpp).
+/// Power series of several variables about a point, up to a degree. `interpret` over them expands every value of a
+/// Program, exactly if the numbers are exact (certain.hpp).
 ///
 ///     const Monomials monomials(2, 4);                                   // x, y up to degree 4
 ///     State<Expansion> state = …;
@@ -10,8 +10,8 @@
 ///     interpret(program, state)[node].coefficient({1, 1})                // of x·y
 ///
 /// Functions are composed with their own series at the value of the argument (Griewank & Walther, Evaluating
-/// Derivatives (2008), chapter 13). Throws NotAnalytic where a function has no such series at the point (abs at 0)
-/// or where this is not known.
+/// Derivatives (2008), chapter 13). Throws NotAnalytic if a function has no such series at the point (abs at 0) or
+/// if this is not known.
 
 #include <map>
 #include <stdexcept>
@@ -37,7 +37,7 @@ public:
     const Exponents& exponents(int k) const { return exponents_[k]; }
     int degree_of(int k) const { return total_[k]; }
     int index(const Exponents& exponents) const { return position_.at(exponents); }
-    /// The products of two monomials; −1 beyond the degree.
+    /// The product of two monomials; −1 if it exceeds the degree.
     int product(int i, int j) const { return total_[i] + total_[j] > degree_ ? -1 : product_[i][j]; }
 
 private:
@@ -60,7 +60,7 @@ public:
     const Certain& value() const { return c_[0]; }
     Certain coefficient(const Monomials::Exponents& exponents) const;
     Certain coefficient(int k) const { return k < static_cast<int>(c_.size()) ? c_[k] : Certain(0); }
-    /// The same function with its argument scaled and so on is made of these.
+    /// Other operations, such as scaling an argument, are composed of these.
     Expansion& operator+=(const Expansion& b);
     Expansion& operator*=(const Expansion& b) { return *this = *this * b; }
     friend Expansion operator+(Expansion a, const Expansion& b) { return a += b; }
@@ -69,7 +69,7 @@ public:
     friend Expansion operator/(const Expansion& a, const Expansion& b);
     friend bool operator<(const Expansion& a, const Expansion& b);
     friend bool operator>(const Expansion& a, const Expansion& b) { return b < a; }
-    friend bool operator!=(const Expansion&, const Expansion&) { return false; }  ///< asked of NaN alone
+    friend bool operator!=(const Expansion&, const Expansion&) { return false; }  ///< used only to test for NaN
 
     friend Expansion sin(const Expansion& a);
     friend Expansion cos(const Expansion& a);
@@ -102,7 +102,7 @@ private:
     static Expansion composed(const Expansion& a, const std::vector<Certain>& series);
 
     const Monomials* monomials_ = nullptr;
-    std::vector<Certain> c_;  ///< by monomial; one of a constant
+    std::vector<Certain> c_;  ///< by monomial; a single one for a constant
 };
 
 template <>

@@ -26,7 +26,7 @@ constexpr double fine = 1e-26, coarse = 1e-20;
 constexpr double closed = 1e-16;  // |x(T) − x(0)| of a periodic motion
 constexpr int most_rounds = 30;
 
-/// The state with the columns of Φ behind it.
+/// The state followed by the columns of Φ.
 class Variation {
 public:
     Variation(const Program& program, const std::vector<Quad>& parameters)
@@ -114,7 +114,7 @@ Eigen::MatrixXd matrix_of(const std::vector<Quad>& Phi, Index N) {
     return result;
 }
 
-/// Newton's method: x₀ (and T, where `free_period`) so that x(T) = x₀; the shortest step.
+/// Newton's method: x₀ (and T, where `free_period`) so that x(T) = x₀, with steps of least length.
 void shoot(const Variation& f, std::vector<Quad>& x, Quad t0, Quad& period, bool free_period) {
     const Index N = static_cast<Index>(f.size());
     double misfit = 0;
@@ -147,7 +147,7 @@ void shoot(const Variation& f, std::vector<Quad>& x, Quad t0, Quad& period, bool
 
 enum class Place { inside, circle, outside, unclear };
 
-/// Where each multiplier lies; `mirrored`: the set of them is its own image in the circle.
+/// The place of each multiplier; with `mirrored`, the set of multipliers is its own mirror image in the circle.
 std::vector<Place> places(const std::vector<RootOf>& roots, bool mirrored) {
     std::vector<Place> result;
     for (const RootOf& root : roots) {
@@ -171,7 +171,7 @@ std::vector<Place> places(const std::vector<RootOf>& roots, bool mirrored) {
 Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bool autonomous, bool linear,
                 bool mirrored) {
     std::vector<Place> at = places(roots, mirrored);
-    if (autonomous) {  // the one along the motion
+    if (autonomous) {  // the multiplier along the motion
         std::size_t own = 0;
         for (std::size_t k = 0; k < roots.size(); ++k)
             if (std::abs(roots[k].value - 1.0) < std::abs(roots[own].value - 1.0)) own = k;
@@ -234,7 +234,7 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
     const Variation f(program->program, parameters);
     FloquetResult result;
     Quad T = static_cast<Quad>(period);
-    if (!(period > 0)) {  // as exactly as the scene has it
+    if (!(period > 0)) {  // as exactly as the scene gives it
         Program one = begun(m);
         const int node = lower_expression(one, m, *m.run.period);
         Tape<Quad>(one, {node}, parameters)(0, nullptr, nullptr, &T);

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Periodic motions: multipliers of the variational equations over one period.
+/// Stability of periodic motions by the multipliers of the variational equations over one period.
 ///
 ///     x' = f(t, x),   f(t + T, x) = f(t, x),   Φ' = ∂f/∂x Φ,   Φ(0) = 1:   multipliers are the eigenvalues of
 ///     Φ(T)
 ///
-/// f and ∂f/∂x are the Program of the equations and its derivative, in 34 digits, integrated by extrapolation
-/// (run/quad_motion.hpp) at two tolerances; what Φ differs by is the radius of its entries, from which the discs
-/// of the multipliers follow. A start that the period does not lead back to is moved by Newton's method
-/// (shooting); of equations that do not hold t the period is moved with it. All |ρ| < 1: asymptotically stable,
-/// one beyond: unstable (Lyapunov's first approximation, which holds for periodic motions too). On the circle:
-/// critical. Of linear equations with a Hamiltonian a simple multiplier whose disc is alone with its mirror image
-/// in the circle lies on it (Krein; Yakubovich & Starzhinskii 1975), which proves stability. Of equations without
-/// t one multiplier is 1, along the motion, and is not counted: stable means that the orbit is (Andronov & Witt).
+/// f and ∂f/∂x are the Program of the equations and its derivative, with 34 digits, integrated by extrapolation
+/// (run/quad_motion.hpp) at two tolerances. The difference of the two Φ is the radius of its entries, from which
+/// the discs of the multipliers follow. A start to which the motion does not return after the period is moved by
+/// Newton's method (shooting); if the equations do not contain t, the period is moved too. If all |ρ| < 1, the
+/// motion is asymptotically stable; if one |ρ| > 1, it is unstable (Lyapunov's first approximation, which holds
+/// for periodic motions too). Multipliers on the circle are critical. For linear equations with a Hamiltonian, a
+/// simple multiplier whose disc touches no other disc than its own mirror image in the circle lies on the circle
+/// (Krein; Yakubovich & Starzhinskii 1975), which proves stability. If the equations do not contain t, one
+/// multiplier, that along the motion, is 1 and is not counted: stability is then that of the orbit (Andronov &
+/// Witt).
 
 #include "derive/derived.hpp"
 #include "stability/verdict.hpp"
@@ -28,11 +30,11 @@ struct FloquetResult {
     Decision decision;
 };
 
-/// Do the equations hold t, by inputs or without?
+/// Do the equations contain t, directly or by inputs?
 bool changes_with_time(const Mechanism& mechanism, const Equations& equations);
 
-/// `period`: 0 stands for the one of [simulation]. Throws ModelError where there are constraints, contacts or
-/// other speeds than rates, where the equations do not have this period, and where no periodic motion is found.
+/// A `period` of 0 stands for that of [simulation]. Throws ModelError if there are constraints, contacts or speeds
+/// other than the rates, if the equations do not have this period, or if no periodic motion is found.
 FloquetResult floquet(const Derived& derived, const Start& start, const ExactOverrides& exact_at, double period);
 
 }  // namespace alembert

@@ -56,7 +56,7 @@ bool is_nonpositive(const ex& ratio, const Local& local) {
     return std::all_of(sum.begin(), sum.end(), is_even);
 }
 
-/// Loads one by one: each force against its own velocity.
+/// Tests the loads one by one: each force must oppose its own velocity.
 bool each_brakes(const Local& local) {
     const Mechanism& m = local.mechanism;
     for (const Load& load : m.loads)
@@ -70,7 +70,7 @@ bool each_brakes(const Local& local) {
     return true;
 }
 
-/// Coordinates that nothing depends on are no variables here; what enters may not hold them.
+/// Coordinates on which nothing depends are no variables here, and the functions must not contain them.
 std::vector<GiNaC::symbol> left_out(const Local& local) {
     std::vector<GiNaC::symbol> result;
     for (int i = 0; i < local.residuals.n; ++i)
@@ -102,7 +102,7 @@ bool is_constant(const ex& candidate, const Motions& motions, const Mechanism& m
     const ex rate = m.time_derivative({candidate})[0];
     Program program = begun(m);
     const std::vector<int> node = lower_expressions(program, m, {rate});
-    constexpr double sure = -60;  // log₂ of the chance of an error
+    constexpr double sure = -60;  // log₂ of the probability of an error
     double failure = 0;
     for (std::uint64_t seed = 1; seed < 200 && failure > sure; ++seed) {
         const auto state = motions.at(seed);
@@ -166,7 +166,8 @@ std::vector<ex> constant_angular_momenta(const Local& local) {
     return result;
 }
 
-/// What enters the combination: gradients and second derivatives over the variables, H first.
+/// The gradients and second derivatives, with respect to the variables, of the functions in the combination, H
+/// first.
 struct EnergyForms {
     int size = 0;
     std::vector<CertainVector> gradient;

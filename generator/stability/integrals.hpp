@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Stability by what is conserved: energy, or a combination of it with other first integrals (Chetaev's method).
+/// Stability from conserved quantities: the energy, or a combination of it with other first integrals (Chetaev's
+/// method).
 ///
 ///     if (const auto proof = proof_by_integrals(local)) …     // stable, and by which theorem
 ///
-/// H is the energy, or Jacobi's T₂ − T₀ + V where the frame of the scene moves, with dH/dt ≤ 0 along every motion.
-/// F_k are integrals: momenta of cyclic coordinates, angular momenta, and the constraints. If multipliers make
-/// d(H + Σ λ_k F_k) = 0 at the state, and the second differential of this sum is positive definite on the
-/// directions in which all F_k keep their values, the motion is stable (Chetaev, The Stability of Motion (1961),
-/// §§10-14; Rumyantsev 1968): H + Σ λ_k F_k + μ Σ (F_k − F_k⁰)² is a Lyapunov function for a large μ. With H alone
-/// this is the theorem of Lagrange and Dirichlet, with momenta of cyclic coordinates Routh's.
+/// H is the energy, or Jacobi's T₂ − T₀ + V if the frame of the scene moves, with dH/dt ≤ 0 along every motion.
+/// F_k are integrals: momenta of cyclic coordinates, angular momenta, and the constraints. If multipliers make d(H
+/// + Σ λ_k F_k) = 0 at the state, and the second differential of this sum is positive definite on the directions
+/// in which all F_k keep their values, the motion is stable (Chetaev, The Stability of Motion (1961), §§10-14;
+/// Rumyantsev 1968): H + Σ λ_k F_k + μ Σ (F_k − F_k⁰)² is a Lyapunov function for a large μ. With H alone this is
+/// the theorem of Lagrange and Dirichlet, with momenta of cyclic coordinates Routh's.
 
 #include "stability/local.hpp"
 
 namespace alembert {
 
-/// What loads outside V do to H along a motion.
+/// The effect of loads outside V on H along a motion.
 struct PowerSign {
-    bool known = false;     ///< dH/dt is never positive near the state
-    bool is_zero = false;   ///< H is conserved
-    CertainMatrix damping;  ///< of −dH/dt = q'ᵀ D q' + …, over split.u; zeros where it is conserved
+    bool known = false;     ///< whether it is known that dH/dt is never positive near the state
+    bool is_zero = false;   ///< whether H is conserved
+    CertainMatrix damping;  ///< of −dH/dt = q'ᵀ D q' + …, over split.u; zeros if H is conserved
     GiNaC::ex H;
 };
 PowerSign power_sign(const Local& local);
 
-/// −dH/dt positive definite in all rates but those of cyclic coordinates with conserved momenta.
+/// Whether −dH/dt is positive definite in all rates except those of cyclic coordinates with conserved momenta.
 bool damping_is_complete(const Local& local, const PowerSign& power);
 
 struct IntegralProof {
     enum class By { energy, momenta, angular_momenta };
     By by = By::energy;
-    bool relative = false;  ///< H is Jacobi's integral and not the energy
+    bool relative = false;  ///< whether H is Jacobi's integral and not the energy
 };
 
-/// Nothing where no combination is found to be definite.
+/// Nothing if no definite combination is found.
 std::optional<IntegralProof> proof_by_integrals(const Local& local, const PowerSign& power);
 
 }  // namespace alembert

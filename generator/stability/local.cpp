@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Notation of linear/tangent.cpp. Momenta p_c = ∂L/∂q'_c of cyclic coordinates that no load moves are constants of
-// the motion: with M_cc δw_c + M_co δw_o + B_c δr = 0 the rates of cyclic coordinates are eliminated, and the zero
-// eigenvalues that they have with them.
+// the motion: with M_cc δw_c + M_co δw_o + B_c δr = 0 the rates of cyclic coordinates, and with them their zero
+// eigenvalues, are eliminated.
 #include "stability/local.hpp"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ std::vector<Expansion> Local::series(const std::vector<ex>& of, const Monomials&
     return result;
 }
 
-/// Cyclic coordinates were found at a few states near; without constraints the equations themselves can tell.
+/// Cyclic coordinates were found at a few states nearby; without constraints the equations themselves decide.
 bool Local::is_surely_cyclic(int coordinate) const {
     const Mechanism& m = mechanism;
     if (!m.constraints.empty() || !residuals.rates_are_speeds) return true;
@@ -241,7 +241,7 @@ CertainTangent Local::tangent_at(const CertainPoint& at) const {
     return result;
 }
 
-/// Newton's method on constraints and on w' = 0, for what is not exact.
+/// Newton's method for the constraints and for w' = 0, for values that are not exact.
 void Local::settle() {
     for (int step = 0; step < 12; ++step) {
         tangent = tangent_at(point);
@@ -259,7 +259,7 @@ void Local::settle() {
                 sharp = sharp && x.radius() < 1e-20 * std::max(1.0, std::abs(x.number()));
         if (is_exact || (largest < left_over && sharp)) return;
 
-        // From the middles; coordinates that something depends on move, as little as possible.
+        // It starts from the middles; coordinates on which something depends are moved as little as possible.
         CertainPoint middle = point;
         for (CertainVector* list : {&middle.q, &middle.u})
             for (Certain& x : *list)
@@ -300,7 +300,7 @@ void Local::settle() {
     throw NotAnalytic("the equilibrium is not found to the last digits");
 }
 
-/// Cyclic coordinates whose momentum is constant: L does not hold them and no load acts along them.
+/// Cyclic coordinates whose momentum is constant: L does not contain them, and no load acts along them.
 void Local::find_momenta() {
     const Mechanism& m = mechanism;
     if (!m.constraints.empty() || !residuals.rates_are_speeds) return;

@@ -2,14 +2,14 @@
 #pragma once
 
 /// A scene near an equilibrium or a steady motion, in numbers with bounds: the algebra of linear/tangent.hpp,
-/// exact where the scene's numbers and the functions of them are.
+/// exact if the scene's numbers and their functions are exact.
 ///
 ///     const Local local(near, exact_at);              // of linearize(scene, {.at = …})
 ///     local.A                                         // over local.states
 ///
-/// The state is taken from the scene's own expressions (pi/2, acos(g/(R*Omega^2))) and from what was typed. What
-/// the program had to find, and a state that is no equilibrium to the last digit, is moved by Newton's method
-/// until what is left over is 10⁻²⁸; its radius is then 10⁻²⁶.
+/// The state is taken from the scene's own expressions (pi/2, acos(g/(R*Omega^2))) and from typed values. Values
+/// that the program had to find, and a state that is not exactly an equilibrium, are improved by Newton's method
+/// until the residual is 10⁻²⁸; their radius is then 10⁻²⁶.
 
 #include "linear/about.hpp"
 #include "linear/tangent.hpp"
@@ -19,23 +19,23 @@
 
 namespace alembert {
 
-/// Parameters and state as the programs count them.
+/// Parameters and state in the order of the programs.
 struct CertainPoint {
     CertainVector parameters, q, u;
     Certain t;
     CertainVector inputs;  ///< 3·input + order
 };
 
-/// M δw' + D δw + P δr = 0, δr' = H (δr, δw); columns of `along`: how (q, u) follow (r, w).
+/// M δw' + D δw + P δr = 0, δr' = H (δr, δw); the columns of `along` are the changes of (q, u) with (r, w).
 struct CertainTangent {
     CertainMatrix mass, damping, stiffness, rates, along;
     CertainVector speed_rates, coordinate_rates, position, velocity;  ///< residuals at the point
-    CertainVector to_position, to_velocity;                           ///< Newton's step of the dependent ones
+    CertainVector to_position, to_velocity;  ///< Newton's step of the dependent coordinates and speeds
 };
 
 class Local {
 public:
-    /// Throws NotAnalytic where the equations have no series at the point, or where a pivot is not certain.
+    /// Throws NotAnalytic if the equations have no series at the point, or if a pivot is not certain.
     Local(const LinearizedScene& near, const ExactOverrides& exact_at);
 
     const LinearizedScene& near;
@@ -46,15 +46,17 @@ public:
     CertainPoint point;
     CertainTangent tangent;
     std::vector<std::string> states;  ///< essential coordinates, then speeds
-    std::vector<int> essential;       ///< positions in split.q of coordinates that something depends on
-    std::vector<int> cyclic_momenta;  ///< positions in split.u of speeds whose momentum is conserved: eliminated
-    CertainMatrix A;                  ///< over the states; momenta held
+    std::vector<int> essential;       ///< positions in split.q of coordinates on which something depends
+    std::vector<int>
+        cyclic_momenta;  ///< positions in split.u of speeds whose momentum is conserved and which are eliminated
+    CertainMatrix A;     ///< over the states, with constant momenta
 
     CertainTangent tangent_at(const CertainPoint& at) const;
-    /// The program's values as series; `variables`: for each of q, then u, which variable of the monomials it is.
+    /// The program's values as series; `variables` gives for each of q, then u, the variable of the monomials that
+    /// it is.
     State<Expansion> state_at(const CertainPoint& at, const Monomials* monomials,
                               const std::vector<int>& variables) const;
-    /// Expressions in q, q', t in the speeds of the equations.
+    /// Expressions in q, q', t, written in the speeds of the equations.
     std::vector<GiNaC::ex> in_speeds(const std::vector<GiNaC::ex>& of) const;
     /// Expressions in q, q', t as series about the point.
     std::vector<Expansion> series(const std::vector<GiNaC::ex>& of, const Monomials& monomials,

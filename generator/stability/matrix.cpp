@@ -51,12 +51,12 @@ CertainMatrix transposed(const CertainMatrix& a) {
 
 namespace {
 
-double weight(const Certain& x) {  // of a pivot
+double weight(const Certain& x) {  // the preference for a pivot
     return x.may_be_zero() ? 0 : std::abs(x.number());
 }
 
-/// Reduced row echelon form of A, with B beside it; the columns of the pivots. Nothing where an entry that ought
-/// to be zero is only near it.
+/// Reduced row echelon form of A, with B appended. Returns the columns of the pivots, or nothing if an entry that
+/// should be zero is only near zero.
 std::optional<std::vector<int>> eliminate(CertainMatrix& A, CertainMatrix* B, double zero = 0) {
     std::vector<int> pivots;
     for (int j = 0, row = 0; j < A.columns && row < A.rows; ++j) {
@@ -152,7 +152,7 @@ std::optional<SignCount> inertia(CertainMatrix A) {
             remove(best);
             continue;
         }
-        // No pivot on the diagonal: a pair off it has one eigenvalue of each sign.
+        // Without a pivot on the diagonal, a pair of elements off it gives one eigenvalue of each sign.
         std::pair<int, int> pair{-1, -1};
         bool all_zero = true;
         for (int i = 0; i < A.rows; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Matrices of numbers with bounds (certain.hpp): few rows, every answer with its certainty.
+/// Small matrices of numbers with bounds (certain.hpp); every result is given only if it is certain.
 ///
 ///     const std::optional<CertainMatrix> x = solution(A, b);        // nothing where no pivot is surely not zero
 ///     characteristic(A)                                             // det(s − A), highest power first
@@ -37,23 +37,23 @@ CertainMatrix transposed(const CertainMatrix& a);
 /// X of A X = B, A square.
 std::optional<CertainMatrix> solution(CertainMatrix A, CertainMatrix B);
 
-/// Columns that span the null space; nothing where the rank is not certain. What cannot be told from zero and is
-/// smaller than `zero` is taken for zero.
+/// Columns that span the null space; nothing if the rank is not certain. A number that may be zero and is smaller
+/// than `zero` counts as zero.
 std::optional<CertainMatrix> null_space(CertainMatrix A, double zero = 0);
 
-/// Rank, or nothing.
+/// The rank, or nothing if it is not certain.
 std::optional<int> rank(const CertainMatrix& A);
 
 /// Coefficients of det(s·1 − A), highest power first (Faddeev & Leverrier).
 CertainVector characteristic(const CertainMatrix& A);
 
-/// Of a symmetric matrix: how many eigenvalues are positive, negative and zero. Nothing where signs are not known.
+/// The numbers of positive, negative and zero eigenvalues of a symmetric matrix. Nothing if signs are not known.
 struct SignCount {
     int positive = 0, negative = 0, zero = 0;
 };
 std::optional<SignCount> inertia(CertainMatrix A);
 
-/// Strongly connected groups of rows, so that eigenvalues are those of the diagonal blocks.
+/// The strongly connected groups of rows; the eigenvalues are those of the diagonal blocks.
 std::vector<std::vector<int>> diagonal_blocks(const CertainMatrix& A);
 
 }  // namespace alembert

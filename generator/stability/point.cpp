@@ -12,7 +12,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double near_enough = 1e-9;  // the program's own state and an exact one: the same
+constexpr double near_enough = 1e-9;  // within this distance the program's state and an exact one are the same
 
 std::optional<Certain> exact_of(const ex& value) {
     if (!GiNaC::is_a<GiNaC::numeric>(value) || !GiNaC::ex_to<GiNaC::numeric>(value).is_rational()) return {};

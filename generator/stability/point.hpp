@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// A scene's parameters and state as exactly as they are known: the scene's decimals and expressions, and what was
-/// typed, are what they say; other numbers are doubles.
+/// A scene's parameters and state as exactly as they are known. The decimals and expressions of the scene and
+/// typed values are exact; other numbers are doubles.
 
 #include "lower/start.hpp"
 #include "stability/expansion.hpp"
@@ -13,19 +13,19 @@ namespace alembert {
 using ExactOverrides = std::vector<std::pair<std::string, std::string>>;  ///< name, number as typed
 
 struct ExactStart {
-    CertainVector parameters;  ///< independent ones, as programs count them
+    CertainVector parameters;  ///< the independent parameters, in the order of programs
     Certain t;
-    CertainVector q, qdot, speeds;  ///< speeds: those of the scene with an initial value; others are 0
+    CertainVector q, qdot, speeds;  ///< `speeds` are those of the scene with an initial value; others are 0
 };
 
-/// `start`: the same in doubles, assembled. Where both differ (guesses that were moved) the double is taken, with
-/// a radius.
+/// `start` is the same in doubles, assembled. If both differ (guesses that were moved), the double is used, with a
+/// radius.
 ExactStart exact_start(const Mechanism& mechanism, const Start& start, const ExactOverrides& exact_at);
 
-/// Independent parameters alone.
+/// The independent parameters only.
 CertainVector exact_parameters(const Mechanism& mechanism, const Start& start, const ExactOverrides& exact_at);
 
-/// `exact` where it is the value in use, else that one with a radius.
+/// `exact` if it is the value in use, otherwise that value with a radius.
 Certain exact_or(const Certain& exact, double in_use);
 
 }  // namespace alembert

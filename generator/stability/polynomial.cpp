@@ -20,7 +20,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr std::size_t longest_condition = 600;  // letters
+constexpr std::size_t longest_condition = 600;  // in letters
 
 std::string in_letters(const ex& e, const Symbols& symbols) {
     const auto f = fourier(e, symbols, 2000);
@@ -28,12 +28,12 @@ std::string in_letters(const ex& e, const Symbols& symbols) {
     return text(readable(*f));
 }
 
-/// One text for each condition; none at all where one is too long to be read.
+/// One text for each condition; none at all if one is too long to be read.
 std::vector<std::string> texts(const std::vector<ex>& conditions, const Symbols& symbols) {
     std::vector<std::string> result;
     for (const ex& condition : conditions) {
         std::string shown;
-        if (GiNaC::is_a<GiNaC::numeric>(condition)) return {};  // no parameter decides
+        if (GiNaC::is_a<GiNaC::numeric>(condition)) return {};  // the condition does not depend on parameters
         if (GiNaC::is_a<GiNaC::mul>(condition)) {               // factor by factor
             for (const ex& factor : condition) {
                 std::string part = in_letters(factor, symbols);
@@ -98,7 +98,7 @@ void add_conditions(Stability& result, const Local& local, const ExactOverrides&
             if (name == m.q[i].get_name()) q0[i] = exact_number(number);
             if (name == m.q[i].get_name() + "'") u0[i] = exact_number(number);
         }
-    // The state as the scene has it is the one in use?
+    // Is the state in use that of the scene?
     for (int i = 0; i < m.size(); ++i)
         if (m.q_is_guess[i] || m.qdot_is_guess[i]) return;
     const auto found = symbolic_matrices(m, local.equations, q0, u0);

@@ -9,7 +9,8 @@ namespace alembert {
 
 Stability stability_of_polynomial(const Scene& scene, const StabilityOptions& options);
 
-/// Conditions in the parameters on a mechanism without constraints and of up to four coordinates; none elsewhere.
+/// Adds conditions in the parameters for a mechanism without constraints and with up to four coordinates; none for
+/// others.
 void add_conditions(Stability& result, const Local& local, const ExactOverrides& exact_at);
 
 }  // namespace alembert

@@ -57,7 +57,7 @@ public:
 
     int size() const { return static_cast<int>(coordinates_.size()); }
 
-    /// Gradient, then W, where the coordinates are these series.
+    /// The gradient, then W, for coordinates given as series.
     std::vector<Expansion> at(const std::vector<Expansion>& coordinates) const {
         const std::vector<int> held(local_.point.q.size() + local_.point.u.size(), -1);
         State<Expansion> state = local_.state_at(local_.point, nullptr, held);
@@ -156,7 +156,7 @@ std::optional<DegenerateMinimum> by_form(const AmendedPotential& W) {
     return {};
 }
 
-/// T₂ and forces with a potential alone: no gyroscopic terms, no other loads.
+/// Whether there are only T₂ and forces with a potential: no gyroscopic terms and no other loads.
 bool is_natural(const Local& local, const PowerSign& power) {
     const Mechanism& m = local.mechanism;
     if (!power.is_zero || !local.near.matrices.moving.empty()) return false;

@@ -39,7 +39,7 @@ ComplexQuad operator/(ComplexQuad a, ComplexQuad b) {
 struct Disc {
     ComplexQuad centre;
     Quad radius = 0;
-    int roots = 1;  ///< in the group of discs that touch this one
+    int roots = 1;  ///< number of roots in the group of discs that touch this one
 };
 
 Rationals trimmed(Rationals p) {
@@ -65,7 +65,7 @@ Rationals derivative(const Rationals& p) {
     return result;
 }
 
-/// Each with its multiplicity; simple roots inside each (Yun 1976).
+/// Factors with simple roots, each with its multiplicity (Yun 1976).
 std::vector<std::pair<Rationals, int>> square_free(const Rationals& p) {
     std::vector<std::pair<Rationals, int>> result;
     const Rationals slope = derivative(p);
@@ -129,7 +129,7 @@ std::vector<ComplexQuad> approximate(const std::vector<Quad>& p) {
         }
         if (!moved) break;
     }
-    for (ComplexQuad& x : z)  // a real one that has an error of rounding beside it
+    for (ComplexQuad& x : z)  // a real root whose imaginary part is a rounding error
         if (abs(x.im) < static_cast<Quad>(1e-28) * abs(x.re)) x.im = 0;
     return z;
 }
@@ -183,7 +183,7 @@ std::vector<Disc> discs_of(const CertainVector& p) {
     return covered;
 }
 
-/// A disc that holds one root of a real polynomial and meets the real axis: the root is real.
+/// If a disc contains one root of a real polynomial and meets the real axis, the root is real.
 bool is_real(const Disc& disc) {
     return disc.roots == 1 && abs(disc.centre.im) <= disc.radius;
 }

@@ -128,7 +128,7 @@ Decision by_potential(const Local& local, const PowerSign& power) {
                 degenerate->minimum ? "a strict minimum" : "no minimum, and the position is left")};
 }
 
-/// Nonlinear equations whose first approximation says nothing: the first that decides.
+/// For nonlinear equations whose first approximation does not decide, the first method that does.
 Decision critical_case(const Local& local, const PowerSign& power, const std::vector<RootOf>& roots) {
     const std::function<Decision()> ways[] = {
         [&] { return one_zero_root(local, roots); },
@@ -148,7 +148,7 @@ Decision critical_case(const Local& local, const PowerSign& power, const std::ve
     return {};
 }
 
-/// What damping and gyroscopic forces have to do with a verdict that the eigenvalues gave.
+/// Names the role of damping and gyroscopic forces in a verdict from eigenvalues.
 void name_forces(Decision& decision, const Local& local, const PowerSign& power) {
     if (!power.known || !local.mechanism.constraints.empty() || !local.cyclic_momenta.empty()) return;
     if (decision.verdict == StabilityVerdict::asymptotically_stable && !power.is_zero &&
@@ -182,8 +182,8 @@ void name_forces(Decision& decision, const Local& local, const PowerSign& power)
     }
 }
 
-/// Are the roots of det(M s² + …) those of a polynomial in s²? For systems with a Hamiltonian, and where no rate
-/// occurs.
+/// Are the roots of det(M s² + …) those of a polynomial in s²? They are for systems with a Hamiltonian, and if no
+/// rate occurs.
 bool has_even_spectrum(const Local& local) {
     const Mechanism& m = local.mechanism;
     if (!local.residuals.rates_are_speeds) return false;
@@ -198,7 +198,7 @@ bool has_even_spectrum(const Local& local) {
     return energy_of(m).jacobi_conserved;
 }
 
-/// The discs of a matrix that is known to the last digits of a double.
+/// The matrix with radii for numbers that are known to the last digits of a double.
 CertainMatrix blurred(const Eigen::MatrixXd& A) {
     CertainMatrix result(static_cast<int>(A.rows()), static_cast<int>(A.cols()));
     const double unit = 1e-13 * (A.size() == 0 ? 0.0 : A.cwiseAbs().maxCoeff());
@@ -219,10 +219,10 @@ Decision undecided(const std::vector<RootOf>& roots) {
                     on_axis ? "some are on it" : "some are on it or too near to tell")};
 }
 
-/// What `linearize` takes as it is at the state, and stability may not.
+/// Refuses states that `linearize` accepts but for which stability cannot be decided.
 void check_steady(const LinearizedScene& near) {
     for (const Mechanism::Unilateral& contact : near.mechanism.unilateral)
-        for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes those that press
+        for (const Mechanism::Constraint& c : near.mechanism.constraints)  // linearize closes contacts that press
             if (c.multiplier.is_equal(contact.gap.multiplier))
                 throw ModelError(
                     fmt::format("contact {} is closed at this state: a disturbance may open it, and what the "

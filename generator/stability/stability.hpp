@@ -9,9 +9,9 @@
 /// In this order: eigenvalues with discs that contain them decide by Lyapunov's first approximation; a scene whose
 /// equations are linear is decided by its eigenvalues and Jordan blocks; then energy and other integrals
 /// (integrals.hpp), terms of higher degree of the potential (potential.hpp) and of the equations (critical.hpp).
-/// What none of these decides is undecided. Stable means: with respect to the coordinates that anything depends on
-/// and all rates; cyclic coordinates, and the zero eigenvalues that belong to them and to conserved momenta, are
-/// not counted.
+/// If none of these decides, the verdict is undecided. Stability is understood with respect to all rates and the
+/// coordinates on which anything depends; cyclic coordinates, and the zero eigenvalues that belong to them and to
+/// conserved momenta, are not counted.
 
 #include <complex>
 #include <string>
@@ -24,7 +24,7 @@ namespace alembert {
 
 enum class StabilityVerdict { asymptotically_stable, stable, unstable, undecided };
 
-/// What decided.
+/// The theorem that decided.
 enum class StabilityTheorem {
     none,
     hurwitz,               ///< of a polynomial or of linear equations: the roots themselves
@@ -65,7 +65,7 @@ struct LyapunovAnswer {
 };
 
 struct StabilityOptions {
-    std::string by = {};  ///< a formalism; empty: the program chooses
+    std::string by = {};  ///< a formalism; if empty, the program chooses
     Overrides at = {};
     ExactOverrides exact_at = {};  ///< the same as typed: decimals are exact
     double period = 0;             ///< s; 0: the scene's, where it gives one
@@ -75,25 +75,26 @@ struct StabilityOptions {
 struct Stability {
     std::string title = {};
     std::vector<std::string> warnings = {};
-    std::optional<LinearizedScene> near = {};  ///< nothing of a polynomial
-    std::vector<std::string> states = {};      ///< what the eigenvalues belong to
+    std::optional<LinearizedScene> near = {};  ///< nothing for a polynomial
+    std::vector<std::string> states = {};      ///< the states to which the eigenvalues belong
     Eigen::MatrixXd A = {};
-    double period = 0;  ///< s, of a periodic system; then these instead of eigenvalues
+    double period = 0;  ///< in s, of a periodic system, which has the following instead of eigenvalues
     std::vector<std::complex<double>> multipliers = {};  ///< Floquet's, the largest first
-    std::vector<double> radii = {};                      ///< of the discs that hold them
-    std::vector<double> periodic_start = {};             ///< of the periodic motion, as `states`
+    std::vector<double> radii = {};                      ///< the radii of the discs that contain them
+    std::vector<double> periodic_start = {};  ///< the start of the periodic motion, in the order of `states`
     std::vector<RootOf> eigenvalues = {};
-    bool certain = false;  ///< discs contain the eigenvalues; else they are those of floating-point numbers
+    /// Whether discs contain the eigenvalues; otherwise they are computed in floating point.
+    bool certain = false;
     std::vector<std::string> conditions = {};  ///< "expr > 0", together necessary and sufficient
-    std::string conditions_for = {};           ///< what for
-    std::vector<std::string> routh = {};       ///< of a polynomial: rows of Routh's array
+    std::string conditions_for = {};           ///< the property for which they are the conditions
+    std::vector<std::string> routh = {};       ///< for a polynomial, the rows of Routh's array
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason = {};
     std::optional<LyapunovAnswer> lyapunov = {};  ///< of the function that was given
 };
 
-/// Throws as `linearize` where the state is neither an equilibrium nor a steady motion.
+/// Throws like `linearize` if the state is neither an equilibrium nor a steady motion.
 Stability stability(Scene scene, const StabilityOptions& options = {});
 
 }  // namespace alembert

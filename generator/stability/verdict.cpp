@@ -32,9 +32,9 @@ std::vector<Rational> rationals(const CertainVector& values) {
     return result.size() == values.size() ? result : std::vector<Rational>();
 }
 
-/// Do multiple roots on the axis have as many eigenvectors as they count? All roots lie left or on the axis. With
-/// g, the product of (s − root) over the different roots on the axis, this is so if and only if g(A) and g(A)²
-/// have the same rank. Nothing where A is not rational.
+/// Do multiple roots on the axis have as many eigenvectors as their multiplicity? All roots must lie left of the
+/// axis or on it. With g, the product of (s − root) over the different roots on the axis, this is so if and only
+/// if g(A) and g(A)² have the same rank. Nothing if A is not rational.
 std::optional<bool> axis_is_semisimple(const CertainMatrix& A) {
     std::vector<Rational> p = rationals(characteristic(A));
     if (p.empty()) return {};

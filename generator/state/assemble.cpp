@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// f(q) = 0 by q ← q − J⁺ f with J = ∂f/∂q over the guesses alone; J⁺ gives the least change (Golub & Van Loan,
-// §5.5).
+// f(q) = 0 is solved by q ← q − J⁺ f, where J = ∂f/∂q has the columns of the guesses only; J⁺ gives the least
+// change (Golub & Van Loan, §5.5).
 #include "state/assemble.hpp"
 
 #include <fmt/format.h>
@@ -62,7 +62,8 @@ public:
     }
 
 private:
-    /// All rates from the initial speeds and, if these are obeyed, the constraints; both are linear in them.
+    /// Solves for all rates from the initial speeds and, if `obeyed`, the constraints; both are linear in the
+    /// rates.
     void solve_for_rates(bool obeyed) {
         std::vector<int> nodes = obeyed ? p_.nodes_of(Group::velocity) : std::vector<int>(),
                          rows = obeyed ? rows_ : std::vector<int>();
@@ -72,7 +73,7 @@ private:
         const auto m = static_cast<Eigen::Index>(nodes.size()), n = static_cast<Eigen::Index>(m_.size());
         const auto constraints = m - static_cast<Eigen::Index>(speeds.size());
         start_.qdot.assign(start_.qdot.size(), 0);
-        for (int round = 0; round < 2; ++round) {  // the second takes what rounding left of the first
+        for (int round = 0; round < 2; ++round) {  // the second round removes what rounding left in the first
             const std::vector<double> value = interpret(p_, start_.state());
             Eigen::VectorXd misfit(m);
             Eigen::MatrixXd J(m, n);
@@ -94,7 +95,7 @@ private:
         for (std::size_t k = 0; k < speeds.size(); ++k) {
             const double misfit = std::abs(value[speeds[k]] - start_.speeds[k]);
             double row = 0,
-                   largest = 0;  // the terms may all be zero, but for what rounding leaves of the solution
+                   largest = 0;  // the terms may all be zero, except for the rounding of the solution
             for (Eigen::Index j = 0; j < n; ++j) {
                 row += std::abs(value[forms[k * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)]]);
                 largest = std::max(largest, std::abs(start_.qdot[j]));
@@ -128,7 +129,7 @@ private:
             if (!(misfit > 0) || (misfit < 1e-12 && misfit > former / 2)) break;
             former = misfit;
             Eigen::VectorXd step = least_norm(J, f).x;
-            // Far away a whole step may throw an angle round the circle.
+            // Far from the solution a full step may turn an angle by whole revolutions.
             if (const double length = step.lpNorm<Eigen::Infinity>(); group == Group::position && length > 1)
                 step /= length;
             if (!step.allFinite()) break;
@@ -137,12 +138,12 @@ private:
         check(nodes, x, n > 0, n > 0);
         for (const int i : free)
             if (std::abs(x[i] - before[i]) >
-                1e-14 * std::max(1.0, std::abs(before[i])))  // less is rounding, and no news
+                1e-14 * std::max(1.0, std::abs(before[i])))  // a smaller change is rounding and is not reported
                 moved_.push_back(
                     fmt::format("{}{} from {:.6g} to {:.17g}", m_.q[i].get_name(), prime, before[i], x[i]));
     }
 
-    /// What rounding leaves of a step: the terms themselves may all be zero.
+    /// The rounding error of a step; the terms themselves may all be zero.
     double rounding(std::size_t k, const std::vector<double>& x, const std::vector<double>& value) const {
         double row = 0, largest = 0;
         for (int i = 0; i < m_.size(); ++i) {
@@ -152,7 +153,7 @@ private:
         return 64 * std::numeric_limits<double>::epsilon() * row * largest;
     }
 
-    /// `solved`: x is what a linear system gave.
+    /// `solved` means that x is the solution of a linear system.
     void check(const std::vector<int>& nodes, const std::vector<double>& x, bool guessed, bool solved) const {
         const std::vector<double> value = interpret(p_, start_.state()),
                                   rounded = rounding_errors(p_, start_.state());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The constraints are left out one after the other; what cannot be left out without a state appearing stays (a
+// The constraints are left out one after the other. A constraint stays if leaving it out makes a state possible (a
 // deletion filter; Chinneck, Feasibility and Infeasibility in Optimization (2008), §6.1).
 #include "state/contradiction.hpp"
 

@@ -12,8 +12,8 @@ namespace alembert {
 
 namespace {
 
-/// Which of the n coordinates (or speeds) have kinetic energy, or all if the constraints do not determine the
-/// rates of those that have none from the rates of the others (their columns of A are dependent).
+/// The coordinates (or speeds) that have kinetic energy. If the constraints do not determine the rates of those
+/// that have none from the rates of the others (their columns of A are dependent), all n of them.
 std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const std::vector<double>& value) {
     const std::vector<int> mass = program.nodes_of(Group::mass), rows = program.nodes_of(Group::row);
     std::vector<Eigen::Index> heavy, massless, all;
@@ -28,7 +28,7 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const st
     Eigen::MatrixXd A(rows.size() / n, massless.size());
     for (Eigen::Index k = 0; k < A.rows(); ++k)
         for (Eigen::Index i = 0; i < A.cols(); ++i) A(k, i) = value[rows[k * n + massless[i]]];
-    for (Eigen::Index i = 0; i < A.cols(); ++i) A.col(i).normalize();  // their units
+    for (Eigen::Index i = 0; i < A.cols(); ++i) A.col(i).normalize();  // removes the units of the columns
     return least_norm(A, Eigen::VectorXd::Zero(A.rows())).rank == A.cols() ? heavy : all;
 }
 
@@ -36,7 +36,8 @@ std::vector<Eigen::Index> to_be_resisted(const Program& program, int n, const st
 
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state) {
     const std::vector<int> lower = program.nodes_of(Group::mass);
-    if (lower.empty()) return std::nullopt;  // of a tree, whose joints are resisted one by one
+    // For a tree without M, the inertia of each joint is tested separately.
+    if (lower.empty()) return std::nullopt;
     const std::vector<double> value = interpret(program, state);
     std::vector<std::string> names;
     for (const Quantity& speed : program.speeds) names.push_back(speed.name);
@@ -48,7 +49,7 @@ std::optional<std::string> massless_combination(const Program& program, const St
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = value[lower[of[i] * (of[i] + 1) / 2 + of[j]]];
     if (n == 0 || !M.allFinite()) return std::nullopt;
-    // An entry is small or large by its units alone; what counts is its size beside its row's and column's.
+    // The size of an entry depends on its units. Therefore it is compared with its row and its column.
     Eigen::VectorXd scale(n);
     for (Eigen::Index i = 0; i < n; ++i) {
         const double size = M.row(i).cwiseAbs().maxCoeff();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Why numbers fail: which combination of rates no inertia resists, which term of which body is not finite.
+/// Finds out why a computation fails: which combination of rates has no inertia, or which term of which body is
+/// not finite.
 
 #include <optional>
 #include <string>
@@ -14,19 +15,19 @@ namespace alembert {
 /// The combination of rates without kinetic energy, as "theta1' - theta2'", if the mass matrix is singular to
 /// working precision at this state: the smallest eigenvalue of the matrix, scaled to a unit diagonal, is below
 /// 1e-13 of the largest (Higham, Accuracy and Stability of Numerical Algorithms (2002), §7.3 on such scaling).
-/// Coordinates that appear in no kinetic energy are no matter where the constraints give their rates from the
-/// others': the matrix of the equations with their constraints is regular then (a pulley without mass on two
-/// ropes).
+/// Coordinates without kinetic energy do not matter if the constraints determine their rates from the others,
+/// because the matrix of the equations with their constraints is then regular (a massless pulley on two ropes).
 std::optional<std::string> massless_combination(const Program& program, const State<double>& state);
 
-/// Constraints whose rows are dependent at this state, though `kept`, by index, are independent elsewhere: of a
-/// linkage that lies flat. "constraint 'x' has no row left …" or "the rows of constraints 'x', 'y' become
-/// dependent …". Rows are measured by the largest of them; a singular value of A below 1e-7 is lost.
+/// Constraints whose rows are dependent at this state, although the constraints `kept` (by index) are independent
+/// elsewhere, as for a linkage that lies flat. "constraint 'x' has no row left …" or "the rows of constraints 'x',
+/// 'y' become dependent …". Rows are measured relative to the largest; a singular value of A below 1e-7 counts as
+/// zero.
 std::optional<std::string> lost_rank(const Program& program, const State<double>& state,
                                      const std::vector<int>& kept);
 
-/// The first value that is not finite on the way to `group`, and whose term it is: "a division by zero in spring
-/// 1".
+/// The first value that is not finite in the computation of `group`, and the part from which it comes: "a division
+/// by zero in spring 1".
 std::optional<std::string> not_finite(const Program& program, const State<double>& state, Group group);
 
 }  // namespace alembert

@@ -14,7 +14,7 @@ namespace alembert {
 
 namespace {
 
-/// Smallest singular value over the largest of a matrix with three rows, row by row at `nodes`.
+/// The smallest singular value divided by the largest of a matrix with three rows, given row by row by `nodes`.
 double evenness(const Program& program, const std::vector<int>& nodes, const State<double>& state) {
     const std::vector<double> value = interpret(program, state);
     Eigen::MatrixXd J(3, static_cast<Eigen::Index>(nodes.size() / 3));

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Do the masses and moments of inertia of a scene belong to bodies that can be? At the numbers that a run has,
-/// replaced parameters among them.
+/// Checks that the masses and moments of inertia of a scene are physically possible, at the numbers of a run,
+/// including replaced parameters.
 ///
 ///     scene.toml:12:1: warning: the principal moments of inertia of body 'B', 1, 1 and 3, break the
 ///     triangle inequality 1 + 1 >= 3 …
 ///
-/// Moments are looked at about the mass centre, whatever point the scene gives them about.
+/// Moments are checked about the mass centre, whatever the point about which the scene gives them.
 
 #include "model/mechanism.hpp"
 #include "program/interpret.hpp"
 
 namespace alembert {
 
-/// The masses and moments are lowered once, for many numbers. What it is given must outlive it.
+/// Lowers the masses and moments once, for many sets of numbers. The arguments must outlive it.
 class InertiaCheck {
 public:
     InertiaCheck(const Scene& scene, const Mechanism& mechanism);
 
-    /// Errors: a mass that is negative or no number, a negative principal moment. Warnings: a broken triangle
-    /// inequality. A planar scene's one moment has no triangle to break. `state`: with parameters, and q where
-    /// moments are about another point.
+    /// Errors are a mass that is negative or not a number, and a negative principal moment; a broken triangle
+    /// inequality is a warning. The single moment of a planar scene has no triangle inequality. `state` has the
+    /// parameters, and q if moments are given about another point.
     std::vector<Diagnostic> findings(const State<double>& state) const;
 
 private:
-    /// Where the scene says it: the body's inertia, else the name of the body or the particle.
+    /// The place in the scene: that of the body's inertia, else that of the name of the body or the particle.
     Place place_of(const Origin& origin) const;
-    /// `given`: the largest moment as the scene gives it, about whatever point.
+    /// `given` is the largest moment in the scene, about the point given there.
     void add_moments(std::vector<Diagnostic>& found, const Body& body, const std::array<double, 6>& I,
                      double given) const;
 
@@ -35,7 +35,7 @@ private:
     const Mechanism& m_;
     Program program_;
     std::vector<int>
-        nodes_;  ///< of each element: its mass, and where it turns its six moments, and three as given
+        nodes_;  ///< for each element, its mass and, if it rotates, its six moments and the three given ones
 };
 
 }  // namespace alembert

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int states = 8;
 
-/// Which rows are combinations of those before them in `order` (Gram-Schmidt, twice).
+/// Marks the rows that are combinations of those before them in `order` (Gram-Schmidt, twice).
 std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int>& order) {
     std::vector<bool> result(order.size());
     std::vector<Eigen::RowVectorXd> basis;
@@ -36,8 +36,8 @@ std::vector<bool> dependent_rows(const Eigen::MatrixXd& A, const std::vector<int
     return result;
 }
 
-/// Which rows are kept rather than those that follow from them: holonomic ones, for they say where; and rows that
-/// are independent at the start.
+/// The order in which rows are kept: first the holonomic ones, because they restrict positions, then rows that are
+/// independent at the start.
 std::vector<int> order_of_keeping(const Mechanism& mechanism, const Eigen::MatrixXd* at_start) {
     std::vector<int> order;
     for (const bool holonomic : {true, false})
@@ -59,7 +59,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     const std::vector<int> rows = program.nodes_of(Group::row);
     const auto m = static_cast<Eigen::Index>(mechanism.constraints.size()),
                n = static_cast<Eigen::Index>(mechanism.size());
-    std::vector<Eigen::MatrixXd> at;  // rows at the start, then at states around it
+    std::vector<Eigen::MatrixXd> at;  // the rows at the start, then at states around it
     Mechanism loose = mechanism;
     loose.q_is_guess.assign(mechanism.q.size(), true);
     loose.qdot_is_guess.assign(mechanism.q.size(), true);
@@ -73,7 +73,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
         try {
             assemble(start, k > 0 ? loose : mechanism, program, {});
         } catch (const std::runtime_error&) {
-            if (k == 0) return {};  // which the command tells, with the reason
+            if (k == 0) return {};  // the command reports this, with the reason
             continue;
         }
         const std::vector<double> value = interpret(program, start.state());
@@ -87,7 +87,7 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
     const std::vector<int> order = order_of_keeping(mechanism, has_start ? &at.front() : nullptr);
     std::vector<std::vector<bool>> dependent;
     for (const Eigen::MatrixXd& A : at) dependent.push_back(dependent_rows(A, order));
-    // At the start rows may have vanished that do not vanish around it; then it does not tell which rows are
+    // Rows may vanish at the start that do not vanish around it; then the start does not show which rows are
     // needed.
     const auto rank = [](const std::vector<bool>& of) { return std::count(of.begin(), of.end(), false); };
     if (has_start && dependent.size() > 1 &&
@@ -103,7 +103,8 @@ std::vector<int> redundant_constraints(const Mechanism& mechanism) {
 
 namespace {
 
-/// Do the factors, with which the rows of this rolling depend on the rows before them, change with the pose?
+/// Do the factors with which the rows of this rolling condition depend on the rows before them change with the
+/// pose?
 bool factors_change(const Mechanism& mechanism, int row, const std::vector<int>& redundant,
                     const std::vector<State<double>>& places) {
     const Program program = lower_constraints(mechanism);
@@ -135,7 +136,7 @@ bool factors_change(const Mechanism& mechanism, int row, const std::vector<int>&
 Mechanism along_axes(Mechanism m, int rolling) {
     Mechanism::Rolling& rolls = m.rollings[static_cast<std::size_t>(rolling)];
     rolls.is_along = true;
-    GiNaC::exmap gone;  // multipliers of rows that hold identically along the axes
+    GiNaC::exmap gone;  // the multipliers of rows that hold identically along the axes
     std::vector<Mechanism::Constraint> all;
     bool put = false;
     for (const Mechanism::Constraint& c : m.constraints) {

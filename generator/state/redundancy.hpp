@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Constraints that follow from the others: found by the rank of A at states that obey them all.
+/// Finds constraints that follow from the others, by the rank of A at states that obey all constraints.
 ///
 ///     const std::vector<int> extra = redundant_constraints(mechanism);
 
@@ -12,32 +12,34 @@
 
 namespace alembert {
 
-/// Positions (in Mechanism::constraints) of those whose row of A is a combination of the rows that are kept before
-/// it: holonomic ones first, then those that are independent at the initial state, each in the order of the scene.
-/// Looked at are eight states of the constraint variety around the initial one, sampled with a fixed seed, and the
-/// initial one itself if its rank is not lower. A sampled answer, in floating point: a row counts as dependent if
-/// less than 1e-9 of it is left beside the others. Nothing where the initial state cannot be assembled.
+/// The positions (in Mechanism::constraints) of constraints whose row of A is a combination of the rows that are
+/// kept before it. Holonomic constraints come first, then those that are independent at the initial state, each in
+/// the order of the scene. The rank is taken at eight states of the constraint variety around the initial state,
+/// sampled with a fixed seed, and at the initial state itself if its rank is not lower. The answer is based on
+/// samples and floating point: a row counts as dependent if less than 1e-9 of it is not a combination of the
+/// others. Empty if the initial state cannot be assembled.
 std::vector<int> redundant_constraints(const Mechanism& mechanism);
 
 /// Rolling rows along N may depend on each other, or on other constraints, with factors that change with the pose:
-/// of a gear on an arm that turns, the row along x is sin φ of the whole. Whichever row is left out then, the
-/// other one vanishes at some poses. Such rollings get their rows along the axes that their contact is given in
-/// (Mechanism::Rolling::along); the others are left as they are.
+/// for a gear on a turning arm, the row along x is sin φ times the whole condition. Whichever row is left out, the
+/// other one vanishes at some poses. Such rolling conditions get their rows along the axes in which their contact
+/// is given (Mechanism::Rolling::along); the others are not changed.
 Mechanism with_regular_rows(Mechanism mechanism);
 
-/// With the rows of this rolling (position in Mechanism::rollings) along the axes of its contact.
+/// The mechanism with the rows of this rolling condition (position in Mechanism::rollings) along the axes of its
+/// contact.
 Mechanism along_axes(Mechanism mechanism, int rolling);
 
-/// The constraints, none of them redundant, whose rows row k is made of at any of these states.
+/// The non-redundant constraints of whose rows row k is a combination at any of these states.
 std::vector<int> follows_from(const Mechanism& mechanism, int k, const std::vector<int>& redundant,
                               const std::vector<State<double>>& states);
 
-/// The mechanism without these; their multipliers are no unknowns of its equations.
+/// The mechanism without these constraints; their multipliers are no unknowns of its equations.
 Mechanism without_constraints(Mechanism mechanism, const std::vector<int>& positions);
 
-/// Of constraints whose rows follow from the others: does what they ask of the rates follow too? Throws ModelError
-/// where it does not, as for x' = y*z' beside x' = y*z' + z: together they ask for z = 0, which is a constraint of
-/// its own.
+/// Checks constraints whose rows follow from the others: do the rates that they require follow too? Throws
+/// ModelError if not, as for x' = y*z' together with x' = y*z' + z: both require z = 0, which is a further
+/// constraint.
 void check_implied(const Mechanism& mechanism, const std::vector<int>& redundant);
 
 }  // namespace alembert

@@ -71,7 +71,7 @@ std::optional<Diagnostic> mistake_in_speeds(const Mechanism& m) {
         dependent = std::max(dependent.value_or(-2), first_dependent(S));
         if (first_dependent(S) < 0) return std::nullopt;
     }
-    if (!dependent) return std::nullopt;  // no state without a pole: the run will tell
+    if (!dependent) return std::nullopt;  // there is no state without a pole; the run will report that
     if (*dependent < count)
         return Diagnostic{
             m.speeds[*dependent].place,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// Are the scene's generalized speeds as many as they must be, and independent?
+/// Checks the number of the scene's generalized speeds, and that they are independent.
 ///
 ///     if (const auto mistake = mistake_in_speeds(mechanism)) fail(scene, {*mistake});
 
@@ -11,9 +11,9 @@
 
 namespace alembert {
 
-/// What is wrong with [speeds], at its place: too many or too few of them (n, n − m with m all constraints, n − m
-/// with m the nonholonomic ones), forms that depend on each other, forms that the constraints already fix. Ranks
-/// are those at the start and at eight random states, in floating point. The mechanism must be without redundant
+/// A mistake in [speeds], with its place: too many or too few speeds (n, n − m with m all constraints, n − m with
+/// m the nonholonomic ones), forms that depend on each other, forms that the constraints already fix. Ranks are
+/// those at the start and at eight random states, in floating point. The mechanism must be without redundant
 /// constraints.
 std::optional<Diagnostic> mistake_in_speeds(const Mechanism& mechanism);
 

@@ -19,12 +19,12 @@ namespace {
 
 constexpr double unit_enough = 1e-6;  // a quaternion written with seven digits
 
-/// Roll, pitch and yaw of R = R_z(yaw) R_y(pitch) R_x(roll); roll is 0 where pitch is a right angle.
+/// Roll, pitch and yaw of R = R_z(yaw) R_y(pitch) R_x(roll); roll is 0 if pitch is a right angle.
 Real3 angles_of(const Real33& R) {
     const double across = std::hypot(R(0, 0), R(1, 0));
     if (across < 1e-12) return {0, R(2, 0) < 0 ? M_PI / 2 : -M_PI / 2, std::atan2(-R(0, 1), R(1, 1))};
     Real3 angles{std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), across), std::atan2(R(1, 0), R(0, 0))};
-    for (double& angle : angles)  // what rounding leaves of right angles
+    for (double& angle : angles)  // removes the rounding of right angles
         if (const double k = std::round(angle * 2 / M_PI); std::abs(angle - k * M_PI / 2) < 1e-15)
             angle = k * M_PI / 2;
     return angles;
@@ -57,7 +57,7 @@ bool is_limited(const TiXmlElement& joint) {
     return type != nullptr && (squeezed(type) == "revolute" || squeezed(type) == "prismatic");
 }
 
-/// urdfdom wants effort and velocity, which say nothing of the motion without a controller.
+/// urdfdom requires effort and velocity, which do not matter for the motion without a controller.
 void complete_limits(TiXmlElement& joint) {
     TiXmlElement* limit = joint.FirstChildElement("limit");
     if (limit == nullptr) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-/// The numbers of a robot description, read strictly: what cannot be read is refused with its line, and nothing
-/// becomes zero without a word. (urdfdom drops a whole <inertial> for one number that it cannot read.)
+/// Reads the numbers of a robot description strictly: a number that cannot be read is refused with its line, and
+/// none silently becomes zero. (urdfdom drops a whole <inertial> for one number that it cannot read.)
 ///
 ///     Elements elements("arm.urdf");
 ///     elements.number(mass, "value")         // <mass value="1.5"/>; refuses "1,5"
 ///     elements.pose(origin, "link arm")      // xyz, with rpy or quat_xyzw
 ///
-/// `remarks` gathers what is no mistake but should be known.
+/// `remarks` collects facts that are no mistakes but that the user should know.
 
 #include <tinyxml.h>
 
@@ -29,20 +29,20 @@ public:
     void remark(const Place& place, const std::string& what) { remarks_.push_back({place, what}); }
     const std::vector<Diagnostic>& remarks() const { return remarks_; }
 
-    /// A finite number; blanks and line breaks around it are nothing. Empty where the attribute is missing.
+    /// A finite number; blanks and line breaks around it are ignored. Nothing if the attribute is missing.
     std::optional<double> number(const TiXmlElement& e, const char* attribute) const;
     double needed_number(const TiXmlElement& e, const char* attribute) const;
-    /// Three numbers between blanks or line breaks; the default where the attribute is missing.
+    /// Three numbers between blanks or line breaks; the default if the attribute is missing.
     Real3 three(const TiXmlElement& e, const char* attribute, const Real3& missing) const;
-    /// Of <origin>, or of null: none.
+    /// The pose of <origin>; the identity for null.
     RobotPose pose(const TiXmlElement* origin);
 
-    /// Mass, mass centre and tensor of <inertial>, along the link's axes, into `link`.
+    /// Reads mass, mass centre and inertia tensor of <inertial>, along the link's axes, into `link`.
     void read_inertial(const TiXmlElement& inertial, Robot::Link& link);
 
     /// The only child of this name, or null. A second one is refused.
     const TiXmlElement* only(const TiXmlElement& e, const char* tag) const;
-    /// Attributes that no reader of this element knows, as in xzy="…", which would be lost.
+    /// Attributes that no reader of this element knows, such as xzy="…", and that would be ignored.
     std::vector<std::string> unknown_attributes(const TiXmlElement& e) const;
 
     static Place place_of(const TiXmlElement& e) { return {e.Row(), e.Column()}; }
@@ -55,12 +55,12 @@ private:
     std::vector<Diagnostic> remarks_;
 };
 
-/// What a reader may expect in this element; "<mass>".
+/// The element for messages: "<mass>".
 std::string shown(const TiXmlElement& e);
 
-/// The description that urdfdom is given to check: names and joints alone, without what `Elements` reads by itself
-/// or what is dropped anyway, with one blank between words, and completed where urdfdom asks for more than
-/// dynamics needs: a name of the robot, limits of a joint, the link `world` that joints may hang from.
+/// The description that urdfdom checks: names and joints only, without the parts that `Elements` reads itself or
+/// that are dropped anyway, and with one blank between words. It is completed where urdfdom requires more than
+/// dynamics needs: a name of the robot, limits of a joint, the link `world` to which joints may be attached.
 TiXmlDocument checkable(const TiXmlDocument& document, Elements& elements);
 
 }  // namespace alembert

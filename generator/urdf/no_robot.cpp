@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// In the place of robot.cpp and elements.cpp, where the program is built without urdfdom.
+// Replaces robot.cpp and elements.cpp if the program is built without urdfdom.
 #include "urdf/robot.hpp"
 
 namespace alembert {

@@ -19,9 +19,9 @@ namespace alembert {
 
 namespace {
 
-constexpr int deepest = 100;  // elements inside each other
+constexpr int deepest = 100;  // the deepest nesting of elements
 
-/// What urdfdom says instead of throwing.
+/// The messages that urdfdom prints instead of throwing.
 class Complaints : public console_bridge::OutputHandler {
 public:
     Complaints() { console_bridge::useOutputHandler(this); }
@@ -60,7 +60,7 @@ public:
         }
         check_by_urdfdom(*root);
         robot_.name = model_->getName();
-        if (model_->links_.size() > robot_.links.size()) {  // the world, which urdfdom was given besides
+        if (model_->links_.size() > robot_.links.size()) {  // the link `world`, which was added for urdfdom
             link_of_["world"] = static_cast<int>(robot_.links.size());
             robot_.links.push_back({.name = "world", .place = {}});
         }
@@ -80,7 +80,7 @@ public:
 private:
     [[noreturn]] void refuse(const Place& place, const std::string& why) const { elements_.refuse(place, why); }
     static Place place_of(const TiXmlElement& e) { return Elements::place_of(e); }
-    /// As urdfdom is given it (checkable): one blank between words.
+    /// The name in the form that urdfdom gets (checkable), with one blank between words.
     static std::string named(const TiXmlElement& e) {
         for (const char* key : {"name", "reference"})
             if (const char* value = e.Attribute(key)) {
@@ -91,7 +91,7 @@ private:
             }
         return "";
     }
-    /// Refuses what urdfdom complains of, at the link or joint whose name it says.
+    /// Refuses a description about which urdfdom complains, at the link or joint that it names.
     void check_by_urdfdom(const TiXmlElement& root) {
         TiXmlPrinter printer;
         checkable(document_, elements_).Accept(&printer);
@@ -120,7 +120,7 @@ private:
         if (!of.empty() && (found->of.empty() || found->of.back() != of)) found->of.push_back(of);
     }
 
-    /// TinyXML goes down by recursion.
+    /// The depth is limited, because TinyXML works recursively.
     void check_depth() const {
         int depth = 0;
         for (std::size_t i = text_.find('<'); i != std::string::npos; i = text_.find('<', i + 1)) {
@@ -168,7 +168,7 @@ private:
         robot_.links.push_back(std::move(link));
     }
 
-    /// Its numbers; type, parent and child come from urdfdom.
+    /// Reads the numbers of a joint; type, parent and child come from urdfdom.
     void read_joint(const TiXmlElement& e) {
         Robot::Joint joint{.name = named(e),
                            .place = place_of(e),
@@ -255,7 +255,8 @@ private:
         joint.mimic->joint = found->second;
     }
 
-    /// Who mimics a follower follows its leader; who mimics a fixed joint stands still.
+    /// A joint that mimics a follower follows the leader of that one; a joint that mimics a fixed joint does not
+    /// move.
     void resolve(Robot::Joint& joint) {
         for (std::size_t steps = 0; joint.mimic; ++steps) {
             const Robot::Joint& leader = robot_.joints[static_cast<std::size_t>(joint.mimic->joint)];

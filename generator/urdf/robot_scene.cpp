@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+// For bodies that are fixed to each other, with m, c, and I about each one's own mass centre, along common axes:
+//   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
 #include "urdf/robot_scene.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@ namespace alembert {
 
 namespace {
 
-constexpr const char* base = "floating_base";  // the joint of a root that floats
+constexpr const char* base = "floating_base";  // the name of the joint of a floating root
 
 /// A body, with its names in the scene.
 struct Group : WeldedBody {
@@ -109,7 +111,7 @@ private:
         ++result_.bodies;
     }
 
-    /// Where the joint stands in the group of its parent: from that mass centre.
+    /// The pose of the joint in the group of its parent, relative to the mass centre of that group.
     struct Stand {
         const Group* parent;
         Real3 point;
@@ -192,7 +194,7 @@ private:
         if (options_.drives) drive(joint, q, slides);
     }
 
-    /// An input, zero until somebody gives it a value, along the joint's coordinate.
+    /// Adds an input along the joint's coordinate, which is zero until it is given a value.
     void drive(const Robot::Joint& joint, const std::string& q, bool slides) {
         const std::string name = values_.given("drive_" + joint.name);
         inputs_ += fmt::format("{} = {{ value = 0, unit = \"{}\" }}\n", scene_key(name), slides ? "N" : "N*m");
@@ -200,7 +202,7 @@ private:
         result_.drives.push_back(name);
     }
 
-    /// Turned so that z is the normal.
+    /// Adds a planar joint, with axes turned so that z is the normal.
     void planar(const Robot::Joint& joint, const Group& child, Stand at) {
         const Real3 a = joint.axis.normalized();
         std::string child_rotate;
@@ -222,7 +224,7 @@ private:
                                 child_rotate, fmt::join(list, ", ")));
     }
 
-    /// A frame and a point in place of a joint: no coordinate of its own, no constraint.
+    /// Adds a frame and a point in place of a joint, without a coordinate and without a constraint.
     void follower(const Robot::Joint& joint, Group& child) {
         Stand at = stand(joint);
         const Robot::Mimic& mimic = *joint.mimic;

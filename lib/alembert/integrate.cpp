@@ -29,7 +29,7 @@ namespace alembert {
 namespace {
 
 constexpr double most_rows = 1e8;
-constexpr double most_steps = 1e15;  // what is told apart in t
+constexpr double most_steps = 1e15;  // more steps could not be distinguished in t
 
 double thread_seconds() {
     timespec now{};
@@ -82,7 +82,7 @@ Trajectory run(const Rhs& rhs, const std::vector<double>& initial, const Options
     return StepLoop<AnyStep>(rhs, initial, options, events).go();
 }
 
-/// The rest of a run that was found to be stiff, rows on the same grid.
+/// Integrates the rest of a run that was found to be stiff, with rows on the same grid.
 void go_on(Trajectory& first, const Rhs& rhs, const Options& options, const Events& events) {
     const double end = options.start + options.duration, interval = sample_interval(options);
     Options rest = options;

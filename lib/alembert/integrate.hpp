@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// A motion from a system and its state at the start.
+/// Integrates the motion of a system from its state at the start.
 ///
 ///     const Rhs rhs = make_rhs(load(compile(text, "pendulum", {}).object));
 ///     const Trajectory motion = integrate(rhs, {0.5, 0.0}, {.duration = 10, .tolerance = 1e-12});
@@ -31,13 +31,14 @@
 ///
 /// The order of taylor is ⌈1 − ½ ln tolerance⌉ or, where that is faster, more.
 ///
-/// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the tolerance
-/// as given; below 4.4e-16, where an estimate is rounding alone and a shorter step no better, as 4.4e-16 (taylor:
-/// at any size). In a step that a row or an event falls in, dense output adds its own error, for dop853 somewhat
-/// more than the tolerance; the last row of a run that completes is the end of a step.
+/// Tolerance: the estimated local error of each component is at most tolerance · max(1, |y|), with the given
+/// tolerance. A tolerance below 4.4e-16, at which an estimate is only rounding and a shorter step is no better,
+/// counts as 4.4e-16 (not for taylor). In a step that contains a row or an event, dense output adds its own error,
+/// for dop853 somewhat more than the tolerance; the last row of a run that completes is the end of a step.
 ///
-/// What fails while it runs is in Trajectory::failure, with the rows until then. std::invalid_argument is thrown
-/// for options that make no sense: each message says which. Nothing is allocated per step.
+/// If something fails during the run, Trajectory::failure says what, and the rows until then are kept.
+/// std::invalid_argument is thrown for invalid options; each message says which option is invalid. Nothing is
+/// allocated per step.
 
 #include <functional>
 #include <optional>
@@ -57,36 +58,37 @@ namespace alembert {
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
 
 struct Options;
-/// Somebody else's integrator for one system. It is given options that have been checked, `by` left out, and gives
-/// rows, statistics (with its name) and failures as `integrate` does.
+/// An integrator of another library for one system. It gets options that have been checked, without `by`, and
+/// returns rows, statistics (with its name) and failures like `integrate`.
 using Integrator =
     std::function<Trajectory(const Rhs& rhs, const std::vector<double>& initial, const Options& options)>;
 
 struct Options {
     Method method = Method::dop853;
     double start = 0;
-    double duration = 0;      ///< from the start; 0 gives one row
+    double duration = 0;      ///< counted from the start; 0 gives one row
     double tolerance = 1e-9;  ///< adaptive methods
-    double step = 0;  ///< of methods with a fixed step, and of taylor where given; first step of the others, 0:
-                      ///< found automatically
-    double longest_step = 0;  ///< adaptive methods; 0: no bound
+    double step = 0;  ///< the step of methods with a fixed step, and of taylor if given; for the others the first
+                      ///< step, found automatically if 0
+    double longest_step = 0;  ///< for adaptive methods; 0 means no bound
     std::vector<QuickTime> quick_times =
-        {};                           ///< adaptive methods: when steps have to be shorter (quick_times.hpp)
-    double sample = 0;                ///< time between rows; 0: duration/200
-    std::optional<double> grid = {};  ///< rows fall on grid + k·sample; missing: on start + k·sample
-    long budget = 10'000'000;  ///< evaluations of the right-hand side; no step is begun that could exceed it
-    /// Where the steps of an explicit method are found to be held down by stiffness (stiffness.hpp), the run goes
-    /// on with this one.
+        {};             ///< for adaptive methods: the times at which steps have to be shorter (quick_times.hpp)
+    double sample = 0;  ///< time between rows; 0: duration/200
+    std::optional<double> grid = {};  ///< rows fall on grid + k·sample; if missing, on start + k·sample
+    /// The most evaluations of the right-hand side; no step is begun that could exceed it.
+    long budget = 10'000'000;
+    /// If stiffness is found to limit the steps of an explicit method (stiffness.hpp), the run goes on with this
+    /// method.
     std::optional<Method> when_stiff = {};
     std::function<Rhs()> rhs_when_stiff =
-        {};               ///< the same system, with its Jacobian; asked for then; empty: the same Rhs
+        {};               ///< gives the same system with its Jacobian at that time; if empty, the same Rhs is used
     OnStep on_step = {};  ///< may be empty
-    /// Moves the end of each step, after its error was found small enough, to where it belongs; may be empty.
+    /// Moves the end of each step onto the constraints after its error was found small enough; may be empty.
     std::function<void(double t, double* state)> project = {};
-    Integrator by = {};  ///< in the place of `method`, for a run without events; may be empty
+    Integrator by = {};  ///< replaces `method` in a run without events; may be empty
 };
 
-/// What `integrate` begins with.
+/// The check of options with which `integrate` begins.
 void check_options(const Rhs& rhs, const std::vector<double>& initial, const Options& options);
 
 Trajectory integrate(const Rhs& rhs, const std::vector<double>& initial, const Options& options,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two lists of fixed size, which a signal handler can read at any moment: no memory is allocated, no lock is
-// taken.
+// Two lists of fixed size, which a signal handler can read at any moment, because no memory is allocated and no
+// lock is taken.
 #include "alembert/leftover.hpp"
 
 #include <dirent.h>
