@@ -14,6 +14,7 @@
 /// critical. Of linear equations with a Hamiltonian a simple multiplier whose disc is alone with its mirror image
 /// in the circle lies on it (Krein; Yakubovich & Starzhinskii 1975), which proves stability. Of equations without
 /// t one multiplier is 1, along the motion, and is not counted: stable means that the orbit is (Andronov & Witt).
+/// With constraints the multipliers are those of the tangent space (periodic.hpp).
 
 #include "derive/derived.hpp"
 #include "stability/verdict.hpp"
@@ -24,15 +25,13 @@ struct FloquetResult {
     double period = 0;
     std::vector<std::complex<double>> multipliers;  ///< by size, the largest first
     std::vector<double> radii;
-    std::vector<double> start;  ///< (q, q') of the periodic motion
+    std::vector<std::string> states;                    ///< independent coordinates and speeds
+    std::vector<std::pair<std::string, double>> start;  ///< coordinates and speeds of the periodic motion
     Decision decision;
 };
 
-/// Do the equations hold t, by inputs or without?
-bool changes_with_time(const Mechanism& mechanism, const Equations& equations);
-
-/// `period`: 0 stands for the one of [simulation]. Throws ModelError where there are constraints, contacts or
-/// other speeds than rates, where the equations do not have this period, and where no periodic motion is found.
+/// `period`: 0 stands for the one of [simulation]. Throws ModelError where there are contacts, where the
+/// equations do not have this period, and where no periodic motion is found.
 FloquetResult floquet(const Derived& derived, const Start& start, const ExactOverrides& exact_at, double period);
 
 }  // namespace alembert

@@ -79,9 +79,9 @@ struct Stability {
     std::vector<std::string> states = {};      ///< what the eigenvalues belong to
     Eigen::MatrixXd A = {};
     double period = 0;  ///< s, of a periodic system; then these instead of eigenvalues
-    std::vector<std::complex<double>> multipliers = {};  ///< Floquet's, the largest first
-    std::vector<double> radii = {};                      ///< of the discs that hold them
-    std::vector<double> periodic_start = {};             ///< of the periodic motion, as `states`
+    std::vector<std::complex<double>> multipliers = {};               ///< Floquet's, the largest first
+    std::vector<double> radii = {};                                   ///< of the discs that hold them
+    std::vector<std::pair<std::string, double>> periodic_start = {};  ///< coordinates and speeds, by name
     std::vector<RootOf> eigenvalues = {};
     bool certain = false;  ///< discs contain the eigenvalues; else they are those of floating-point numbers
     std::vector<std::string> conditions = {};  ///< "expr > 0", together necessary and sufficient
