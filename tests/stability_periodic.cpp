@@ -96,6 +96,62 @@ period = "2*pi/Omega"
     CHECK(std::abs(std::sqrt(2.0) / 0.1 - 14.17289002081848) < 0.04);  // averaging: A² Ω² = 2 g l
 }
 
+TEST_CASE("stability: multipliers of a system with constraints or speeds are those in minimal coordinates") {
+    const std::string minimal = R"toml([parameters]
+A = 0.1
+Omega = 40
+c = 0
+[inputs]
+yp = "A*cos(Omega*t)"
+[coordinates]
+theta = 3.141592653589793
+[energy]
+lagrangian = "theta'^2/2 - yp'*theta'*sin(theta) + 9.81*cos(theta)"
+[dissipation]
+rayleigh = "c*theta'^2/2"
+[simulation]
+period = "2*pi/Omega"
+)toml";
+    std::string speeds = minimal;
+    speeds.replace(speeds.find("[energy]"), 8, "[speeds]\nw = \"3*theta' + theta\"\n[energy]");
+    const std::string constrained = R"toml([parameters]
+A = 0.1
+Omega = 40
+c = 0
+[inputs]
+yp = "A*cos(Omega*t)"
+[coordinates]
+x = { guess = 0 }
+y = { guess = 1.1 }
+[energy]
+kinetic = "(x'^2 + y'^2)/2"
+potential = "9.81*y"
+[dissipation]
+rayleigh = "c*(x'^2 + (y' - yp')^2)/2"
+[[constraint]]
+name = "rod"
+holonomic = "x^2 + (y - yp)^2 - 1"
+[simulation]
+period = "2*pi/Omega"
+)toml";
+    for (const std::vector<std::string>& at :
+         {std::vector<std::string>{}, {"Omega=60"}, {"c=0.5"}, {"c=0.5", "Omega=60"}, {"A=0.15", "c=0.25"}}) {
+        const Stability one = judged(parse_scene(minimal, "minimal.toml"), at);
+        REQUIRE(one.multipliers.size() == 2);
+        for (const std::string& text : {speeds, constrained}) {
+            const Stability other = judged(parse_scene(text, "other.toml"), at);
+            CAPTURE(other.reason);
+            REQUIRE(other.multipliers.size() == 2);
+            for (std::size_t k = 0; k < 2; ++k) {
+                CHECK(std::abs(other.multipliers[k] - one.multipliers[k]) < 1e-13 + 2 * other.radii[k]);
+                CHECK(other.radii[k] < 1e-8);
+            }
+            CHECK(other.verdict == one.verdict);
+            CHECK(other.states.size() == 2);
+        }
+    }
+}
+
 TEST_CASE("stability: van der Pol's orbit is found from a guess, with its period and multiplier") {
     const Scene scene = parse_scene(R"toml([coordinates]
 x = 2
@@ -112,7 +168,7 @@ x = "(1 - x^2)*x'"
     REQUIRE(s.multipliers.size() == 2);
     CHECK(std::abs(s.multipliers[0] - 1.0) < 1e-12);
     // Liouville: the product of the multipliers is exp of the integral of the divergence 1 - x^2, here by RK4.
-    std::array<double, 3> y{s.periodic_start[0], s.periodic_start[1], 0};
+    std::array<double, 3> y{s.periodic_start[0].second, s.periodic_start[1].second, 0};
     const auto f = [](const std::array<double, 3>& z) {
         return std::array<double, 3>{z[1], (1 - z[0] * z[0]) * z[1] - z[0], 1 - z[0] * z[0]};
     };

@@ -88,9 +88,9 @@ private:
         if (!solution.empty()) check_solution(scene_, claims_, solution, result_.claims);
     }
 
-    /// Which of m_.undetermined() the claim speaks of. With a contact's multiplier it holds whatever that is,
-    /// without it speaks of the motion while the gap is open. Constraints that follow from others bear their least
-    /// share.
+    /// The constraints of m_.undetermined() whose multipliers the claim contains. A claim with a contact's
+    /// multiplier must hold for any value of it; a claim without it is about the motion while the gap is open.
+    /// Constraints that follow from others have their shares of least norm.
     std::vector<std::size_t> undetermined_in(std::size_t claim) const {
         std::vector<std::size_t> result;
         const auto all = m_.undetermined();

@@ -38,7 +38,7 @@ Claims::Claims(const Scene& scene, const Mechanism& mechanism, const Equations& 
         formulas_.know(q + "'''", third_.back());
         formulas_.has_no_derivative(third_.back());
     }
-    // x'(-) stands in the place of x'': at an impact there are no accelerations.
+    // x'(-) takes the place of x'', because at an impact there are no accelerations.
     for (int i = 0; i < m_.size(); ++i) formulas_.know(m_.q[i].get_name() + "'(-)", m_.qddot[i]);
 }
 

@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    /// Nothing where it cannot be read, or holds open names.
+    /// Nothing if it cannot be translated or contains open names.
     std::optional<int> node_of(Program& p, const Expression& value) {
         try {
             const ex e = claims_.read(value);
@@ -113,7 +113,8 @@ private:
 
     bool holds_quickly(const ClaimForm& form) {
         if (!form.open.empty()) {
-            // With the claims of its group that are right; if they leave it open, with all.
+            // The claim is tested with the right claims of its group; if these do not determine the open names,
+            // with all.
             std::vector<ClaimForm> forms = asked_.forms;
             forms[asked_.claim] = form;
             std::vector<std::size_t> group = group_of(asked_.scene, forms, asked_.claim), right = group;

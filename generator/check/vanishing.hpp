@@ -30,7 +30,7 @@ std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int
 /// enough to find a repair, not to prove one.
 bool vanishes_at_two(ExactStates& states, const Program& program, int root);
 
-/// log₂ of the chance that a branch of the constraints is not the one of this state.
+/// log₂ of the probability that a given branch of the constraints is not that of this state.
 double chance_of_another_branch(const ExactState& state);
 
 /// Does it vanish for the least reactions of constraints that depend on each other, and not for other reactions

@@ -62,8 +62,8 @@ SymbolRows in_symbols(const Linearization& near, const Derived& d, const Lineari
     return result;
 }
 
-/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: where rates
-/// are not steady, Kane's speeds may be.
+/// A sledge that runs straight has constant speeds along and across its axes, but not along x and y: if rates are
+/// not steady, Kane's speeds may be.
 void choose_speeds(Derived& d, const LinearizeOptions& options, const Start& start) {
     const std::vector<Mechanism::Constraint>& all = d.mechanism.constraints;
     const bool nonholonomic = std::any_of(all.begin(), all.end(), [](const auto& c) { return !c.holonomic; });

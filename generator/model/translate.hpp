@@ -28,9 +28,9 @@ public:
     Translator(const Mechanism& mechanism, GeometryQueries queries)
         : mechanism_(mechanism), queries_(std::move(queries)) {}
 
-    /// A name that stands for a value: a coordinate's symbol, a definition's value …
+    /// Declares a name that stands for a value: a coordinate's symbol, a definition's value …
     void know(const std::string& name, const Value& value) { values_[name] = value; }
-    /// A name whose value is made when first asked for (definitions, in any order).
+    /// Declares a name whose value is computed when it is first asked for (definitions, in any order).
     void know_later(const std::string& name, std::function<Value()> value) { later_[name] = std::move(value); }
 
     /// Declares a symbol whose time derivative is not known (an acceleration, a multiplier). Differentiating it is

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using Element = FigureElement::Kind;
 using Kind = FigureShape::Kind;
 
-/// Of a point alone, moved on the screen.
+/// A vertex at a single point, shifted on the screen.
 FigureVertex at(int a, double right = 0, double down = 0, bool begins = false) {
     return {.a = a, .along = right, .across = down, .begins = begins};
 }

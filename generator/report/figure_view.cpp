@@ -53,7 +53,7 @@ private:
         v_.toward = std::cos(elevation) * out + std::sin(elevation) * vertical;
     }
 
-    /// Points that the picture must hold.
+    /// The points that must be inside the picture.
     std::vector<int> shown() const {
         std::vector<int> points;
         for (const FigureElement& e : d_.elements) {

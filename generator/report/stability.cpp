@@ -45,7 +45,7 @@ Json as_json(const Stability& s) {
             result["floquet"].push_back({rho.real(), rho.imag()});
         result["radii"] = s.radii;
         result["start"] = Json::object();
-        for (std::size_t k = 0; k < s.states.size(); ++k) result["start"][s.states[k]] = s.periodic_start[k];
+        for (const auto& [name, value] : s.periodic_start) result["start"][name] = value;
     }
     result["certain"] = s.certain;
     if (s.lyapunov)

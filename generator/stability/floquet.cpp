@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -11,20 +10,16 @@
 #include "alembert/error.hpp"
 #include "lower/lower.hpp"
 #include "model/energy.hpp"
-#include "program/differentiate.hpp"
-#include "program/tape.hpp"
-#include "run/quad_motion.hpp"
+#include "stability/periodic.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
-using Index = Eigen::Index;
 
 namespace {
 
 constexpr double fine = 1e-26, coarse = 1e-20;
-constexpr double closed = 1e-16;  // |x(T) − x(0)| of a periodic motion
-constexpr int most_rounds = 30;
+constexpr double basis_rounding = 1e-17;  // of the tangent space's columns, which are long doubles
 
 /// The state followed by the columns of Φ.
 class Variation {
@@ -197,41 +192,68 @@ Decision judged(const FloquetResult& found, const std::vector<RootOf>& roots, bo
                     has(Place::unclear) ? " or too near to tell" : "", linear ? "these" : "nonlinear")};
 }
 
-}  // namespace
-
-bool changes_with_time(const Mechanism& m, const Equations& e) {
-    const auto moves = [&](const ex& value) {
-        for (const ex& slope : m.explicit_time_derivative({value}))
-            if (!is_identically_zero(slope, m)) return true;
-        return false;
-    };
-    for (const Mechanism::Input& input : m.inputs)
-        for (const GiNaC::symbol& derivative : input.derivative)
-            for (int i = 0; i < e.size(); ++i)
-                if (m.z->depends(e.forcing(i), {derivative}) && m.z->depends(input.value, {m.t})) return true;
-    for (int i = 0; i < e.size(); ++i) {
-        if (moves(m.z->name(e.forcing(i)))) return true;
-        for (int j = 0; j <= i && e.M.rows() > 0; ++j)
-            if (moves(m.z->name(e.M(i, j)))) return true;
-    }
-    return false;
+/// Numbers as exactly as the scene and the options have them.
+void take_exact(PeriodicMotion<Quad>& motion, const Derived& d, const Start& start, const ExactOverrides& exact_at,
+                double period) {
+    const Mechanism& m = d.mechanism;
+    const ExactStart exact = exact_start(m, start, exact_at);
+    for (std::size_t k = 0; k < exact.parameters.size(); ++k) motion.parameters[k] = exact.parameters[k].middle();
+    for (std::size_t k = 0; k < exact.q.size(); ++k) motion.x[k] = exact.q[k].middle();
+    for (std::size_t k = 0; k < exact.qdot.size() && d.equations.speeds_are_rates(); ++k)
+        motion.x[exact.q.size() + k] = exact.qdot[k].middle();
+    motion.t = exact.t.middle();
+    if (period > 0) return;
+    Program one = begun(m);
+    const int node = lower_expression(one, m, *m.run.period);
+    Tape<Quad>(one, {node}, motion.parameters)(0, nullptr, nullptr, &motion.period);
 }
+
+/// By the size, the largest first.
+std::vector<RootOf> multipliers_of(const PeriodicSystem& system, const PeriodicMotion<Quad>& motion) {
+    const PeriodEnd<Quad> good = system.monodromy(motion, fine), rough = system.monodromy(motion, coarse);
+    if (!good.finished || !rough.finished)
+        throw IntegrationError("the variational equations cannot be integrated over one period",
+                               static_cast<double>(motion.t), {});
+    const int size = static_cast<int>(system.independent(motion).size());
+    const double rounding = system.constrained() ? basis_rounding : 0;
+    CertainMatrix Phi(size, size);
+    for (int c = 0; c < size; ++c)
+        for (int i = 0; i < size; ++i) {
+            const auto k = static_cast<std::size_t>(c * size + i);
+            const double unsure = static_cast<double>(abs(good.Phi[k] - rough.Phi[k])) + 1e-24 +
+                                  rounding * std::max(1.0, std::abs(static_cast<double>(good.Phi[k])));
+            Phi(i, c) = Certain::about(good.Phi[k], unsure);
+        }
+    std::vector<RootOf> roots = roots_of(characteristic(Phi));
+    std::sort(roots.begin(), roots.end(),
+              [](const RootOf& a, const RootOf& b) { return std::abs(a.value) > std::abs(b.value); });
+    return roots;
+}
+
+/// No loads outside V, and constraints that are holonomic: the multipliers are those of a symplectic matrix.
+bool has_hamiltonian(const Mechanism& m) {
+    for (const Mechanism::Constraint& c : m.constraints)
+        if (!c.position) return false;
+    for (const bool dissipative : {true, false})
+        for (const ex& load : m.generalized_forces(dissipative))
+            if (!is_identically_zero(load, m)) return false;
+    return true;
+}
+
+}  // namespace
 
 FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides& exact_at, double period) {
     const Mechanism& m = d.mechanism;
-    if (!m.constraints.empty() || !m.unilateral.empty() || !d.equations.speeds_are_rates())
+    const PeriodicSystem system(d);
+    PeriodicMotion<Quad> motion = system.motion<Quad>(start, period);
+    take_exact(motion, d, start, exact_at, period);
+    const Variation<Quad> f(system.program(), motion.parameters);
+    if (!system.autonomous()) check_period(f, motion.x, motion.t, motion.period);
+    if (!system.shoot(motion))
         throw ModelError(
-            "multipliers are computed for scenes without constraints, contacts and [speeds]; choose independent "
-            "coordinates");
-    const auto program = differentiated(lowered(d).program);
-    if (!program) throw ModelError("the equations of this scene are too large to be differentiated, or singular");
-    const ExactStart exact = exact_start(m, start, exact_at);
-    std::vector<Quad> parameters, x;
-    for (const Certain& p : exact.parameters) parameters.push_back(p.middle());
-    for (const CertainVector* list : {&exact.q, &exact.qdot})
-        for (const Certain& one : *list) x.push_back(one.middle());
-    const Quad t0 = exact.t.middle();
-    const Variation f(program->program, parameters);
+            fmt::format("no motion of period {:.10g} is found from this state: after Newton's method the state "
+                        "misses itself by {:.3g}; give a state and a period nearer to one",
+                        static_cast<double>(motion.period), motion.misfit));
     FloquetResult result;
     Quad T = static_cast<Quad>(period);
     if (!(period > 0)) {  // as exactly as the scene gives it
@@ -257,19 +279,18 @@ FloquetResult floquet(const Derived& d, const Start& start, const ExactOverrides
         result.multipliers.push_back(root.value);
         result.radii.push_back(root.radius);
     }
-    result.period = static_cast<double>(T);
-    for (const Quad& one : x) result.start.push_back(static_cast<double>(one));
-    bool mirrored = true;
-    for (const bool dissipative : {true, false})
-        for (const ex& load : m.generalized_forces(dissipative))
-            mirrored = mirrored && is_identically_zero(load, m);
-    bool still = autonomous;
-    for (const Quad& rate : f.rate_at(t0, x)) still = still && abs(rate) < static_cast<Quad>(1e-12);
+    result.period = static_cast<double>(motion.period);
+    const std::vector<std::string> names = system.names();
+    for (const int k : system.independent(motion)) result.states.push_back(names[static_cast<std::size_t>(k)]);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        result.start.emplace_back(names[k], static_cast<double>(motion.x[k]));
+    bool still = system.autonomous();
+    for (const Quad& rate : f.rate_at(motion.t, motion.x)) still = still && abs(rate) < static_cast<Quad>(1e-12);
     if (still)
         throw ModelError(
             "the equations do not hold t and this state is an equilibrium; leave the period out, or give a "
             "state on a periodic motion");
-    result.decision = judged(result, roots, autonomous, is_linear(m, d.equations), mirrored);
+    result.decision = judged(result, roots, system.autonomous(), is_linear(m, d.equations), has_hamiltonian(m));
     return result;
 }
 

@@ -16,6 +16,7 @@
 /// (Krein; Yakubovich & Starzhinskii 1975), which proves stability. If the equations do not contain t, one
 /// multiplier, that along the motion, is 1 and is not counted: stability is then that of the orbit (Andronov &
 /// Witt).
+/// With constraints the multipliers are those of the tangent space (periodic.hpp).
 
 #include "derive/derived.hpp"
 #include "stability/verdict.hpp"
@@ -26,7 +27,8 @@ struct FloquetResult {
     double period = 0;
     std::vector<std::complex<double>> multipliers;  ///< by size, the largest first
     std::vector<double> radii;
-    std::vector<double> start;  ///< (q, q') of the periodic motion
+    std::vector<std::string> states;                    ///< independent coordinates and speeds
+    std::vector<std::pair<std::string, double>> start;  ///< coordinates and speeds of the periodic motion
     Decision decision;
 };
 

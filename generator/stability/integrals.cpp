@@ -204,7 +204,7 @@ EnergyForms forms_of(const Local& local, const std::vector<ex>& functions) {
     return result;
 }
 
-/// `either_sign`: H is conserved, so that a maximum will do as well.
+/// With `either_sign`, H is conserved, so that a maximum is sufficient too.
 bool definite(const Local& local, const std::vector<ex>& functions, bool either_sign) {
     const EnergyForms forms = forms_of(local, functions);
     const int n = forms.size, count = static_cast<int>(forms.gradient.size());

@@ -11,8 +11,8 @@
 #include "model/formulas.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
-#include "stability/floquet.hpp"
 #include "stability/lyapunov_samples.hpp"
+#include "stability/periodic.hpp"
 #include "stability/semidefinite.hpp"
 
 namespace alembert {

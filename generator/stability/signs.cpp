@@ -206,7 +206,7 @@ SignNear sign_of_binary_form(const CertainVector& c) {
                 (*sign > 0 ? result.positive : result.negative) = true;
     if (form.degree % 2 == 1) result.positive = result.negative = result.positive || result.negative;
     if (result.positive == result.negative || c.front().may_be_zero() || c.back().may_be_zero()) return result;
-    // No real root: then it has the sign of x^d.
+    // Without a real root the form has the sign of x^d.
     result.definite = true;
     for (const RootOf& root : roots_of(c))
         result.definite = result.definite && std::abs(root.value.imag()) > root.radius;

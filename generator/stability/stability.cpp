@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "alembert/error.hpp"
+#include "lower/lower.hpp"
 #include "model/energy.hpp"
 #include "stability/arnold.hpp"
 #include "stability/conservative.hpp"
@@ -17,6 +18,7 @@
 #include "stability/polynomial.hpp"
 #include "stability/potential.hpp"
 #include "stability/verdict.hpp"
+#include "state/assemble.hpp"
 
 namespace alembert {
 
@@ -244,13 +246,14 @@ Stability stability_of_periodic(Scene scene, const StabilityOptions& options) {
     Stability result{.title = scene.title};
     const Derived d = derived(std::move(scene), {.by = options.by, .at = options.at});
     result.warnings = d.warnings;
-    const FloquetResult found = floquet(d, start_of(d.mechanism, options.at), options.exact_at, options.period);
+    Start start = start_of(d.mechanism, options.at);
+    assemble(start, d.mechanism, lower_constraints(d.mechanism), options.at);
+    const FloquetResult found = floquet(d, start, options.exact_at, options.period);
     result.period = found.period;
     result.multipliers = found.multipliers;
     result.radii = found.radii;
     result.certain = true;
-    for (const std::vector<GiNaC::symbol>* list : {&d.mechanism.q, &d.mechanism.qdot})
-        for (const GiNaC::symbol& x : *list) result.states.push_back(x.get_name());
+    result.states = found.states;
     result.periodic_start = found.start;
     take(result, found.decision);
     return result;

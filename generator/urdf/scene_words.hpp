@@ -16,7 +16,7 @@
 
 namespace alembert {
 
-/// The shortest that reads back the same.
+/// The shortest text that gives the same number.
 std::string scene_number(double value);
 std::string scene_vector(const Real3& v);
 
@@ -32,7 +32,7 @@ std::string scene_axis(const Real3& a);
 /// The name as a key: in quotation marks where TOML wants them.
 std::string scene_key(const std::string& name);
 
-/// Names as scenes may have them, each given once.
+/// Makes names that are legal in scenes, each of them once.
 class SceneNames {
 public:
     std::string given(const std::string& wanted);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Of bodies held together, with m, c, I each about its own mass centre and along common axes:
+// For bodies that are fixed to each other, with m, c, and I about each one's own mass centre, along common axes:
 //   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
 #include "urdf/welded.hpp"
 

@@ -16,7 +16,7 @@
 
 namespace alembert {
 
-/// Links that do not move against each other.
+/// Links that do not move relative to each other.
 struct WeldedBody {
     int top;                 ///< the link nearest to the root
     std::vector<int> links;  ///< all of them, in the order of the file

@@ -54,7 +54,7 @@
 
 namespace alembert {
 
-/// Called with the start, then with the end of each accepted step (or the event that cuts it short).
+/// Called with the start, then with the end of each accepted step (or with the event that ends the run in it).
 using OnStep = std::function<void(double t, std::span<const double> state, std::span<const double> rate)>;
 
 struct Options;
