@@ -41,7 +41,7 @@ for file in share/man/man1/alembert.1.gz share/man/man1/alembert-simulate.1.gz s
     share/fish/vendor_completions.d/alembert.fish share/doc/alembert/examples/textbook/double_pendulum.toml; do
     grep -qx "/usr/$file" list || fail "/usr/$file is missing"
 done
-cmake -G Ninja -S "$root/tests/stranger" -B stranger >log 2>&1 || { tail -n 30 log; exit 1; }
-cmake --build stranger >log 2>&1 || { tail -n 30 log; exit 1; }
-stranger/stranger | tail -n 1
+cmake -G Ninja -S "$root/examples" -B examples >log 2>&1 || { tail -n 30 log; exit 1; }
+cmake --build examples >log 2>&1 || { tail -n 30 log; exit 1; }
+examples/bouncing_ball | tail -n 1
 echo 'the package is built, passes lintian, installs and works'

@@ -32,11 +32,8 @@ struct FloquetResult {
     Decision decision;
 };
 
-/// Do the equations contain t, directly or by inputs?
-bool changes_with_time(const Mechanism& mechanism, const Equations& equations);
-
-/// A `period` of 0 stands for that of [simulation]. Throws ModelError if there are constraints, contacts or speeds
-/// other than the rates, if the equations do not have this period, or if no periodic motion is found.
+/// `period`: 0 stands for the one of [simulation]. Throws ModelError where there are contacts, where the
+/// equations do not have this period, and where no periodic motion is found.
 FloquetResult floquet(const Derived& derived, const Start& start, const ExactOverrides& exact_at, double period);
 
 }  // namespace alembert

@@ -24,7 +24,7 @@ namespace alembert {
 
 enum class StabilityVerdict { asymptotically_stable, stable, unstable, undecided };
 
-/// The theorem that decided.
+/// What decided.
 enum class StabilityTheorem {
     none,
     hurwitz,               ///< of a polynomial or of linear equations: the roots themselves
@@ -65,7 +65,7 @@ struct LyapunovAnswer {
 };
 
 struct StabilityOptions {
-    std::string by = {};  ///< a formalism; if empty, the program chooses
+    std::string by = {};  ///< a formalism; empty: the program chooses
     Overrides at = {};
     ExactOverrides exact_at = {};  ///< the same as typed: decimals are exact
     double period = 0;             ///< s; 0: the scene's, where it gives one
@@ -75,19 +75,18 @@ struct StabilityOptions {
 struct Stability {
     std::string title = {};
     std::vector<std::string> warnings = {};
-    std::optional<LinearizedScene> near = {};  ///< nothing for a polynomial
-    std::vector<std::string> states = {};      ///< the states to which the eigenvalues belong
+    std::optional<LinearizedScene> near = {};  ///< nothing of a polynomial
+    std::vector<std::string> states = {};      ///< what the eigenvalues belong to
     Eigen::MatrixXd A = {};
-    double period = 0;  ///< in s, of a periodic system, which has the following instead of eigenvalues
-    std::vector<std::complex<double>> multipliers = {};  ///< Floquet's, the largest first
-    std::vector<double> radii = {};                      ///< the radii of the discs that contain them
-    std::vector<double> periodic_start = {};  ///< the start of the periodic motion, in the order of `states`
+    double period = 0;  ///< s, of a periodic system; then these instead of eigenvalues
+    std::vector<std::complex<double>> multipliers = {};               ///< Floquet's, the largest first
+    std::vector<double> radii = {};                                   ///< of the discs that hold them
+    std::vector<std::pair<std::string, double>> periodic_start = {};  ///< coordinates and speeds, by name
     std::vector<RootOf> eigenvalues = {};
-    /// Whether discs contain the eigenvalues; otherwise they are computed in floating point.
-    bool certain = false;
+    bool certain = false;  ///< discs contain the eigenvalues; else they are those of floating-point numbers
     std::vector<std::string> conditions = {};  ///< "expr > 0", together necessary and sufficient
-    std::string conditions_for = {};           ///< the property for which they are the conditions
-    std::vector<std::string> routh = {};       ///< for a polynomial, the rows of Routh's array
+    std::string conditions_for = {};           ///< what for
+    std::vector<std::string> routh = {};       ///< of a polynomial: rows of Routh's array
     StabilityVerdict verdict = StabilityVerdict::undecided;
     StabilityTheorem theorem = StabilityTheorem::none;
     std::string reason = {};

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# Installs the build into a temporary folder, and builds and runs examples/ against it as somebody else would.
+#   examples.sh BUILD_DIRECTORY COMPILER [FLAGS]     flags: those that the build itself needs (sanitizers)
+set -eu
+build=$1
+compiler=$2
+flags=${3:-}
+root=$(cd "$(dirname "$0")/.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cmake --install "$build" --prefix "$work/prefix" >"$work/log"
+cmake -G Ninja -S "$root/examples" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" >>"$work/log" 2>&1 ||
+    { tail -n 30 "$work/log"; exit 1; }
+cmake --build "$work/build" >>"$work/log" 2>&1 || { tail -n 30 "$work/log"; exit 1; }
+export XDG_CACHE_HOME=$work/cache
+prints() { # PROGRAM TEXT
+    local printed
+    printed=$("$work/build/$1") || { echo "$1 failed: $printed"; exit 1; }
+    [ "$printed" = "$2" ] || { printf '%s printed:\n%s\nexpected:\n%s\n' "$1" "$printed" "$2"; exit 1; }
+}
+# Falls 5 m in 1 s, comes back at half the speed 1 s later.
+prints bouncing_ball 'm \ddot{y} + m g = \lambda_{\mathrm{floor}}
+impact at 1.000000000
+impact at 2.000000000
+the estimated error is below 1e-8'
+prints chain '1 rods: the energy keeps to 1e-9
+4 rods: the energy keeps to 1e-9'
+prints homework "proved
+refuted: sign in -x''*cos(theta)"
+prints controller 'the trolley is 0.000 m from its goal, the rope 0.000 rad from the vertical'
+"$work/prefix/bin/alembert" --version
