@@ -120,7 +120,7 @@ TEST_CASE("linearize: kinks are refused, with the slopes of both sides") {
     CHECK(has(refusal("abs(sin(x))", "", std::numbers::pi), "x = 3.14159"));
 }
 
-TEST_CASE("linearize: a potential without a second derivative is refused, and said to be one") {
+TEST_CASE("linearize: a potential without a second derivative is refused, and the message says so") {
     CHECK(has(refusal("0", "x^1.5"), "sqrt(x) in [energy] potential"));
     CHECK(has(refusal("0", "x^1.5"), "has an infinite slope where x grows"));
     CHECK(has(refusal("0", "x^2.5"), "has no value where x falls: the state is on the border of its domain"));

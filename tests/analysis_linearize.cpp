@@ -342,7 +342,7 @@ TEST_CASE("linearize: speeds of the scene are states, and inputs have columns") 
     CHECK(distance(cart.near.B, Eigen::Vector4d(0, 0, 1 / M, -1 / (M * l))) < 1e-15);
 }
 
-TEST_CASE("linearize: what is neither at rest nor steady is refused with what is left") {
+TEST_CASE("linearize: a state that is neither at rest nor steady is refused with its residual") {
     const auto message = [](const std::string& name, const std::string& by, const Overrides& at) {
         try {
             textbook(name, by, at);

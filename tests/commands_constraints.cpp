@@ -73,7 +73,7 @@ TEST_CASE("commands: a four-bar keeps its loop and its energy over a hundred tur
     CHECK(json["energy_drift"].get<double>() < 1e-9);
 }
 
-TEST_CASE("commands: a constraint that moves does work, and the balance says how much") {
+TEST_CASE("commands: a moving constraint does work, which the balance contains") {
     const std::string scene = temporary("driven.toml", R"toml(
 [coordinates]
 x = { guess = 1, rate_guess = 0 }
@@ -101,7 +101,7 @@ tolerance = 1e-11
           doctest::Approx(1 + std::sin(10.0) / 2).epsilon(1e-12));
 }
 
-TEST_CASE("commands: what is wrong with constraints has its message and exit code") {
+TEST_CASE("commands: mistakes in constraints have their messages and exit codes") {
     const auto scene = [](const std::string& constraint, const std::string& x = "x = 0.6",
                           const std::string& more = "") {
         return temporary("c.toml",
@@ -179,7 +179,7 @@ TEST_CASE("commands: reactions along the coordinates are those of the free body"
     CHECK(shown.out.find("Q(x) of rod = 2*x*lambda_rod") != std::string::npos);
 }
 
-TEST_CASE("commands: constraints that hold together only where the coordinates obey a relation are refused") {
+TEST_CASE("commands: constraints that hold together only if the coordinates obey a relation are refused") {
     const std::string scene = temporary("hidden.toml", R"toml(
 [coordinates]
 x = 0
@@ -203,7 +203,7 @@ nonholonomic = "x' = y*z' + z"
 
 // Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the
 // ratio 1 : 2.
-TEST_CASE("commands: redundant constraints share their reaction in the least way") {
+TEST_CASE("commands: the multipliers of redundant constraints are those of least norm") {
     const std::string rod = R"toml(
 gravity = [0, "-9.81"]
 [coordinates]

@@ -195,7 +195,7 @@ duration = 3
     CHECK(Json::parse(result.out)["completed"] == false);
 }
 
-TEST_CASE("contact: a gap that is negative at the start is a mistake of the scene, by name and depth") {
+TEST_CASE("contact: a gap that is negative at the start is a mistake of the scene, with its name and size") {
     for (const char* verb : {"simulate", "eval"}) {
         const auto result =
             run({verb, temporary("deep.toml",
@@ -206,7 +206,7 @@ TEST_CASE("contact: a gap that is negative at the start is a mistake of the scen
     }
 }
 
-TEST_CASE("contact: a scene's event stops a run among impacts, and is told once") {
+TEST_CASE("contact: a scene's event stops a run between impacts and is reported once") {
     const Json motion = simulated(ball(0.5, 3,
                                        "[[event]]\nname = \"high\"\nwhen = \"y - 0.5\"\n[[event]]\nname = "
                                        "\"end\"\nwhen = \"t - 1\"\nstop = true\n"));
@@ -217,7 +217,7 @@ TEST_CASE("contact: a scene's event stops a run among impacts, and is told once"
     CHECK(of_kind(motion, "impact").size() == 2);
 }
 
-TEST_CASE("contact: eval chooses the contacts that last, derive shows gaps and reactions") {
+TEST_CASE("contact: eval chooses the contacts that stay closed, and derive shows gaps and reactions") {
     const std::string scene = source_path("scenes/textbook/bouncing_ball.toml");
     const Json open = Json::parse(run({"eval", scene, "--json"}).out),
                closed = Json::parse(run({"eval", scene, "--json", "--at", "y=0"}).out);

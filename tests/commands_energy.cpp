@@ -126,7 +126,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("commands: a prescribed motion does work, and a clock that moves nothing does none") {
+TEST_CASE("commands: a prescribed motion does work, and an input that moves nothing does none") {
     const auto driven = run({"simulate", temporary("driven.toml", jointed + run_table), "--json"});
     REQUIRE(driven.exit == 0);
     const Json json = Json::parse(driven.out);

@@ -141,7 +141,7 @@ position = ["l2*sin(theta2)", "-l2*cos(theta2)"]
 }
 
 // r = l₀ ± m g/k.
-TEST_CASE("equilibrium: coordinates that follow from others are put in") {
+TEST_CASE("equilibrium: coordinates that follow from others are substituted") {
     const Json two = found(textbook("elastic_pendulum"));
     CHECK(two["complete"] == true);
     CHECK(two["equilibria"].size() == 2);
@@ -189,7 +189,7 @@ damping = "c"
 }
 
 // V = (x² + y² − 1)²: a circle of equilibria.
-TEST_CASE("equilibrium: of a continuum one is shown, and said to be one of many") {
+TEST_CASE("equilibrium: one state of a continuum is shown, with a note that it is one of many") {
     const std::string ring = temporary("ring.toml", R"toml(
 [coordinates]
 x = 0.9
@@ -320,7 +320,7 @@ vector = ["-P*cos(b)", "-P*sin(b)"]
     CHECK(are_close(points(load, "hamiltonian hopf"), {3.5 - std::sqrt(2.0)}, 1e-10));
 }
 
-TEST_CASE("equilibrium: what has none is refused, each with its reason") {
+TEST_CASE("equilibrium: scenes without equilibria are refused, each with its reason") {
     const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
         const auto result = run(args);
         CAPTURE(result.err);

@@ -142,7 +142,7 @@ holonomic = "x = 0.1 + t^2"
 
 // Cranks of length 1, pins 2 apart, a coupler of 2: flat at a = b = c = 0, where the first row, (-sin a, sin b, -2
 // sin c), is zero.
-TEST_CASE("commands: constraints that lose their rank at a pose are named, not taken for a division by zero") {
+TEST_CASE("commands: constraints that lose rank at a pose are named, and not reported as a division by zero") {
     const auto scene = [](const std::string& more) {
         return temporary("flat.toml", R"toml(
 [coordinates]
@@ -182,7 +182,7 @@ holonomic = "sin(a) + 2*sin(c) = sin(b)"
     CHECK(std::abs(Json::parse(heavy.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
 }
 
-TEST_CASE("commands: what is not a number is blamed on its term, and a run that fails keeps what it had") {
+TEST_CASE("commands: a value that is not a number is traced to its term, and a run that fails keeps its results") {
     const std::string scene = temporary("fall.toml", R"toml(
 [coordinates]
 r = { initial = 1.0 }
@@ -206,7 +206,7 @@ duration = 10
     CHECK(at_centre.err.find("[energy] potential") != std::string::npos);
 }
 
-TEST_CASE("commands: a folder that cannot be written is exit 5, and no half file is left") {
+TEST_CASE("commands: a folder that cannot be written gives exit 5, and no incomplete file remains") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     CHECK(run({"simulate", scene, "-o", "/no/such/folder/x.csv"}).exit == 5);
     const std::string file = temporary("occupied", "");

@@ -105,7 +105,7 @@ TEST_CASE("commands: a planet gear's run keeps its digits through all poses") {
 // A ball rolls round inside a vertical cylinder: x and y obey the wall, so that its row along the radius follows
 // from it. It neither falls for ever nor rises: z'' = −(5/7) g + (2/7) r' …, and at the start without spin about
 // the radius z'' = −5/7 g.
-TEST_CASE("commands: a ball in a vertical cylinder starts where a row along N has no component") {
+TEST_CASE("commands: a ball in a vertical cylinder can start where a row along N vanishes") {
     for (const char* angle : {"0", "pi/2", "1"}) {
         const std::string scene = temporary("well.toml", fmt::format(R"toml(
 gravity = [0, 0, "-g"]

@@ -104,7 +104,7 @@ TEST_CASE("hard: a million steps of Kahan and Li over the outer solar system kee
 }
 
 // Errors grow with the pericentres, each 200 times faster than the far end.
-TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's equation has it") {
+TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's equation puts it") {
     const Json end = simulated(path_of("kepler"), {});
     CHECK(error(end, {{"x", -0.13516647736782103},
                       {"y", -0.073200184472628027},
@@ -112,7 +112,7 @@ TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's eq
                       {"y'", 0.78449894364958458}}) < 1e-8);
 }
 
-TEST_CASE("hard: the free body turns over as elliptic functions say") {
+TEST_CASE("hard: the free body turns over as given by elliptic functions") {
     const Json end = simulated(path_of("free_body"), {});
     CHECK(error(end,
                 {{"w1", 0.0447067883083085038}, {"w2", -0.999050200480192959}, {"w3", -0.0251574834491731180}}) <
@@ -120,7 +120,7 @@ TEST_CASE("hard: the free body turns over as elliptic functions say") {
     CHECK(end["energy_drift"].get<double>() < 1e-13);
 }
 
-TEST_CASE("hard: tops, fast and near sleeping, nutate as elliptic functions say") {
+TEST_CASE("hard: tops, fast and near sleeping, nutate as given by elliptic functions") {
     const Json fast = simulated(path_of("heavy_top_fast"), {});
     CHECK(error(fast, {{"theta", 1.00217590567521717}, {"phi", 0.503178285071918428}}) < 1e-12);
     // theta0 = 1e-6: the tilt at t = 100 is 1.0112065757852472e-5, the components of the quaternion half of that.
@@ -149,7 +149,7 @@ TEST_CASE("hard: Kapitza's pendulum stands above the critical frequency and fall
     CHECK(away(simulated(changed("kapitza", "value = 1.005", "value = 0.995"), {})) > 1e-5);
 }
 
-TEST_CASE("hard: Chaplygin's sleigh settles as its closed form says") {
+TEST_CASE("hard: Chaplygin's sleigh settles as in its closed form") {
     const Json end = simulated(path_of("chaplygin_sleigh"), {"--tolerance", "1e-12"});
     CHECK(error(end, {{"v", 2.29128781528791455},
                       {"w", 0.000343526576035294919},
@@ -171,14 +171,14 @@ TEST_CASE("hard: the spring of 1000 rad/s is followed through all its periods") 
 
 // The taut line vibrates at 4400 rad/s; its force is the small difference of large ones, a part in 1e6 of which is
 // rounding.
-TEST_CASE("hard: a million times heavier bob leaves what is determined of the motion right") {
+TEST_CASE("hard: with a bob a million times heavier, the determined part of the motion is right") {
     const Json end = simulated(path_of("mass_ratio"), {});
     CHECK(error(end, {{"theta1", -0.287003119617438600}, {"theta2", -0.287901527472195053}}) < 1e-7);
     CHECK(end["energy_drift"].get<double>() < 1e-12);
 }
 
 // The bounces end at sqrt(2h/g)(1 + e)/(1 - e).
-TEST_CASE("hard: the ball lies when all its bounces are over") {
+TEST_CASE("hard: the ball is at rest when all its bounces are over") {
     const Json end = simulated(path_of("bouncing_ball"), {"--tolerance", "1e-11"});
     const Json& last = end["contacts"].back();
     CHECK(last["event"] == "rest");

@@ -13,7 +13,7 @@ namespace commands_impact {
 using namespace alembert::test;
 
 // Zhang & Qin, example 1-4. By hand: m l² [4/3 1/2; 1/2 1/3] ω = S l (1, 1/2).
-TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, exactly as such") {
+TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, in exactly this form") {
     const auto result = run({"impact", source_path("scenes/textbook/struck_rods.toml"), "--json"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
@@ -143,7 +143,7 @@ TEST_CASE("impact: a generalized impulse is that of the forces that do its work"
 }
 
 // A string of length l, slack no longer: gap = l − r, approached at the outward speed u, which e turns back.
-TEST_CASE("impact: a string that becomes taut takes the outward speed and leaves the one across") {
+TEST_CASE("impact: a string that becomes taut removes the radial speed and keeps the transverse one") {
     const Json json = impact_of(R"toml(
 [parameters]
 m = 2
@@ -198,7 +198,7 @@ restitution = "e"
 
 // The same motion in the scene's own speeds, whose initial values replace the rates; the reader takes these
 // nowhere else.
-TEST_CASE("impact: speeds with initial values give what the rates that they mean give") {
+TEST_CASE("impact: speeds with initial values give the same result as the corresponding rates") {
     const std::string speeds =
         "[speeds]\nu1 = { form = \"theta1'\", initial = \"w1\" }\nu2 = { form = \"theta2' - theta1'\", initial = "
         "\"w2 - w1\" }\n";

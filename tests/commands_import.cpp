@@ -367,7 +367,7 @@ TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the 
     CHECK((M * change - torque).norm() < 1e-11 * torque.norm());
 }
 
-TEST_CASE("import: right angles of few digits are counted, and exact where that is asked for") {
+TEST_CASE("import: right angles written with few digits are counted, and made exact on request") {
     const auto robot = [](const std::string& rpy) {
         return robot_of(link_of("base") + link_of("arm", heavy) +
                         hinge_of("j", "continuous", "base", "arm",
@@ -397,7 +397,7 @@ TEST_CASE("import: right angles of few digits are counted, and exact where that 
     CHECK(imported("1.5708 -1.57 3.1416", {}).first == 3);
 }
 
-TEST_CASE("import: what is left out is told, what is merged too, and the scene keeps limits as remarks") {
+TEST_CASE("import: omitted and merged parts are reported, and the scene has limits as comments") {
     const std::string scene = temporary("told.toml", "");
     const auto result = run({"import", source_path("tests/robots/arm6.urdf"), "-o", scene});
     REQUIRE(result.exit == 0);
@@ -445,7 +445,7 @@ TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a pl
     CHECK(std::abs(planar["table_turn"].get<double>()) < 1e-13);
 }
 
-TEST_CASE("import: what is no robot is told in one message, and nothing is written") {
+TEST_CASE("import: a file that is no robot gives one message, and nothing is written") {
     const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
     std::string nested = "<robot name=\"r\">";
     for (int k = 0; k < 50000; ++k) nested += "<a>";

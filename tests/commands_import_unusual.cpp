@@ -52,7 +52,7 @@ double acceleration(const std::string& urdf) {
 
 }  // namespace
 
-TEST_CASE("import: what cannot be read of a mass, an inertia or a joint is refused with its line") {
+TEST_CASE("import: unreadable values of a mass, an inertia or a joint are refused with their line") {
     struct Case {
         Parts parts;
         int line;
@@ -96,7 +96,7 @@ TEST_CASE("import: what cannot be read of a mass, an inertia or a joint is refus
     }
 }
 
-TEST_CASE("import: unusual descriptions give the same motion as plain ones, and say what was completed") {
+TEST_CASE("import: unusual descriptions give the same motion as plain ones, and completed parts are reported") {
     const double plain = acceleration(file_of({}));
     const std::string no_products = R"(<inertia ixx="0.1" iyy="0.2" izz="0.15"/>)";
     struct Case {

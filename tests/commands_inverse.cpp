@@ -146,7 +146,7 @@ TEST_CASE("inverse: the drive of a four-bar follows from its own acceleration, t
     for (const auto& [name, load] : idle["loads"].items()) CHECK(std::abs(load.get<double>()) < 1e-11);
 }
 
-TEST_CASE("inverse: what is asked wrongly is told") {
+TEST_CASE("inverse: wrong requests are refused with a message") {
     const std::string scene = source_path("scenes/gallery/four_bar_joints.toml");
     const auto refused = [&](const std::vector<std::string>& at, const std::string& told) {
         std::vector<std::string> args{"inverse", scene};
@@ -164,7 +164,7 @@ TEST_CASE("inverse: what is asked wrongly is told") {
 }
 
 // F = m (a_C − g), M = H_C' + r × F, with r from the pin to the mass centre and ω along z, I diagonal.
-TEST_CASE("reactions: a pin bears what Newton's and Euler's laws say of its rod, whichever of them is the child") {
+TEST_CASE("reactions: those of a pin obey Newton's and Euler's laws for its rod, whichever body is the child") {
     const double m = 1.3, g = 9.81, a = 0.7, h = 0.2, s = std::sin(0.4), c = std::cos(0.4), w = 1.7;
     const double tau = 0.8, e = (tau - m * g * a * s) / (0.35 + m * a * a);
     const V3 force{m * a * (e * c - w * w * s), m * a * (e * s + w * w * c) + m * g, 0};
@@ -191,7 +191,7 @@ TEST_CASE("reactions: a pin bears what Newton's and Euler's laws say of its rod,
     check_near(three(pin["moment"]), {-moment[0], -moment[1], -moment[2]}, 1e-12);
 }
 
-TEST_CASE("reactions: derive shows what a pin bears as a textbook has it") {
+TEST_CASE("reactions: derive shows those of a pin as in a textbook") {
     const Json pin = json_of({"derive", temporary("pin.toml", with_forces(pendulum, {{"theta", 0.8}})),
                               "--reactions"})["joint_reactions"]["pin"];
     CHECK(pin["F_x"] == "1.3*a*theta''*cos(theta) - 1.3*a*theta'^2*sin(theta)");
@@ -301,7 +301,7 @@ TEST_CASE(
 // F = Σ m (a − g) − P and M = Σ (r_i − r_Q) × m (a − g) + H_i' − (r_tip − r_Q) × P over the base and an arm on it,
 // about the base's point Q of the joint; all from the positions and angular velocities of the bodies,
 // differentiated as outputs.
-TEST_CASE("reactions: a joint of each type bears what Newton's and Euler's laws say of all that hangs on it") {
+TEST_CASE("reactions: those of each type of joint obey Newton's and Euler's laws for all bodies beyond it") {
     struct Type {
         std::string name, rest;
     };
@@ -494,7 +494,7 @@ Q4 times(const Q4& p, const Q4& q) {
 
 }  // namespace
 
-TEST_CASE("reactions: a four-bar's joints bear the same wherever its loop is closed") {
+TEST_CASE("reactions: those of a four-bar's joints are the same wherever its loop is closed") {
     const std::string text = contents(source_path("scenes/gallery/four_bar_joints.toml"));
     const Json one = json_of({"eval", temporary("one.toml", text), "--reactions"});
     const auto q = [&](const char* name) { return one["coordinates"][name].get<double>(); };
@@ -524,7 +524,7 @@ TEST_CASE("reactions: a four-bar's joints bear the same wherever its loop is clo
     CHECK(std::abs(about_centre - 1.5 * 3.5 * 3.5 / 12 * second) < 1e-10);
 }
 
-TEST_CASE("reactions: a spatial linkage closed at a hinge bears there what it bears there as a tree") {
+TEST_CASE("reactions: at a hinge that closes a spatial linkage they are those of the same hinge in a tree") {
     const std::string text = contents(source_path("scenes/gallery/rssr.toml"));
     const Json one = json_of({"eval", temporary("one.toml", text), "--reactions"});
     const auto q = [&](const char* name) { return one["coordinates"][name].get<double>(); };

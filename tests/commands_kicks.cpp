@@ -110,7 +110,7 @@ TEST_CASE(
 
 // Of a swing A = θ'/ω = 0.05 the pendulum takes A²/16 of its period more: the limit of small swings is met to some
 // 2e-4.
-TEST_CASE("kicks: the clock of the gallery comes to the swing of its formula from below and from above") {
+TEST_CASE("kicks: the clock of the gallery approaches the amplitude of its formula from below and from above") {
     const double m = 1, l = 0.994, c = 0.062, P = 0.0048,
                  d = std::exp(-M_PI * c / std::sqrt(4 * m * m * g * l * l * l - c * c));
     for (const char* start : {"0.02", "0.08"}) {
@@ -160,7 +160,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("kicks: where rates jump the table has two rows, and speeds of the scene jump with them") {
+TEST_CASE("kicks: where rates jump, the table has two rows, and the scene's speeds jump too") {
     const std::string csv = temporary("batted.csv", "");
     const Json motion = simulated(batted(0.5, 1, 1), {"--no-estimate", "-o", csv});
     const double time = named(motion, "bat")[0]["time"];
@@ -439,7 +439,7 @@ duration = 5
         CHECK(std::abs(value(alone["events"][k], "time") - value(stiff["events"][k], "time")) < 1e-8);
 }
 
-TEST_CASE("kicks: what is stopped in flight falls on, though rounding leaves it on either side of the height") {
+TEST_CASE("kicks: a body stopped in flight falls on, even if rounding puts it on either side of the height") {
     for (const double h : {0.0, 1.0, 0.3})
         for (const std::string method : {"dopri5", "dop853", "verner98", "taylor", "abm", "radau"}) {
             const Json motion = simulated(batted(0, h, 3), {"--no-estimate", "--method", method});
@@ -450,7 +450,7 @@ TEST_CASE("kicks: what is stopped in flight falls on, though rounding leaves it 
         }
 }
 
-TEST_CASE("kicks: infinitely many in finite time end with a message, however fast they come") {
+TEST_CASE("kicks: infinitely many in a finite time end with a message, however fast they come") {
     for (const double e : {0.99, 0.8, 0.1, 0.001})
         for (const double h : {0.0, 1.0}) {
             const auto result = run({"simulate", batted(e, h, 1000), "--no-estimate"});
@@ -461,7 +461,7 @@ TEST_CASE("kicks: infinitely many in finite time end with a message, however fas
         }
 }
 
-TEST_CASE("kicks: bench measures them against a strict run, and what does not follow them says so") {
+TEST_CASE("kicks: bench compares them with a strict run, and methods that do not support them say so") {
     const std::string scene = temporary("escapement.toml", escapement);
     const auto measured = run({"bench", scene, "--method", "dop853", "--duration", "5", "--json"});
     REQUIRE(measured.exit == 0);

@@ -58,7 +58,7 @@ TEST_CASE("linearize: JSON has the matrices, the states and the eigenvalues") {
     CHECK(std::abs(sum - A.trace()) < 1e-13);
 }
 
-TEST_CASE("linearize: a state that is not steady exits with 3 and says what is left") {
+TEST_CASE("linearize: a state that is not steady gives exit 3 and the residual") {
     const auto result = run({"linearize", bicycle});
     CHECK(result.exit == 3);
     CHECK(result.out.empty());
@@ -89,7 +89,7 @@ TEST_CASE("bicycle: energy and constraints are kept, and the speed settles") {
 }
 
 // x(t) = exp(A t) x(0) + O(kick²).
-TEST_CASE("bicycle: after a small kick it moves as the eigenvalues say") {
+TEST_CASE("bicycle: after a small kick it moves according to the eigenvalues") {
     std::ifstream stream(bicycle);
     std::ostringstream text;
     text << stream.rdbuf();
@@ -246,7 +246,7 @@ TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, 
     CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
 }
 
-TEST_CASE("linearize: a state that is none names one that is") {
+TEST_CASE("linearize: for a state that is not steady, the message names one that is") {
     const auto result = run({"linearize", source_path("scenes/textbook/rotating_hoop.toml"), "--at", "theta=0.8"});
     CHECK(result.exit == 3);
     CHECK(result.err.find("theta'' = ") != std::string::npos);
@@ -254,7 +254,7 @@ TEST_CASE("linearize: a state that is none names one that is") {
 }
 
 // M x'' = F − m g θ − b x', l θ'' = g θ − x''; the outputs see accelerations and the force itself.
-TEST_CASE("linearize: a cart's matrices of inputs and outputs are those by hand") {
+TEST_CASE("linearize: a cart's matrices of inputs and outputs are those derived by hand") {
     const std::string cart = temporary("cart.toml", R"toml(
 gravity = [0, "-g"]
 [parameters]

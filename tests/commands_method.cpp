@@ -76,7 +76,8 @@ TEST_CASE(
     CHECK(simulated(kink, {"--tolerance", "1e-14"})["method"] == "verner98");
 }
 
-TEST_CASE("auto: forces with rates keep a long run with a fixed step from being symplectic") {
+TEST_CASE(
+    "auto: with forces that depend on rates, a long run with a fixed step does not use a symplectic method") {
     const std::string damped = temporary("damped.toml",
                                          "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
                                          "\"-x - 0.01*x'\"\n[simulation]\nduration = 20\n");
@@ -102,7 +103,7 @@ TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and en
     CHECK(text.out.find("the system is stiff there") != std::string::npos);
 }
 
-TEST_CASE("auto: taylor too gives way to radau where stiffness holds its steps") {
+TEST_CASE("auto: taylor too changes to radau where stiffness limits its steps") {
     const Json result = simulated(temporary("stiff.toml", stiff), {"--tolerance", "1e-13"});
     CHECK(result["method"] == "taylor");
     REQUIRE(result.contains("switched"));

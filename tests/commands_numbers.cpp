@@ -122,7 +122,7 @@ TEST_CASE("numbers: impact without a blow leaves the motion of a scene that give
     }
 }
 
-TEST_CASE("numbers: powers that are no whole ones do not keep the derivation from its end") {
+TEST_CASE("numbers: fractional powers do not prevent the derivation from ending") {
     // In a^(1/1250), a common denominator of the exponents, this inertia is of degree 3927.
     const std::string body =
         "[parameters]\nm1 = 2\na = 0.66\n[coordinates]\ntheta = 0.3\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", "

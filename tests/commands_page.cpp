@@ -154,7 +154,7 @@ TEST_CASE("page: a scene that cannot be read has a page with the mistake, and th
     CHECK(page.find("role=\"alert\"") != std::string::npos);
 }
 
-TEST_CASE("page: where a step fails its message stands there, and the rest is there") {
+TEST_CASE("page: a step that fails is replaced by its message, and the rest is complete") {
     // Half of the scene has no inertia: it derives, and cannot be run.
     const std::string scene =
         temporary("singular.toml",

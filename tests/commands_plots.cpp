@@ -90,7 +90,7 @@ PlotPoints first_line(const std::string& svg) {
 
 }  // namespace
 
-TEST_CASE("plot: ticks are round numbers inside the range, two at least and no more than asked for") {
+TEST_CASE("plot: ticks are round numbers inside the range, at least two and not more than requested") {
     for (const auto& [low, high] :
          {std::pair{-0.83, 1.02}, {0.0, 10.0}, {-6.1, 4.3}, {1e-9, 3.1e-9}, {-2e7, 5e7}, {99.99, 100.01}})
         for (const int most : {3, 5, 9}) {

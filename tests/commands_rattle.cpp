@@ -88,7 +88,7 @@ duration = 3
 
 }  // namespace
 
-TEST_CASE("rattle: the Cartesian pendulum keeps its length and its energy, and is where its angle says") {
+TEST_CASE("rattle: the Cartesian pendulum keeps length and energy and is where the angle's equation puts it") {
     const std::string scene = source_path("scenes/benchmark/cartesian_pendulum.toml");
     const Json angle =
         simulated(temporary("angle.toml", by_angle), {"--tolerance", "1e-13", "--method", "dop853"});
@@ -186,7 +186,7 @@ holonomic = "0.2*sin(phi) = 0.5*sin(beta)"
     }
 }
 
-TEST_CASE("rattle: a body turned by a quaternion spins as Euler's equations have it") {
+TEST_CASE("rattle: a body turned by a quaternion spins according to Euler's equations") {
     const Json exact = simulated(textbook("free_body_quaternion"),
                                  {"--tolerance", "1e-13", "--method", "dop853", "--duration", "5"});
     const Json high = simulated(textbook("free_body_quaternion"),
@@ -198,7 +198,7 @@ TEST_CASE("rattle: a body turned by a quaternion spins as Euler's equations have
               .err.find("generalized speeds") != std::string::npos);
 }
 
-TEST_CASE("rattle: constraints of rates are refused with the name of one, and a step is asked for") {
+TEST_CASE("rattle: constraints on rates are refused by name, and a step is required") {
     const auto sled = run({"simulate", textbook("sled"), "--method", "rattle", "--step", "0.01"});
     CHECK(sled.exit == 3);
     CHECK(sled.err.find("one of rates") != std::string::npos);
@@ -242,7 +242,7 @@ TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, dri
     CHECK(stiff.contains("jacobian_operations"));
 }
 
-TEST_CASE("sundials: rows fall on the grid, the estimate is made, and budgets end a run with what there is") {
+TEST_CASE("sundials: rows fall on the grid, the error is estimated, and a used-up budget keeps the results") {
     if (!has_sundials()) return;
     const std::string scene = textbook("cartesian_pendulum"), file = temporary("rows.csv", "");
     const auto result =

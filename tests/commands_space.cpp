@@ -437,7 +437,7 @@ lean = "tilt"
     CHECK(proved.out.substr(0, proved.out.find('\n')).ends_with(": proved"));
 }
 
-TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {
+TEST_CASE("space: gimbal lock is reported with the frame, and a quaternion passes through the pose") {
     const std::string by_angles = source_path("scenes/textbook/heavy_top.toml");
     const std::string upright = temporary(
         "upright.toml", replaced(textbook("heavy_top"), "theta = { initial = 1,", "theta = { initial = 0,"));
@@ -486,7 +486,7 @@ TEST_CASE("space: the rattleback turns back in one sense and goes on in the othe
     for (const double spin : on) CHECK(spin > 4.9);
 }
 
-TEST_CASE("space: what is wrong with a quaternion or a contact at the scene's values is told") {
+TEST_CASE("space: mistakes in a quaternion or a contact at the scene's values are reported") {
     const auto off =
         run({"derive", temporary("off.toml", replaced(textbook("free_body_quaternion"), "e1 = 0", "e1 = 0.01"))});
     CHECK(off.exit == 3);
@@ -537,7 +537,7 @@ TEST_CASE("space: the Furuta pendulum of bodies obeys its hand derivation, and i
     CHECK(json_of({"simulate", scene, "--json"})["work_balance"].get<double>() < 1e-10);
 }
 
-TEST_CASE("space: moments that no body has are refused or told, with the body, at the values of the run") {
+TEST_CASE("space: impossible moments are refused or reported with the body, at the values of the run") {
     const std::string text =
         "[parameters]\nJ = 1\n[coordinates]\nphi = 0\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", "
         "\"phi\"]]\n[[body]]\nname = \"B\"\n"
@@ -568,7 +568,7 @@ TEST_CASE("space: moments that no body has are refused or told, with the body, a
     CHECK(about.err.find("(about its mass centre; they are given about 'P'), -0.15, ") != std::string::npos);
 }
 
-TEST_CASE("space: a loop that cannot close is told with the joint, and how far apart its bodies stand") {
+TEST_CASE("space: a loop that cannot close is reported with its joint and the distance of its bodies") {
     const std::string text =
         "[[body]]\nname = \"A\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"a\"\ntype = "
         "\"revolute\"\nparent = \"N\"\n"

@@ -120,7 +120,7 @@ TEST_CASE("commands: all ways of elimination give the same motion, multipliers a
     }
 }
 
-TEST_CASE("commands: eval and simulate give speeds by name, rates still by coordinate") {
+TEST_CASE("commands: eval and simulate give speeds by name, and rates by coordinate") {
     const std::string scene = source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml");
     const Json json = json_of({"eval", scene, "--json", "--at", "v=0.3", "--at", "w=-1", "--at", "phi=0.4"});
     CHECK(json["speeds"] == Json{{"v", 0.3}, {"w", -1.0}});  // as given, not by way of the rates

@@ -42,7 +42,7 @@ name = "c"
 
 }  // namespace
 
-TEST_CASE("commands: a start that obeys its constraints but for rounding is taken, in positions and in rates") {
+TEST_CASE("commands: a start that obeys its constraints up to rounding is accepted, in positions and in rates") {
     for (const auto& [constraint, x, theta] : {
              std::array<const char*, 3>{R"x(holonomic = "x - l*cos(theta)")x", "0", "pi/2"},
              {R"x(holonomic = "x - l*sin(theta)")x", "0", "pi"},

@@ -109,7 +109,7 @@ TEST_CASE("streams: a standard output that is full or closed is exit 5 with a me
     }
 }
 
-TEST_CASE("streams: a reader that goes away ends the program in silence") {
+TEST_CASE("streams: a reader that stops reading ends the program silently") {
     const Run result = run_shell(R"({ sleep 0.1; "$ALEMBERT" derive "$1" --json; echo $? >&3; } 3>&2 | true)",
                                  {source_path("scenes/textbook/cart_pole.toml")});
     CHECK(result.err == "141\n");  // 128 + SIGPIPE

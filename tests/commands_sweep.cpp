@@ -52,7 +52,7 @@ Json sweep(std::vector<std::string> words, int exit = 0) {
 
 }  // namespace
 
-TEST_CASE("sweep: each row is what simulate gives from that state") {
+TEST_CASE("sweep: each row is the result of simulate from that state") {
     const std::string scene = source_path("scenes/benchmark/double_pendulum_regular.toml");
     const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary",
                               "theta2'=-0.5:0.5:2", "--duration", "3"});
@@ -132,7 +132,7 @@ TEST_CASE(
     CHECK(broken["failed"].get<int>() >= 1);
 }
 
-TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
+TEST_CASE("sweep: mistakes in --vary are reported, with exit code 3") {
     const std::string scene = temporary("spring.toml", spring);
     for (const auto& [vary, words] :
          std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},

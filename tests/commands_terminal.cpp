@@ -88,7 +88,7 @@ TEST_CASE("wrap: a line is broken before operators, outside parentheses where th
     CHECK(wrapped("θ″ + ω²·sin θ + ω²·θ³ = 0", 20) == "θ″ + ω²·sin θ\n    + ω²·θ³ = 0");
 }
 
-TEST_CASE("command line: mistakes in verbs, options and formalisms are told with the nearest name") {
+TEST_CASE("command line: mistakes in verbs, options and formalisms are reported with the nearest name") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     const auto says = [](const std::vector<std::string>& words, const std::string& what) {
         const auto result = run(words);
@@ -170,7 +170,7 @@ TEST_CASE("man: every page passes mandoc, and names every option of its verb") {
     }
 }
 
-TEST_CASE("warnings: those found before an error are told too") {
+TEST_CASE("warnings: those found before an error are printed too") {
     // The inertia breaks the triangle inequality (a warning), and the formalism does not exist (an error).
     const std::string scene = temporary(
         "warned.toml",
@@ -186,7 +186,7 @@ TEST_CASE("warnings: those found before an error are told too") {
     CHECK(result.err.find("warning") == result.err.rfind("warning"));  // once
 }
 
-TEST_CASE("wording: numbers of one, fractions, rounding and digits read as a person would write them") {
+TEST_CASE("wording: singulars, fractions, rounding and digits read as a person would write them") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     CHECK(run({"emit", scene, "-o", alembert::test::temporary_folder("solver")}).out.find("1 multiplication,") !=
           std::string::npos);

@@ -108,7 +108,7 @@ bool is_built() {
 
 }  // namespace
 
-TEST_CASE("watch: it answers this machine's names alone, and serves nothing but the page and its events") {
+TEST_CASE("watch: it answers only to this machine's names, and serves nothing but the page and its events") {
     if (!is_built()) return;
     const Watching watching(scene_text);
     const int port = watching.port;
@@ -137,7 +137,7 @@ TEST_CASE("watch: it answers this machine's names alone, and serves nothing but 
     CHECK(page.find("Access-Control-Allow-Origin") == std::string::npos);
 }
 
-TEST_CASE("watch: a saved scene is told to the browser, and a mistake is shown in the page where it stands") {
+TEST_CASE("watch: the browser is informed of a saved scene, and the page shows a mistake at its place") {
     if (!is_built()) return;
     const Watching watching(scene_text);
     const std::string ours = "127.0.0.1:" + std::to_string(watching.port);

@@ -243,7 +243,7 @@ TEST_CASE("docs: the schema has every table and key of the reader, and no other"
     compare(of_the_schema(), of_the_reader(), "docs/scene.schema.json");
 }
 
-TEST_CASE("docs: the reader's list has the tables that it reads, in the shape that it says") {
+TEST_CASE("docs: the reader's list has the tables that it reads, in the shape that the list gives") {
     for (const TableKeys& table : table_keys) {
         if (table.table.empty() || table.shape == TableKeys::Shape::inner || table.keys().empty()) continue;
         const std::string told = complaints(title_of(table) + "\nno_such_key_ = 1\n");

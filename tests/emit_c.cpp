@@ -101,7 +101,7 @@ void compare(const Library& library, const Emission& e) {
 
 }  // namespace
 
-TEST_CASE("emit: C99 without a warning, whose rates and Jacobian are those of the program") {
+TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian are those of the program") {
     const Folder folder;
     std::vector<std::unique_ptr<Emission>> all;
     std::string files;

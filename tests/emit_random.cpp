@@ -86,7 +86,7 @@ std::string complaints(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("emit: what is emitted for five hundred small scenes at random compiles, with every option") {
+TEST_CASE("emit: the files of five hundred small random scenes compile, with every option") {
     const char* const asked = std::getenv("ALEMBERT_RANDOM_SCENES");
     const unsigned count = asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : 500U, together = 50;
     unsigned refused = 0;

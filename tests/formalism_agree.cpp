@@ -164,7 +164,7 @@ TEST_CASE("agree: every scene is proved") {
 
 // Pleiades: 21 square roots, all of which exist at one point in two million; Kapitza: an angle of time by a number
 // of 16 decimals.
-TEST_CASE("agree: a root for each pair of bodies, and decimals in angles") {
+TEST_CASE("agree: scenes with a root for each pair of bodies, or with decimals in angles, are decided") {
     for (const char* const name : {"pleiades", "kapitza"}) {
         CAPTURE(name);
         const Mechanism mechanism =
@@ -204,7 +204,7 @@ TEST_CASE("agree: a formalism with one wrong entry is refuted") {
     }
 }
 
-TEST_CASE("kane and dalembert: refuse energies that belong to no body, and say why") {
+TEST_CASE("kane and dalembert: energies that belong to no body are refused with the reason") {
     const Mechanism m = prepared(read_scene(test::source_path("tests/odd/kinetic.toml"))).mechanism;
     CHECK_THROWS_WITH_AS(kane(m), doctest::Contains("[energy] kinetic"), ModelError);
     CHECK_THROWS_WITH_AS(dalembert(m), doctest::Contains("[energy] kinetic"), ModelError);

@@ -192,7 +192,7 @@ TEST_CASE("generator: emitted function, interpreter and plain derivatives agree 
     for (const std::string& file : test::scenes_in("scenes/textbook")) agrees(file, true);
 }
 
-TEST_CASE("generator: every node of a program says whose term it is") {
+TEST_CASE("generator: every node of a program has the source of its term") {
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
         const Mechanism mechanism = prepared(read_scene(file)).mechanism;

@@ -81,7 +81,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("generator: the hand derivations that textbook scenes carry hold") {
+TEST_CASE("generator: the hand derivations in textbook scenes hold") {
     int claims = 0;
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);

@@ -129,7 +129,7 @@ TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbour
     }
 }
 
-TEST_CASE("ensemble: one that fails says why, as alone, and changes no other by a bit") {
+TEST_CASE("ensemble: a member that fails says why, as in a single run, and changes no bit of another") {
     const Module module = module_of("scenes/textbook/elastic_pendulum.toml");
     Ensemble e = random_members(module, 20);
     const Options options{.tolerance = 1e-10, .budget = 5000};

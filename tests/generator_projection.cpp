@@ -96,7 +96,7 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
     CHECK(scenes >= 5);
 }
 
-TEST_CASE("projection: a run that went astray is forgotten before the next") {
+TEST_CASE("projection: a failed run is forgotten before the next") {
     const Mechanism m =
         prepared(read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"))).mechanism;
     const Program program = choose(m, routh(m)).program;

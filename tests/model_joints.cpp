@@ -572,7 +572,7 @@ TEST_CASE("joints: every formalism that applies gives the same equations of the 
 }
 
 // Of six directions a joint leaves those in which it moves; a quaternion is four coordinates for three of them.
-TEST_CASE("joints: what is locked and what moves are six directions in all") {
+TEST_CASE("joints: locked and free directions are six in all") {
     for (const std::string& name : joint_types()) {
         CAPTURE(name);
         const Joint::Type type = joint_type_named(name).value();

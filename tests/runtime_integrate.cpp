@@ -125,7 +125,7 @@ TEST_CASE("trajectory: rows between steps are as good as the steps") {
     }
 }
 
-TEST_CASE("statistics: evaluations are counted, and steps are told") {
+TEST_CASE("statistics: evaluations and steps are counted") {
     long calls = 0, told = 0;
     double last = -1;
     const Rhs counted = make_rhs(1, [&calls](double, const double* y, double* rate) {
@@ -160,7 +160,7 @@ TEST_CASE("statistics: evaluations are counted, and steps are told") {
     CHECK(!method_named("dop8530"));
 }
 
-TEST_CASE("quadrature: it follows the motion and does not touch its steps") {
+TEST_CASE("quadrature: it follows the motion and does not affect its steps") {
     const Rhs wild = make_rhs(
         2,
         [](double t, const double* y, double* rate) {
@@ -202,7 +202,7 @@ TEST_CASE("failure: a solution that blows up ends in step size underflow at its 
     }
 }
 
-TEST_CASE("failure: a rate that stops being a number is approached, and the component named") {
+TEST_CASE("failure: a run ends close to where a rate stops being a number, and the component is named") {
     Rhs edge = make_rhs(2, [](double t, const double*, double* rate) {
         rate[0] = 1;
         rate[1] = std::sqrt(1 - t);
@@ -218,7 +218,7 @@ TEST_CASE("failure: a rate that stops being a number is approached, and the comp
     CHECK(std::abs(motion.failure->state[1] - 2. / 3) < 1e-7);  // error control sees little of the kink
 }
 
-TEST_CASE("failure: a rate that is not a number at the start is said at once") {
+TEST_CASE("failure: a rate that is not a number at the start is reported at once") {
     const Trajectory motion = integrate(decay(), {not_a_number}, {.duration = 1});
     REQUIRE(motion.failure);
     CHECK(motion.failure->kind == FailureKind::not_a_number);
@@ -254,7 +254,7 @@ TEST_CASE("failure: a budget that is used up keeps the rows until then") {
     }
 }
 
-TEST_CASE("options: what makes no sense is refused with its name") {
+TEST_CASE("options: invalid ones are refused by name") {
     const auto refusal = [](const Options& options, const std::vector<double>& initial = {1.0}) -> std::string {
         try {
             integrate(decay(), initial, options);
@@ -278,7 +278,7 @@ TEST_CASE("options: what makes no sense is refused with its name") {
 }
 
 // x'' + x = exp(−((t − 5)/w)²) from rest: x(20) = w √π exp(−w²/4) sin 15.
-TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are no shorter elsewhere") {
+TEST_CASE("quick times: steps that know of a narrow pulse do not miss it, and are no shorter elsewhere") {
     const double w = 1e-4, exact = w * std::sqrt(std::acos(-1.0)) * std::exp(-w * w / 4) * std::sin(15.0);
     const Rhs rhs = make_rhs(2, [=](double t, const double* y, double* rate) {
         rate[0] = y[1];

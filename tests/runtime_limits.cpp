@@ -103,7 +103,7 @@ TEST_CASE(
 }
 
 // A step whose error is rounding alone cannot be made better by a shorter one.
-TEST_CASE("no crawl: tolerances beyond rounding take a few times the evaluations of 1e-13, not thousands") {
+TEST_CASE("limits: tolerances below rounding take a few times the evaluations of 1e-13, not thousands") {
     const Rhs pendulum =
         make_rhs(2, [](double, const double* y, double* f) { f[0] = y[1], f[1] = -9.81 * std::sin(y[0]); });
     const Rhs planet = make_rhs(4, [](double, const double* y, double* f) {

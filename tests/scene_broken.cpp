@@ -65,7 +65,7 @@ std::vector<Diagnostic> told(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("broken scenes: each is refused for what it says it is, there, and for nothing else") {
+TEST_CASE("broken scenes: each is refused for the mistake that it announces, at its place, and for no other") {
     const auto paths = broken_scenes();
     CHECK(paths.size() >= 40);
     for (const auto& path : paths) {
@@ -149,7 +149,7 @@ TEST_CASE("broken scenes: after twenty mistakes the rest are counted") {
     }
 }
 
-TEST_CASE("broken scenes: files that cannot be read are told as such") {
+TEST_CASE("broken scenes: files that cannot be read are reported as such") {
     const auto message = [](const std::string& file) -> std::string {
         try {
             read_scene(file);
@@ -164,7 +164,7 @@ TEST_CASE("broken scenes: files that cannot be read are told as such") {
     CHECK(message("") == ": no such file\n");
 }
 
-TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anything ends soon") {
+TEST_CASE("broken scenes: more than a mebibyte is refused, and a mebibyte of anything is processed quickly") {
     const std::string head = "[coordinates]\nx = 0\n";
     const auto fill = [&](std::string text, const std::string& piece) {
         while (text.size() + piece.size() <= 1024 * 1024) text += piece;
@@ -200,7 +200,7 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anythi
     }
 }
 
-TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
+TEST_CASE("broken scenes: every mutation of a scene is read or refused") {
     std::string whole = text_of(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
     REQUIRE(told(whole).empty());
     const std::vector<std::string> pieces{
