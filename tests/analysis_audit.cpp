@@ -105,7 +105,7 @@ TEST_CASE("integrability: combinations of two differentials are integrable toget
     CHECK(!is_integrable(m, forms[1]));
     CHECK(joint(m) == Answers{true, true});
     CHECK(integrals(m) == 2);
-    // One of the coefficients of dF disturbed: neither is left.
+    // With one coefficient of dF changed, neither is integrable.
     const Mechanism other = with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G),
                                                              fmt::format("sin(w)*{} + v*{} + x*y*v'", F, G)});
     CHECK(joint(other) == Answers{false, false});
@@ -116,15 +116,16 @@ TEST_CASE(
     const Mechanism two = with({"x", "y", "z"}, {"z' - y*x'", "x' - z*y'"});
     CHECK(joint(two) == Answers{true, true});
     CHECK(integrability({forms_of(two)[0]}, two, {}, {}).integrable == Answers{false});
-    CHECK(integrals(with({"x", "y", "z"}, {"z' - y*x'", "x' - t*z*y'"})) == 0);  // t is a fourth variable
+    CHECK(integrals(with({"x", "y", "z"}, {"z' - y*x'", "x' - t*z*y'"})) == 0);  // here t is a fourth variable
     CHECK(joint(with({"x", "y", "phi", "theta"}, {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)"},
                      "r = 1.0")) == Answers{false, false});
     CHECK(joint(with({"x", "y", "phi"}, {"x'*sin(phi) - y'*cos(phi)"})) == Answers{false});
     CHECK(joint(with({"x", "y", "z"}, {"z' - y*x'", "y'"})) == Answers{true, true});
 }
 
-// The derived flags of Engel's and Goursat's forms fall by one each step, to nothing (Bryant et al., II.4-5): no
-// integral shows before the last bracket. With u' − (xw)' beside them one is left, that one.
+// The rank of the derived flags of Engel's and Goursat's forms falls by one in each step, to zero (Bryant et al.,
+// II.4-5), so that only the last bracket shows that there is no integral. If u' − (xw)' is added, one integral
+// remains, that one.
 TEST_CASE("integrability: the derived flag is followed to its end") {
     CHECK(integrals(with({"x", "y", "z", "w"}, {"y' - z*x'", "z' - w*x'"})) == 0);
     CHECK(integrals(with({"x", "y", "z", "w", "v"}, {"y' - z*x'", "z' - w*x'", "w' - v*x'"})) == 0);
@@ -152,8 +153,8 @@ TEST_CASE(
     CHECK(audit.degrees_of_freedom == 2);
 }
 
-// Beside z = 0 the form is not integrable; on it x' = 0 is left. And the other way round: on x = y the form is z'
-// − y·x' with dx = dy.
+// Outside z = 0 the form is not integrable; on it x' = 0 remains. In the second case, on x = y, the form is z' −
+// y·x' with dx = dy.
 TEST_CASE("integrability: it is decided at states that obey the holonomic constraints") {
     const Mechanism flat = with({"x", "y", "z = 0"}, {"z", "x' + z*x*y' + z*y'"});
     const Audit audit = audit_of(flat);
@@ -184,7 +185,7 @@ TEST_CASE("integrability: if the loop has no exact point, a " no " is confirmed 
     CHECK(yes.constraints[2].integrable == true);
 }
 
-// Of w = μ dF an integral G is a function of F: dG ∧ dF = 0.
+// An integral G of w = μ dF is a function of F: dG ∧ dF = 0.
 TEST_CASE("integral: that of dF times a factor is a function of F") {
     struct Case {
         const char *function, *factor;
@@ -229,7 +230,7 @@ TEST_CASE("integral: that of dF times a factor is a function of F") {
     CHECK(!integral_of(forms_of(sleigh)[0], sleigh));
     const Mechanism three = with({"x", "y", "z"}, {"z' - y*x'"});
     CHECK(!integral_of(forms_of(three)[0], three));
-    CHECK(integral_of(forms_of(three)[0], three, {1}));  // y keeps its value
+    CHECK(integral_of(forms_of(three)[0], three, {1}));  // y is constant
 }
 
 TEST_CASE("variety: its points obey the constraints exactly, with parameters and angles solved for") {
@@ -285,7 +286,7 @@ TEST_CASE(
     CHECK(redundant({"x^2 + y^2 - 1", "z*x*x' + z*y*y'", "exp(x)*(z' - y*x')", "z' - y*x'"}) ==
           std::vector{0, 1, 0, 1});
     CHECK(redundant({"x*x' + y*y'", "x^2 + y^2 - 1"}) == std::vector{1, 0});
-    // Dependent where the circle is, and nowhere else.
+    // The rows are dependent on the circle, and nowhere else.
     CHECK(redundant({"x^2 + y^2 - 1", "z*(x^2 + y^2 - 1) + x^2 + y^2 - 1"}) == std::vector{0, 1});
     CHECK(redundant({"x' + y' - z'", "x' - y'", "2*x' - z'"}) == std::vector{0, 0, 1});
     CHECK(redundant({"(sin(x)^2 + cos(x)^2 - 1)*x'", "z'"}) == std::vector{1, 0});
@@ -313,9 +314,9 @@ TEST_CASE("audit: constraints that contradict each other are named, and no other
     CHECK(hidden.constraints[1].notes[0].find("force a relation") != std::string::npos);
 }
 
-// The minors of the loop's A are a b sin(al − be) and so on: all links on one line. A parallelogram closes so at
-// al = ga = 0 or π with be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be = 0,
-// Grashof's alone never.
+// The minors of the loop's A are a b sin(al − be) and so on: all links are on one line. A parallelogram closes in
+// this way at al = ga = 0 or π with be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be
+// = 0, Grashof's alone never.
 TEST_CASE("audit: a linkage that can lie flat has lost a row there, and Grashof's cannot") {
     const auto poses = [](const std::string& lengths, const std::string& be, const std::string& ga) {
         const Audit audit = audit_of(
@@ -366,7 +367,7 @@ TEST_CASE("audit: a constraint that is declared wrongly is reported with its int
              "a = 1\nb = 4\nc = 3.5"));
     CHECK(text(*bar.constraints[0].integral) == "a*cos(al) + b*cos(be) - c*cos(ga)");
     CHECK(text(*bar.constraints[1].integral) == "a*sin(al) + b*sin(be) - c*sin(ga)");
-    // Together with another.
+    // Integrable together with another constraint.
     const Audit coin = audit_of(with({"x", "y", "phi", "theta"},
                                      {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)", "theta'"}, "r = 1.0"));
     CHECK(coin.constraints[0].alone == false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Verdicts on hand derivations: right ones in any dress are proved, wrong ones refuted with the slip named.
+// Verdicts on hand derivations: right ones in any form are proved, wrong ones are refuted and the slip is named.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ sin(alpha) = 0
     CHECK_FALSE(result.complete);
 }
 
-// m x'' = a tan φ, m y'' = −a with any scale of a; x'' = … alone is taken up by a.
+// m x'' = a tan φ, m y'' = −a with any scale of a; a claim x'' = … alone can be satisfied by the choice of a.
 TEST_CASE(
     "check: unknown multipliers are in the author's sign and scale, and a claim that one takes up alone is "
     "vacuous") {
@@ -408,8 +408,8 @@ beta = 2*atan(2/3)
     CHECK_FALSE(result.claims[3].counterexample.empty());
 }
 
-// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by
-// Cramer's rule.
+// No constraint has an unknown of its own, and no two constraints have two. b' follows from the rows of the rates
+// by Cramer's rule.
 TEST_CASE("check: constraints that cannot be solved one after the other") {
     const Scene scene = parse_scene(R"toml([coordinates]
 a = { initial = 0.5, rate = 2.0 }
@@ -446,7 +446,7 @@ sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
         CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
 }
 
-// x² = l² has two branches; nothing says which.
+// x² = l² has two branches; the claim does not say which.
 TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
     const Scene scene = parse_scene(
         "[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
@@ -459,9 +459,9 @@ TEST_CASE("check: a claim that holds on one branch of a constraint only is refut
     for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
 }
 
-// Two rows of one constraint, of which the second is left out: a claim that names its multiplier speaks of both,
-// of which the sum of forces alone is determined; one that does not speaks of the first as of the only one.
-// The least multipliers are in the ratio of the rows, 1 : 2, and exert the force (1 + 2·2)·lambda_c1 together.
+// There are two rows of one constraint, and the second is left out. A claim with its multiplier is about both, of
+// which only the sum of forces is determined; a claim without it treats the first as the only one. The multipliers
+// of least norm are in the ratio of the rows, 1 : 2, and together exert the force (1 + 2·2)·lambda_c1.
 TEST_CASE("check: the multipliers of a constraint and of its double") {
     const Scene scene = parse_scene(
         "[parameters]\nm = 1\ng = 9.81\n[coordinates]\nx = 0.2\ny = 0.2\n"
@@ -524,7 +524,7 @@ holonomic = "{}"
     CHECK(verdicts("a - 2*b = pi/2",
                    "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
     CHECK(verdicts("a - 2*b = pi/3", "2*cos(a) = cos(2*b) - sqrt(3)*sin(2*b)\ncos(a) = cos(2*b)\n") == "pr");
-    // No turn by π/5 in the field: what cannot be decided is not called wrong.
+    // The field has no turn by π/5; a claim that cannot be decided is not called wrong.
     CHECK(verdicts("a - 2*b = pi/5", "cos(a) = cos(2*b + pi/5)\ncos(a) = cos(2*b)\n") == "ur");
 }
 
@@ -682,7 +682,7 @@ m*g = 2*lambda6*(y6-y5)
     CHECK(result.claims[4].verdict != Verdict::proved);
 }
 
-// Rest of two weights on a rope needs m1 = m2; by a quotient of (m1 − m2)·g everything would follow.
+// Rest of two weights on a rope needs m1 = m2; with a division by (m1 − m2)·g everything would follow.
 TEST_CASE("check: a claim that would follow from unequal weights at rest is refuted") {
     const Scene scene = parse_scene(R"(title = "Atwood's machine with springs"
 gravity = [0, "-g"]

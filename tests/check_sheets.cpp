@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Roots on the sheet of the initial state, and formulas that are right on one branch. What is proved is held
-// against floating point: `eval`, which computes the roots themselves.
+// Roots on the sheet of the initial state, and formulas that are right on one branch. Proved formulas are compared
+// with `eval`, which computes the roots themselves in floating point.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

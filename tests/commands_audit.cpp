@@ -88,7 +88,7 @@ TEST_CASE("commands: audit reports what is wrong with the constraints before it 
     CHECK(run({"audit", "nowhere.toml"}).exit == 3);
 }
 
-// z' = 0 comes out of the least-squares step as some 1e-18, beside which 1e-9 of the terms' sizes is nothing.
+// The least-squares step gives about 1e-18 for z' = 0, and 1e-9 of the sizes of its terms is even smaller.
 TEST_CASE("commands: guesses that end at zero up to rounding have converged") {
     const std::string disc = temporary("disc.toml", R"toml(
 [parameters]
@@ -137,7 +137,7 @@ nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
     const Json json = Json::parse(result.out);
     CHECK(json["rank"] == 3);
     CHECK(json["degrees_of_freedom"] == 3);
-    CHECK(json["coordinates_free"] == 5);  // a disc that rolls reaches every place, heading, lean and turn
+    CHECK(json["coordinates_free"] == 5);  // a rolling disc reaches every position, heading, lean and rotation
     CHECK(json["constraints"][1]["integrable"] == false);
     CHECK(json["constraints"][3]["redundant"] == true);
     CHECK(json["constraints"][3]["integral"] == "z - r*sin(theta)");

@@ -176,7 +176,7 @@ TEST_CASE("simulate: chaos is reported with its exponent, and the first line of 
     CHECK(regular["error_estimate"]["value"].get<double>() < 1e-10);
 }
 
-// Runs apart by 0.1: seen in their rows, where the estimate works with two other runs of its own.
+// The time at which runs differ by 0.1 is found in the rows; the estimate uses two other runs of its own.
 TEST_CASE(
     "simulate: the time after which no digit is left is the time at which a hundred times stricter run has "
     "parted") {
@@ -212,8 +212,8 @@ TEST_CASE(
     CHECK(loose["warning"].get<std::string>().starts_with("NOT TRUSTWORTHY"));
 }
 
-// The true errors: against the end of a run three decades stricter by another method, whose own error is a
-// hundredth and less of them.
+// The true errors are found by comparison with a run of another method at a tolerance three decades stricter,
+// whose own error is a hundredth of them or less.
 TEST_CASE("simulate: the estimated error is within a factor of 10 of the true one, whatever the scene") {
     for (const char* name : {"kepler", "pleiades", "andrews", "free_body", "car_axis", "stiff_spring_pendulum",
                              "double_pendulum_regular", "four_bars_2"}) {
@@ -235,8 +235,8 @@ TEST_CASE("simulate: the estimated error is within a factor of 10 of the true on
     }
 }
 
-// It touches down first at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e): `error` holds those times
-// against a strict run's.
+// The ball first touches the floor at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e); `error`
+// compares these times with those of a strict run.
 TEST_CASE("bench: the error of a bouncing ball includes the times of its contacts") {
     const Json result = result_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
     CHECK(result["reference"]["digits"].get<int>() >= 10);

@@ -17,8 +17,8 @@ using alembert::test::source_path;
 using alembert::test::temporary;
 using Json = nlohmann::json;
 
-// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and place
-// by quadrature in 32 digits. Local errors of 1e-11 on some sixty steps of an attracting motion.
+// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and
+// position by quadrature in 32 digits. The local errors are 1e-11 in about sixty steps of an attracting motion.
 TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
     const auto result =
         run({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--tolerance", "1e-13"});
@@ -33,7 +33,8 @@ TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
     CHECK(json["constraint_drift"].get<double>() < 1e-12);
 }
 
-// A Cartesian pendulum from the horizontal is the angle's pendulum: the same end state by other equations.
+// A Cartesian pendulum released from the horizontal reaches the same end state as the pendulum in its angle, by
+// other equations.
 TEST_CASE(
     "commands: the Cartesian pendulum moves like the pendulum in its angle, with the tension m(g cos + l w²)") {
     const auto cartesian = run(
@@ -201,8 +202,8 @@ nonholonomic = "x' = y*z' + z"
     }
 }
 
-// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the
-// ratio 1 : 2.
+// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the solution of least norm is in
+// the ratio 1 : 2.
 TEST_CASE("commands: the multipliers of redundant constraints are those of least norm") {
     const std::string rod = R"toml(
 gravity = [0, "-9.81"]
@@ -232,9 +233,9 @@ holonomic = "x^2 + y^2 = 1"
     CHECK(motion.exit == 0);
 }
 
-// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same
-// with what it cannot have, each named. x'' + x = cos 2t from rest: x = (cos t − cos 2t)/3. The load's work is
-// integrated with the motion.
+// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 is compared with dop853; then
+// features that it does not support are added, and each is named. x'' + x = cos 2t from rest: x = (cos t − cos
+// 2t)/3. The load's work is integrated with the motion.
 TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy") {
     const std::string driven = temporary("driven.toml",
                                          "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = "

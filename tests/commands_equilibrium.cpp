@@ -91,7 +91,7 @@ TEST_CASE("equilibrium: Watt's governor stands at its angle") {
     CHECK(are_close(values(found(textbook("watt_governor")), "alpha"), {-angle, 0, angle, M_PI}, 2e-15));
 }
 
-// cos θ = g/(l φ'²); the poles are equilibria in which φ says nothing.
+// cos θ = g/(l φ'²); the poles are equilibria in which φ does not matter.
 TEST_CASE("equilibrium: a conical pendulum is a steady motion at the rate that is given") {
     const Json cone = found(textbook("spherical_pendulum"), {"--at", "phi'=5"});
     const double l = found(textbook("spherical_pendulum"), {"--at", "l=1", "--at", "phi'=5"})["equilibria"].size();
@@ -148,7 +148,7 @@ TEST_CASE("equilibrium: coordinates that follow from others are substituted") {
     for (const Json& one : two["equilibria"]) CHECK(one["exact"].contains("r"));
 }
 
-// The heights of crank and rod grow with sin α: both ways of assembly stand at α = ±π/2.
+// The heights of crank and rod grow with sin α: both assemblies have equilibria at α = ±π/2.
 TEST_CASE("equilibrium: a slider-crank keeps its constraints, with multipliers") {
     const Json crank = found(textbook("slider_crank"));
     CHECK(are_close(values(crank, "alpha"), {-M_PI / 2, -M_PI / 2, M_PI / 2, M_PI / 2}, 1e-14));

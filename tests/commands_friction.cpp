@@ -37,7 +37,7 @@ std::string changed(const std::string& name, const std::vector<std::pair<std::st
     return temporary(name + "_changed.toml", scene);
 }
 
-/// Rounding of the time and what the tolerance of 1e-12 of these scenes leaves.
+/// The allowed error: rounding of the time, and the effect of the tolerance of 1e-12 in these scenes.
 doctest::Approx near(double value) {
     return doctest::Approx(value).epsilon(1e-12);
 }
@@ -137,7 +137,7 @@ TEST_CASE("friction: three blocks on a belt stick and slip as in a 40-digit run 
     const Json motion = simulated(scene_of("belt_blocks"));
     std::vector<Json> found;
     for (const Json& event : motion["contacts"])
-        if (value(event, "time") > 0) found.push_back(event);  // all stick at the start
+        if (value(event, "time") > 0) found.push_back(event);  // at the start all contacts stick
     REQUIRE(found.size() == expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
         CAPTURE(k);
@@ -156,7 +156,8 @@ TEST_CASE(
     for (const char* method : {"auto", "dop853", "verner98", "taylor"}) {
         CAPTURE(method);
         const Json motion = simulated(scene_of("coulomb_oscillator"), {"--method", method});
-        // 2.3 → −1.8 → 1.3 → −0.8 → 0.3 → −(−0.2) with mu N/k = 0.25: it turns every pi/2 and sticks at 5 pi/2.
+        // 2.3 → −1.8 → 1.3 → −0.8 → 0.3 → −(−0.2) with mu N/k = 0.25: the mass reverses every pi/2 and sticks at 5
+        // pi/2.
         const auto sticks = of_kind(motion, "stick"), slips = of_kind(motion, "slip");
         REQUIRE(sticks.size() == 1);
         CHECK(value(sticks[0], "time") == near(5 * pi / 2));

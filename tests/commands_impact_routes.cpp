@@ -13,7 +13,8 @@ namespace commands_impact_routes {
 
 using namespace alembert::test;
 
-// What is printed can be typed: outputs of a scene with other values of the parameters, against the numbers there.
+// Printed results are typed as outputs of a scene with other values of the parameters and compared with the
+// numbers there.
 TEST_CASE("impact: the symbolic rates are right for other values than those for which they were found") {
     const Json first =
         impact_of(filled(slanting_rod, {{"m", 2}, {"l", 0.8}, {"v", 1.5}, {"e", 0.4}, {"alpha", 0.6}}));
@@ -30,7 +31,7 @@ TEST_CASE("impact: the symbolic rates are right for other values than those for 
 }
 
 // A smooth pulse of the same ∫F dt, integrated by the equations of motion; gravity acts meanwhile, so the rates
-// differ by a term of first order in its length: halving it halves the difference.
+// differ by a term of first order in the length of the pulse; halving the length halves the difference.
 TEST_CASE("impact: it is the limit of a large short force") {
     std::string text = pinned_rod;
     text.replace(text.find("{h}"), 3, "0.9*l");
@@ -52,7 +53,7 @@ TEST_CASE("impact: it is the limit of a large short force") {
     }
 }
 
-// x' = 2 y' stands before and after; the guess obeys it, so the constraint is not imposed but carries on.
+// x' = 2 y' holds before and after the impact; the guess obeys it, so the constraint is not imposed suddenly.
 TEST_CASE("impact: guessed rates obey the constraints before the impact") {
     const Json json = impact_of(R"toml(
 [parameters]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots as scenes: accelerations by the recursion on the imported tree against a Newton-Euler of this file, which
-// reads the URDF's numbers by itself, goes link by link (fixed ones too) along the axes of the world, and knows
-// neither merged bodies nor scenes.
+// Robots as scenes: accelerations by the recursion on the imported tree are compared with a Newton-Euler recursion
+// in this file, which reads the numbers of the URDF itself, goes link by link (fixed ones too) along the axes of
+// the world, and uses neither merged bodies nor scenes.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ struct Body {
     V3 centre = V3::Zero(), centre_rpy = V3::Zero();
     M3 inertia = M3::Zero();
 };
-/// A simple joint with its child; floating ones are six.
+/// A simple joint with its child; a floating joint is six of them.
 struct Hinge {
     std::string name, type, parent, child, leader;
     V3 xyz = V3::Zero(), rpy = V3::Zero(), axis = V3::UnitX();
@@ -414,8 +414,8 @@ TEST_CASE("import: omitted and merged parts are reported, and the scene has limi
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
 }
 
-// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and turns as it did, whatever turns it; and a
-// planar joint across x does not fall along x.
+// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and keeps its rotation, however that is described;
+// and a body on a planar joint normal to x does not fall along x.
 TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a planar joint keeps its plane") {
     const std::string two =
         temporary("two.urdf", robot_of(link_of("a", heavy) +

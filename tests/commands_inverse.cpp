@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inverse dynamics and what joints bear, as a user asks for them: against closed forms, Newton's and Euler's laws
-// for single bodies and for the whole, and the forward equations with the loads applied.
+// Inverse dynamics and reactions of joints, as a user requests them, against closed forms, Newton's and Euler's
+// laws for single bodies and for the whole, and the forward equations with the loads applied.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -197,7 +197,7 @@ TEST_CASE("reactions: derive shows those of a pin as in a textbook") {
     CHECK(pin["F_x"] == "1.3*a*theta''*cos(theta) - 1.3*a*theta'^2*sin(theta)");
     CHECK(pin["F_y"] == "1.3*a*theta''*sin(theta) + 1.3*a*theta'^2*cos(theta) + 1.3*g");
     CHECK(pin["F_z"] == "0");
-    // With numbers it is what eval has, about the free axis too.
+    // With numbers it agrees with eval, also about the free axis.
     const std::string scene = with_forces(pendulum, {{"theta", 0.8}});
     std::string outputs = scene + "[outputs]\n";
     for (const auto& [name, formula] : pin.items())
@@ -211,7 +211,7 @@ TEST_CASE("reactions: derive shows those of a pin as in a textbook") {
     }
 }
 
-// The carriage does not turn: about its joint's point M = c × m (a − g), wherever on the rail it is.
+// The carriage does not turn: about its joint's point M = c × m (a − g), at any position on the rail.
 TEST_CASE(
     "reactions: a rail bears the moment of a carriage about the carriage's own point, with springs and forces "
     "counted") {
@@ -256,7 +256,7 @@ damping = 4
     const V3 moment{c[1] * force[2] - c[2] * force[1], c[2] * force[0] - c[0] * force[2],
                     c[0] * force[1] - c[1] * force[0] - 3.5};
     check_near(three(json["joint_reactions"]["rail"]["moment"]), moment, 1e-12);
-    CHECK(std::abs(0.6 * force[0] + 0.8 * force[1] + 4 * 1) < 1e-12);  // along the rail there is the damper alone
+    CHECK(std::abs(0.6 * force[0] + 0.8 * force[1] + 4 * 1) < 1e-12);  // along the rail only the damper acts
 }
 
 TEST_CASE(
@@ -443,7 +443,7 @@ TEST_CASE(
         }
     CHECK(std::abs(load["force"][2].get<double>()) > 1);
     for (std::size_t k = 0; k < 3; ++k)
-        CHECK(std::abs(load["moment"][k].get<double>()) < 1e-9);  // a spherical joint bears no moment
+        CHECK(std::abs(load["moment"][k].get<double>()) < 1e-9);  // a spherical joint transmits no moment
 }
 
 namespace {
@@ -468,8 +468,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string closed_elsewhere(const std::string& text, const std::string& opened, const std::string& coordinates) {
-    // The joint `opened` closed the loop and gets coordinates; it is now a joint of the tree, as it stands before
-    // the one to close.
+    // The joint `opened` closed the loop and now gets coordinates. It becomes a joint of the tree because it
+    // stands before the joint that closes the loop now.
     const std::size_t at = text.find("name = \"" + opened + "\"");
     REQUIRE(at != std::string::npos);
     const std::size_t end = std::min(text.find("\n\n", at), text.size());

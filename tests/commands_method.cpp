@@ -27,7 +27,7 @@ potential = "x^2/2"
 duration = 20
 )toml";
 
-// Eigenvalues of about -1e5 and -1: x follows sin(t) at its leisure.
+// The eigenvalues are about -1e5 and -1; x follows sin(t) slowly.
 const char* const stiff = R"toml(
 [coordinates]
 x = 0
@@ -64,7 +64,7 @@ TEST_CASE("auto: tolerance, step, structure and length choose the method, and th
     check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
     const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--no-estimate"});
     CHECK(text.out.find("dop853: the tolerance is 1e-09") != std::string::npos);
-    // Given by name there is nothing to explain.
+    // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
 }
 

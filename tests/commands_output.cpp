@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where -o leads: ordinary files, links, pipes, devices, and files that must not be overwritten.
+// The targets of -o: ordinary files, links, pipes, devices, and files that must not be overwritten.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 

@@ -109,7 +109,7 @@ TEST_CASE("rattle: the Cartesian pendulum keeps length and energy and is where t
     CHECK(std::abs(std::log2(error(coarse) / error(fine)) - 2) < 0.1);
     CHECK(error(high) < 1e-8);
     CHECK(fine["method"] == "rattle");
-    // No drift: a hundred seconds are no worse than ten.
+    // There is no drift: after a hundred seconds the error is not larger than after ten.
     const Json longer = runs("rattle", "0.002", "200");
     CHECK(longer["energy_drift"].get<double>() < 1.01 * coarse["energy_drift"].get<double>());
     CHECK(longer["constraint_drift"].get<double>() < 1e-12);
@@ -140,11 +140,12 @@ TEST_CASE("rattle: moving constraints, dampers and loads keep the order, and the
     CHECK(std::abs(std::log2(coarse["work_balance"].get<double>() / fine["work_balance"].get<double>()) - 2) <
           0.2);
     CHECK(apart(simulated(scene, {"--method", "rattle8", "--step", "0.05"}), exact) < 1e-8);
-    // The power of what moves the centre has accelerations in it: so has the row of the work in radau's Jacobian.
+    // The power of the drive that moves the centre contains accelerations, and so does the row of the work in
+    // radau's Jacobian.
     CHECK(apart(simulated(scene, {"--method", "radau", "--tolerance", "1e-11"}), exact) < 1e-8);
 }
 
-// By quaternions no inertia resists the direction of e: L has the constraint's share there
+// With quaternions there is no inertia along e; L contains a term of the constraint there
 // (alembert/canonical.hpp). sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall on ends of
 // steps up to rounding: steps of no length to there.
 TEST_CASE(
@@ -210,7 +211,7 @@ TEST_CASE("rattle: constraints on rates are refused by name, and a step is requi
 
 namespace {
 
-/// The back end is built where SUNDIALS is.
+/// The back end is built if SUNDIALS is installed.
 bool has_sundials() {
     return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a run says of its own trustworthiness, and pulses that a step could pass over, against closed forms.
+// The statement of a run about its accuracy, and pulses that a step could pass over, against closed forms.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ double at_end(const Json& result, const std::string& name) {
 
 }  // namespace
 
-// ∫ exp(−(s/w)²) sin(T − 5 − s) ds = w √π exp(−w²/4) sin(T − 5), T = 20: the pulse is over long before.
+// ∫ exp(−(s/w)²) sin(T − 5 − s) ds = w √π exp(−w²/4) sin(T − 5), T = 20: the pulse is over long before that.
 TEST_CASE(
     "simulate: no method that chooses its steps passes over a narrow pulse, wherever it is and however narrow") {
     for (const double w : {1e-2, 1e-3, 1e-6}) {
@@ -138,7 +138,7 @@ TEST_CASE("simulate: a motion of any size is trusted if it has two digits, and o
             if (trusted(swing)) CHECK(good(size * std::cos(std::sqrt(9.81) * 20), at_end(swing, "theta")));
         }
     }
-    // What is right is not doubted.
+    // A correct result is trusted.
     CHECK(trusted(simulated(oscillator("0*t", "1"))));
     CHECK(trusted(simulated(oscillator("0*t", "1e9"))));
     CHECK(trusted(simulated(pendulum("1e-4"))));

@@ -74,7 +74,7 @@ struct Connection {
     Connection& operator=(const Connection&) = delete;
     ~Connection() { close(descriptor); }
 
-    /// What comes until `end` is there, or nothing more.
+    /// Reads until `end` has arrived or nothing more comes.
     std::string read_until(const std::string& end) const {
         std::string text;
         char bytes[4096];
@@ -96,7 +96,7 @@ int status(const std::string& answer) {
     return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
 }
 
-/// Was the program built with a server? With one it serves until it is ended; port 1 is nobody's.
+/// Was the program built with a server? With one it serves until it is ended; port 1 is not available to users.
 bool is_built() {
     static const bool built = [] {
         const auto result =

@@ -176,7 +176,7 @@ TEST_CASE("agree: scenes with a root for each pair of bodies, or with decimals i
     }
 }
 
-// H of sixteen rods through M⁻¹ would be of a degree that no bound on the failure of sampling allows.
+// With M⁻¹, H of sixteen rods would have such a high degree that sampling could not be bounded.
 TEST_CASE("agree: all formalisms are proved equal on a chain of sixteen rods, Hamilton's equations too") {
     const Agreed result = agree(read_scene(test::source_path("scenes/benchmark/trees/pend16.toml")), 0.1);
     CHECK(result.agreement.verdict == Agreement::Verdict::proved);
@@ -194,7 +194,8 @@ TEST_CASE("agree: a formalism with one wrong entry is refuted") {
             CAPTURE(kind);
             Equations wrong = right;
             wrong.formalism = "wrong";
-            int row = 0;  // whose acceleration is not zero: a free x'' = 0 may be multiplied by anything
+            // A row whose acceleration is not zero, because a free x'' = 0 may be multiplied by anything.
+            int row = 0;
             while (kind == 0 && row + 1 < right.size() && right.forcing(row).is_zero() && right.A.empty()) ++row;
             if (kind == 0) wrong.M(row, row) = wrong.z->name(wrong.M(row, row) * (1 + m.q[0] * m.q[0]));
             if (kind == 1) wrong.own[0] = wrong.z->name(wrong.own[0] + m.qdot[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every row of the table of formalisms promises, and the origins of a mechanism's parts.
+// The properties that every row of the table of formalisms must have, and the origins of a mechanism's parts.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -89,7 +89,7 @@ TEST_CASE("formalisms: a mechanism is the same after derivations, comparisons an
         CHECK(same());
         CHECK_FALSE(check(scene, m).claims.empty());
         CHECK(same());
-        // Lagrange's equations after all that are the ones of a mechanism that nothing was asked of before.
+        // After all this, Lagrange's equations are the same as those of a new mechanism.
         const Mechanism untouched = prepared(scene).mechanism;
         const Derivation late = derivation_of(m, routh(m)), early = derivation_of(untouched, routh(untouched));
         REQUIRE(late.equations.size() == early.equations.size());

@@ -18,8 +18,8 @@ using namespace alembert;
 namespace {
 
 /// The largest |lhs − rhs| over the sum of the sizes of its terms, at 32 random states, for each claim that speaks
-/// of motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is held against the largest
-/// acceleration of the state; one that no state could be found for gives −1.
+/// of motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is compared with the largest
+/// acceleration of the state; −1 if no state could be found for a claim.
 std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::string text = scene.text;
     std::string outputs;

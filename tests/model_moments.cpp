@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A negative moment of inertia that is what rounding left is zero, and one relative bound tells so everywhere.
+// A negative moment of inertia that is only rounding counts as zero, decided everywhere by the same relative
+// bound.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

@@ -91,7 +91,7 @@ extern "C" const alembert_solver_table* alembert_solver() { return &table; }
 )";
 }
 
-/// A cache of its own for each test, gone at its end.
+/// A separate cache for each test, removed at its end.
 struct Cache {
     Cache() {
         std::string pattern = (fs::temp_directory_path() / "alembert-test-XXXXXX").string();
@@ -233,7 +233,7 @@ TEST_CASE("compile: several processes that compile the same thing at once do not
     });
     CHECK(good == 4);
     CHECK(compile(pendulum_source(), "pendulum", cache.options()).from_cache);
-    CHECK(cache.files() == 2);  // nothing left over
+    CHECK(cache.files() == 2);  // no further files
 }
 
 TEST_CASE("compile: the error contains the compiler's messages") {
@@ -346,7 +346,7 @@ TEST_CASE(
                compile(pendulum_source(), "pendulum", cache.options()).from_cache;
     };
     fs::rename(object, elsewhere);
-    fs::create_symlink(elsewhere, object);  // the very bytes that would be taken as a file
+    fs::create_symlink(elsewhere, object);  // the same bytes as an ordinary file would be accepted
     CHECK(is_renewed());
     fs::remove(object);
     REQUIRE(mkfifo(object.c_str(), 0600) == 0);

@@ -31,7 +31,7 @@ Rhs oscillator() {
     });
 }
 
-/// y' = 1: one step of an adaptive method is as long as it likes.
+/// y' = 1: a step of an adaptive method can be arbitrarily long.
 Rhs stopwatch() {
     return make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
 }
@@ -66,7 +66,8 @@ TEST_CASE("events: a falling body reaches the ground at √(2h/g), and the run e
     }
 }
 
-// Not abm and bdf: their own error in a hundred seconds is some 1e-8, which is no matter of events.
+// abm and bdf are left out, because their own error in a hundred seconds is about 1e-8, which does not concern
+// events.
 TEST_CASE("events: every zero of a sine is found, in both directions, and the zero at the start is none") {
     for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
                                 Method::gauss, Method::radau}) {

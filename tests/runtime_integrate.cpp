@@ -33,7 +33,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// shared/cases/double_pendulum.md: 2 θ₁'' + c θ₂'' = −s ω₂² − 2 g sin θ₁, c θ₁'' + θ₂'' = s ω₁² − g sin θ₂.
+// The double pendulum: 2 θ₁'' + c θ₂'' = −s ω₂² − 2 g sin θ₁, c θ₁'' + θ₂'' = s ω₁² − g sin θ₂.
 constexpr double g = 9.81;
 
 Rhs double_pendulum() {
@@ -58,7 +58,7 @@ double energy(const double* y) {
 
 struct Chaos {
     double error = 0;  ///< the largest of the four components
-    double drift = 0;  ///< as commands.md defines it, over rows and accepted steps
+    double drift = 0;  ///< as docs/commands.md defines it, over rows and accepted steps
 };
 
 Chaos chaos(double tolerance) {
@@ -86,7 +86,7 @@ Chaos chaos(double tolerance) {
 
 }  // namespace
 
-// The bounds are the project's own; errors grow about 10⁷-fold on the way.
+// The bounds are our own; errors grow about 10⁷-fold during the motion.
 TEST_CASE("dop853: the chaotic double pendulum at t = 10 agrees with 39 digits, and keeps its energy") {
     const Chaos loose = chaos(1e-13);
     CHECK(loose.error < 1e-4);
@@ -184,7 +184,7 @@ TEST_CASE("quadrature: it follows the motion and does not affect its steps") {
     CHECK(std::abs(motion.final_state()[0] + motion.final_state()[1] - 1) < 1e-11);
 }
 
-// y' = y², y(0) = 1 is 1/(1 − t); y₀ = t is a bystander.
+// y' = y², y(0) = 1 is 1/(1 − t); y₀ = t does not take part.
 TEST_CASE("failure: a solution that blows up ends in step size underflow at its pole") {
     for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         const Trajectory motion = integrate(blow_up(), {0, 1}, {.method = method, .duration = 2});
@@ -215,7 +215,7 @@ TEST_CASE("failure: a run ends close to where a rate stops being a number, and t
     CHECK(contains(motion.failure->message, "x' (component 1)"));
     CHECK(contains(motion.failure->message, "not finite"));
     CHECK(std::abs(motion.failure->time - 1) < 1e-14);
-    CHECK(std::abs(motion.failure->state[1] - 2. / 3) < 1e-7);  // error control sees little of the kink
+    CHECK(std::abs(motion.failure->state[1] - 2. / 3) < 1e-7);  // error control hardly notices the kink
 }
 
 TEST_CASE("failure: a rate that is not a number at the start is reported at once") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Scenes that must be refused: tests/broken/*.toml say in their first lines what must be told and where.
+// Scenes that must be refused: the first lines of tests/broken/*.toml give the expected messages and their places.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ std::vector<std::filesystem::path> broken_scenes() {
     return paths;
 }
 
-/// All of what was told, or nothing where the scene was read.
+/// All diagnostics, or none if the scene was read.
 std::vector<Diagnostic> told(const std::string& text) {
     try {
         parse_scene(text, "scene.toml");

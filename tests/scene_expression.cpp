@@ -12,7 +12,7 @@ using namespace alembert;
 
 namespace {
 
-/// The tree as an s-expression: what was read, without a doubt about precedence.
+/// The tree as an s-expression, which shows the precedence unambiguously.
 std::string shape(const Tree& tree) {
     const auto list = [&](const std::string& head) {
         std::string text = head;
@@ -49,7 +49,7 @@ std::string read(const std::string& text) {
     return e ? shape(*e.tree) : diagnostics.at(0).message;
 }
 
-/// The message, and after it the column at which it stands.
+/// The message, followed by its column.
 std::string mistake(const std::string& text) {
     std::vector<Place> places;
     for (int i = 0; i <= static_cast<int>(text.size()); ++i) places.push_back({1, i + 1});
