@@ -33,6 +33,7 @@ struct Derivation {
     std::vector<Statement> forces;     ///< generalized forces of each part of V and of each load, then their sums
     std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
+    std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
     std::vector<Phrase> rows;                           ///< the coordinate or speed to which each equation belongs
     std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty if u = q'
     std::vector<Phrase> poles;  ///< where one of these vanishes, the speeds do not determine the rates

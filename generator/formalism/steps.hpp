@@ -55,9 +55,8 @@ public:
 
     /// left = value
     void equality(Section& section, const Phrase& left, const GiNaC::ex& value) const;
-    /// Writes letter of `of` = value, also if the value is zero.
-    void statement(Section& section, const std::string& letter, const std::string& of,
-                   const GiNaC::ex& value) const;
+    /// letter(of) = value, zero included: a generalized force of a coordinate or speed
+    void force(Section& section, const std::string& letter, const GiNaC::symbol& of, const GiNaC::ex& value) const;
     /// Writes d`of`/d`by` = value, if the value is not zero.
     void partial(Section& section, const std::string& of, const GiNaC::symbol& by, const GiNaC::ex& value) const;
 

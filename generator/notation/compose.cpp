@@ -121,7 +121,7 @@ bool has_state(const Monomial& monomial) {
 bool Composer::stays_apart(const Polynomial& polynomial) const {
     const bool has_decimal =
         decimals_ && std::any_of(polynomial.terms().begin(), polynomial.terms().end(),
-                                 [](const Term& term) { return !is_integer(term.coefficient); });
+                                 [](const Term& term) { return reads_as_decimal(term.coefficient); });
     return polynomial.size() > 1 && (has_decimal || has_own_denominators(polynomial));
 }
 
@@ -241,7 +241,7 @@ Phrase Composer::compose(const Polynomial& polynomial) {
 
     std::vector<Phrase> above, below;
     const Rational size = cln::abs(unit);
-    const bool decimal = decimals_ && !is_integer(size) && is_finite_decimal(size);
+    const bool decimal = decimals_ && reads_as_decimal(size);
     if (decimal)
         above.push_back(number(size, true));
     else if (cln::numerator(size) != 1)

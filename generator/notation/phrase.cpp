@@ -173,6 +173,11 @@ bool is_decimal(const Rational& value) {
     return !customary || cln::abs(cln::numerator(value)) > 32;
 }
 
+bool reads_as_decimal(const Rational& value) {
+    if (is_integer(value) || !is_finite_decimal(value)) return false;
+    return is_decimal(value) || cln::zerop(cln::mod(cln::denominator(value), 5));
+}
+
 std::string digits(const Phrase& number) {
     const Rational& value = number.value;
     std::ostringstream stream;

@@ -68,6 +68,8 @@ GiNaC::ex expression(const Phrase& phrase);
 /// Whether a number is better written as a decimal, like 9.81. True for finite decimals that are no customary
 /// fractions such as 3/4 and 2/5.
 bool is_decimal(const Rational& value);
+/// Whether a number beside decimals is written as a decimal too: 0.4 is, but a half stays 1/2.
+bool reads_as_decimal(const Rational& value);
 /// Whether the denominator has no prime factors other than 2 and 5.
 bool is_finite_decimal(const Rational& value);
 

@@ -322,7 +322,7 @@ Phrase readable(const Fourier& f) {
     return writer.write(writer.energy_lines(f));
 }
 
-ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
+ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs, const std::optional<SymbolInfo>& own) {
     const bool decimals = has_decimals(lhs) || has_decimals(rhs);
     Writer writer(decimals);
     Factorizer& factorizer = writer.composer().factorizer();
@@ -332,7 +332,11 @@ ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs) {
     Lines left = writer.lines(first_side), right = writer.lines(second_side);
     Rational scale = decimals ? Rational(1) : common_number(left, right);
     const Lines& first = left.empty() ? right : left;
-    if (!first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
+    const bool has_own = own && std::any_of(left.begin(), left.end(), [&](const Polynomial& line) {
+                             const Monomial acceleration = part(line.terms()[0].monomial, is_acceleration);
+                             return !acceleration.empty() && acceleration[0].atom->info.rank == own->rank;
+                         });
+    if (!has_own && !first.empty() && writer.composer()(first[0]).kind == Phrase::Kind::negative) scale = -scale;
     for (Lines* side : {&left, &right})
         for (Polynomial& line : *side) line = (1 / scale) * line;
     ReadableEquation result{writer.write(left), writer.write(right), {}};

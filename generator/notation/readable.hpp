@@ -10,7 +10,8 @@
 ///
 /// Terms are sorted: accelerations in the order of the coordinates, squares and products of rates, single rates,
 /// positions (gravity before springs). An equation is divided by the common factor of all its coefficients, but
-/// never by anything that depends on the state, on time or on inputs; its first acceleration is positive.
+/// never by anything that depends on the state, on time or on inputs. A row in which its own acceleration stands
+/// keeps its sign, so that this acceleration has a positive inertia; elsewhere the first term is positive.
 /// Fractions are cleared; decimals stay decimals.
 
 #include <optional>
@@ -28,7 +29,9 @@ struct ReadableEquation {
     std::optional<Phrase> divided_by;  ///< none if nothing was divided out
 };
 
-/// `lhs` holds inertia, potential and dissipation, `rhs` the applied forces.
-ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs);
+/// `lhs` holds inertia, potential and dissipation, `rhs` the applied forces. `own`: the acceleration of the row's
+/// own coordinate or speed, whose coefficient is an inertia and so positive.
+ReadableEquation readable_equation(const Fourier& lhs, const Fourier& rhs,
+                                   const std::optional<SymbolInfo>& own = {});
 
 }  // namespace alembert

@@ -10,7 +10,7 @@
 /// its poses: in this program for a picture, and in the page's script, which does the same arithmetic, for the
 /// animation.
 
-#include "figure/drawing.hpp"
+#include "report/figure_view.hpp"
 #include "report/json.hpp"
 
 namespace alembert {
@@ -50,14 +50,8 @@ struct FigureShape {
     double most = 0;         ///< or not nearer than this; 0 means no bound
 };
 
-struct FigureShapes {
+struct FigureShapes : FigureView {
     std::vector<FigureShape> shapes = {};
-    double width = 480, height = 360, scale = 1;
-    Eigen::Vector3d centre{0, 0, 0};
-    Eigen::Vector3d right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};  ///< the view
-    bool is_plane = true;
-    bool follows = false;  ///< whether the view moves with the masses
-    std::vector<int> followed = {};
 };
 
 /// The strokes, scaled so that all poses fit. `q` are the coordinates at each pose, which arcs need. There must be

@@ -209,8 +209,9 @@ private:
 
     int primes() {
         if (now().kind != Token::Kind::primes) return 0;
-        if (now().length > 2)
-            stop(now().offset, "at most two primes: mechanics knows rates and accelerations only");
+        if (now().length > 3)
+            stop(now().offset,
+                 "at most three primes: third derivatives are the highest, and stand in claims alone");
         return words_.tokens[words_.at++].length;
     }
 

@@ -14,6 +14,7 @@ struct Function {
     Takes takes;
     bool gives_vector;
     std::string_view usage;  ///< the call as hints show it
+    int order = 0;           ///< of functions of the geometry: how often the coordinates are differentiated
 };
 
 /// Null if there is no such function.

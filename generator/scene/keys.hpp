@@ -75,7 +75,7 @@ inline constexpr TableKeys table_keys[] = {
     {"simulation",
      TableKeys::Shape::one,
      {"start", "duration", "tolerance", "step", "max_step", "sample", "method", "period"}},
-    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at"}},
+    {"claim", TableKeys::Shape::list, {"equation", "source", "unknowns", "constants", "at", "near"}},
 };
 
 /// Throws std::logic_error if the list has no such table, which is a mistake in the reader.

@@ -20,7 +20,8 @@ struct Legal {
     int input_order = -1;
     bool time = false;
     bool definitions = true;
-    std::string advice = {};                                ///< what to do instead if a rate is refused
+    std::string advice = {};       ///< what to do instead if a rate is refused
+    std::string if_changing = {};  ///< what to do instead if the time or a coordinate is refused
     const std::unordered_set<std::string>* more = nullptr;  ///< further names, those of claims
     bool multipliers = false;  ///< whether the multipliers of the scene's constraints are legal
     /// Whether momenta p_…, multipliers lambda… and derive's z1, z2 … are legal, whether known or not.
@@ -38,7 +39,8 @@ public:
         values_.insert(values_.end(), {"t", "pi"});
     }
 
-    /// Definitions must be described in an order in which each comes after those to which it refers.
+    /// Definitions, numbers or vectors, must be described in an order in which each comes after those to which it
+    /// refers.
     void describe(const Definition& definition);
     /// The same for a speed, whose form is also checked here.
     void describe(const Speed& speed);
@@ -68,6 +70,7 @@ private:
     std::vector<Diagnostic>& diagnostics_;
     std::vector<std::string> values_, frames_, points_;      // spellings, for "did you mean"
     std::unordered_map<std::string, Contents> definitions_;  // of definitions and speeds
+    std::unordered_set<std::string> vectors_;                // definitions that are vectors
     std::unordered_set<std::string> unknown_;                // each is reported once for each expression
     int suggestions_ = 0;
 

@@ -243,7 +243,9 @@ struct Claim {
     Equality equation;
     std::string source;
     std::vector<Name> unknowns, constants;
-    std::string at = "motion";  ///< motion, rest or impact
+    std::string at = "motion";  ///< motion, rest, impact, solution or near
+    /// Where it holds to first order: coordinates, and rates as "x'", with their values in parameters.
+    std::vector<std::pair<Name, Expression>> near = {};
 };
 
 struct Scene {

@@ -49,8 +49,7 @@ public:
         if (!fits)
             throw std::invalid_argument(
                 "verlet and kahanli8 need a state of coordinates followed by their rates; this is another: take "
-                "gauss "
-                "or dop853");
+                "gauss or dop853");
     }
 
     int most_evaluations() const { return 2 * static_cast<int>(lengths.size()); }
