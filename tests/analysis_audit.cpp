@@ -76,7 +76,7 @@ using Answers = std::vector<std::optional<bool>>;
 
 }  // namespace
 
-TEST_CASE("integrability: of one constraint is what dw ^ w says") {
+TEST_CASE("integrability: that of one constraint is decided as by dw ^ w") {
     int yes = 0, no = 0;
     for (const char* constraint :
          {"x' - r*y'", "y*x' - x*y'", "z' - y*x'", "x'*sin(z) - y'*cos(z)", "x' - t*y'", "x' - sin(t)",
@@ -96,7 +96,7 @@ TEST_CASE("integrability: of one constraint is what dw ^ w says") {
 }
 
 // Any combinations of dF and dG, with functions for coefficients.
-TEST_CASE("integrability: combinations of two differentials are integrable together, and not alone") {
+TEST_CASE("integrability: combinations of two differentials are integrable together, but not each alone") {
     const char *F = "(y*x' + x*y' + 2*w*w')", *G = "(cos(z)*z' + y*v' + v*y')";
     const Mechanism m =
         with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G), fmt::format("sin(w)*{} + v*{}", F, G)});
@@ -105,25 +105,27 @@ TEST_CASE("integrability: combinations of two differentials are integrable toget
     CHECK(!is_integrable(m, forms[1]));
     CHECK(joint(m) == Answers{true, true});
     CHECK(integrals(m) == 2);
-    // One of the coefficients of dF disturbed: neither is left.
+    // With one coefficient of dF changed, neither is integrable.
     const Mechanism other = with({"x", "y", "z", "w", "v"}, {fmt::format("{} + x*z*{}", F, G),
                                                              fmt::format("sin(w)*{} + v*{} + x*y*v'", F, G)});
     CHECK(joint(other) == Answers{false, false});
 }
 
-TEST_CASE("integrability: two scleronomic forms in three coordinates always, the coin and the sleigh never") {
+TEST_CASE(
+    "integrability: two scleronomic forms in three coordinates are integrable, the coin and the sleigh are not") {
     const Mechanism two = with({"x", "y", "z"}, {"z' - y*x'", "x' - z*y'"});
     CHECK(joint(two) == Answers{true, true});
     CHECK(integrability({forms_of(two)[0]}, two, {}, {}).integrable == Answers{false});
-    CHECK(integrals(with({"x", "y", "z"}, {"z' - y*x'", "x' - t*z*y'"})) == 0);  // t is a fourth variable
+    CHECK(integrals(with({"x", "y", "z"}, {"z' - y*x'", "x' - t*z*y'"})) == 0);  // here t is a fourth variable
     CHECK(joint(with({"x", "y", "phi", "theta"}, {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)"},
                      "r = 1.0")) == Answers{false, false});
     CHECK(joint(with({"x", "y", "phi"}, {"x'*sin(phi) - y'*cos(phi)"})) == Answers{false});
     CHECK(joint(with({"x", "y", "z"}, {"z' - y*x'", "y'"})) == Answers{true, true});
 }
 
-// The derived flags of Engel's and Goursat's forms fall by one each step, to nothing (Bryant et al., II.4-5): no
-// integral shows before the last bracket. With u' − (xw)' beside them one is left, that one.
+// The rank of the derived flags of Engel's and Goursat's forms falls by one in each step, to zero (Bryant et al.,
+// II.4-5), so that only the last bracket shows that there is no integral. If u' − (xw)' is added, one integral
+// remains, that one.
 TEST_CASE("integrability: the derived flag is followed to its end") {
     CHECK(integrals(with({"x", "y", "z", "w"}, {"y' - z*x'", "z' - w*x'"})) == 0);
     CHECK(integrals(with({"x", "y", "z", "w", "v"}, {"y' - z*x'", "z' - w*x'", "w' - v*x'"})) == 0);
@@ -135,7 +137,8 @@ TEST_CASE("integrability: the derived flag is followed to its end") {
 }
 
 // x' cos + y' sin ± b th' = r p': the difference is 2b th' = r (p1' − p2'), though no constraint is integrable.
-TEST_CASE("audit: two wheels on an axle keep 2 b th - r (p1 - p2), a combination of what is not integrable") {
+TEST_CASE(
+    "audit: for two wheels on an axle 2 b th - r (p1 - p2) is constant, although no constraint is integrable") {
     const Mechanism m = with({"x", "y", "th", "p1", "p2"},
                              {"x'*cos(th) + y'*sin(th) + b*th' - r*p1'", "x'*cos(th) + y'*sin(th) - b*th' - r*p2'",
                               "y'*cos(th) - x'*sin(th)"},
@@ -150,9 +153,9 @@ TEST_CASE("audit: two wheels on an axle keep 2 b th - r (p1 - p2), a combination
     CHECK(audit.degrees_of_freedom == 2);
 }
 
-// Beside z = 0 the form is not integrable; on it x' = 0 is left. And the other way round: on x = y the form is z'
-// − y·x' with dx = dy.
-TEST_CASE("integrability: is decided where the holonomic constraints hold") {
+// Outside z = 0 the form is not integrable; on it x' = 0 remains. In the second case, on x = y, the form is z' −
+// y·x' with dx = dy.
+TEST_CASE("integrability: it is decided at states that obey the holonomic constraints") {
     const Mechanism flat = with({"x", "y", "z = 0"}, {"z", "x' + z*x*y' + z*y'"});
     const Audit audit = audit_of(flat);
     CHECK(audit.constraints[1].alone == false);
@@ -170,7 +173,7 @@ TEST_CASE("integrability: is decided where the holonomic constraints hold") {
     CHECK(turned.constraints[2].integrable == true);
 }
 
-TEST_CASE("integrability: where angles leave no exact point of the loop, no needs to be seen in numbers") {
+TEST_CASE("integrability: if the loop has no exact point, a " no " is confirmed numerically") {
     const std::vector<std::string> q{"al = 0.5", "be = { guess = 0.3, rate_guess = 0 }",
                                      "ga = { guess = 0.7, rate_guess = 0 }", "x", "y"};
     const std::string loop_x = "cos(al) + 2*cos(be) - 1.5*cos(ga) - 1.7",
@@ -182,8 +185,8 @@ TEST_CASE("integrability: where angles leave no exact point of the loop, no need
     CHECK(yes.constraints[2].integrable == true);
 }
 
-// Of w = μ dF an integral G is a function of F: dG ∧ dF = 0.
-TEST_CASE("integral: of a differential with a factor is a function of what it was made from") {
+// An integral G of w = μ dF is a function of F: dG ∧ dF = 0.
+TEST_CASE("integral: that of dF times a factor is a function of F") {
     struct Case {
         const char *function, *factor;
     };
@@ -227,10 +230,10 @@ TEST_CASE("integral: of a differential with a factor is a function of what it wa
     CHECK(!integral_of(forms_of(sleigh)[0], sleigh));
     const Mechanism three = with({"x", "y", "z"}, {"z' - y*x'"});
     CHECK(!integral_of(forms_of(three)[0], three));
-    CHECK(integral_of(forms_of(three)[0], three, {1}));  // y keeps its value
+    CHECK(integral_of(forms_of(three)[0], three, {1}));  // y is constant
 }
 
-TEST_CASE("variety: its points obey the constraints exactly, parameters and angles being solved for") {
+TEST_CASE("variety: its points obey the constraints exactly, with parameters and angles solved for") {
     const auto look = [](const Mechanism& m) {
         Program program;
         std::vector<ex> f;
@@ -283,7 +286,7 @@ TEST_CASE(
     CHECK(redundant({"x^2 + y^2 - 1", "z*x*x' + z*y*y'", "exp(x)*(z' - y*x')", "z' - y*x'"}) ==
           std::vector{0, 1, 0, 1});
     CHECK(redundant({"x*x' + y*y'", "x^2 + y^2 - 1"}) == std::vector{1, 0});
-    // Dependent where the circle is, and nowhere else.
+    // The rows are dependent on the circle, and nowhere else.
     CHECK(redundant({"x^2 + y^2 - 1", "z*(x^2 + y^2 - 1) + x^2 + y^2 - 1"}) == std::vector{0, 1});
     CHECK(redundant({"x' + y' - z'", "x' - y'", "2*x' - z'"}) == std::vector{0, 0, 1});
     CHECK(redundant({"(sin(x)^2 + cos(x)^2 - 1)*x'", "z'"}) == std::vector{1, 0});
@@ -292,7 +295,7 @@ TEST_CASE(
     CHECK(audit.constraints[3].notes[0] == "follows from 'c1' and 'c2'; the equations of motion leave it out");
 }
 
-TEST_CASE("audit: constraints that contradict each other are named, and no innocent one") {
+TEST_CASE("audit: constraints that contradict each other are named, and no others") {
     const Audit audit =
         audit_of(with({"x = 1", "y = 0", "z"}, {"z - x", "x^2 + y^2 - 1", "z' + y'", "2*x^2 + 2*y^2 - 4"}));
     CHECK(audit.wrong);
@@ -311,9 +314,9 @@ TEST_CASE("audit: constraints that contradict each other are named, and no innoc
     CHECK(hidden.constraints[1].notes[0].find("force a relation") != std::string::npos);
 }
 
-// The minors of the loop's A are a b sin(al − be) and so on: all links on one line. A parallelogram closes so at
-// al = ga = 0 or π with be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be = 0,
-// Grashof's alone never.
+// The minors of the loop's A are a b sin(al − be) and so on: all links are on one line. A parallelogram closes in
+// this way at al = ga = 0 or π with be = 0, a linkage with a + d = b + c (not a parallelogram) at al = ga = π, be
+// = 0, Grashof's alone never.
 TEST_CASE("audit: a linkage that can lie flat has lost a row there, and Grashof's cannot") {
     const auto poses = [](const std::string& lengths, const std::string& be, const std::string& ga) {
         const Audit audit = audit_of(
@@ -348,7 +351,7 @@ TEST_CASE("audit: a velocity constraint without a row, and a pose that is the in
     CHECK(audit_of(with({"x = 0", "y = 0.5"}, {"exp(y)*x' + y'"})).singular_poses.empty());
 }
 
-TEST_CASE("audit: what is declared wrongly is said, with the integral") {
+TEST_CASE("audit: a constraint that is declared wrongly is reported with its integral") {
     const Audit disc =
         audit_of(prepared(read_scene(test::source_path("scenes/textbook/rolling_disc.toml"))).mechanism);
     REQUIRE(disc.constraints.size() == 1);
@@ -364,7 +367,7 @@ TEST_CASE("audit: what is declared wrongly is said, with the integral") {
              "a = 1\nb = 4\nc = 3.5"));
     CHECK(text(*bar.constraints[0].integral) == "a*cos(al) + b*cos(be) - c*cos(ga)");
     CHECK(text(*bar.constraints[1].integral) == "a*sin(al) + b*sin(be) - c*sin(ga)");
-    // Together with another.
+    // Integrable together with another constraint.
     const Audit coin = audit_of(with({"x", "y", "phi", "theta"},
                                      {"x' - r*phi'*cos(theta)", "y' - r*phi'*sin(theta)", "theta'"}, "r = 1.0"));
     CHECK(coin.constraints[0].alone == false);
@@ -378,7 +381,8 @@ TEST_CASE("audit: what is declared wrongly is said, with the integral") {
           std::vector<std::string>{"it is integrable for the scene's parameters, but not for general ones"});
 }
 
-TEST_CASE("audit: rheonomic is what changes with t, not what is written with it; inputs are functions of t") {
+TEST_CASE(
+    "audit: a constraint is rheonomic if it changes with t, not if it is merely written with t or an input") {
     const auto kinds = [](const Mechanism& m) {
         std::vector<int> result;
         for (const AuditedConstraint& c : audit_of(m).constraints) result.push_back(c.rheonomic);
@@ -401,7 +405,7 @@ TEST_CASE("audit: rheonomic is what changes with t, not what is written with it;
           false);
 }
 
-TEST_CASE("audit: guesses are adjusted to the constraints, and what was adjusted is said") {
+TEST_CASE("audit: guesses are adjusted to the constraints, and the adjustments are reported") {
     const Audit audit = audit_of(with({"x = 0.6", "y = { guess = 0.7, rate_guess = 0 }"}, {"x^2 + y^2 - 1"}));
     REQUIRE(audit.adjusted.size() == 1);
     CHECK(audit.adjusted[0].name == "y");

@@ -25,7 +25,7 @@ Germ along(double x, double slope) {
     return Germ::path(x, 1e-13L, {static_cast<long double>(slope)});
 }
 
-/// Σ c_k ε^k of this germ is the given function of ε to the power of ε that it is known to.
+/// Σ c_k ε^k of this germ equals the given function of ε up to the power of ε to which it is known.
 void check_series(const Germ& germ, long double (*f)(long double)) {
     REQUIRE(germ.defined());
     const long double epsilon = 0.01L;
@@ -116,11 +116,11 @@ TEST_CASE("linearize: kinks are refused, with the slopes of both sides") {
               "has the slope -1.41421 in x where x grows, and 1.41421 where it falls"));
     CHECK(has(refusal("-sign(x)*y", ""), "sign(x)"));  // zero along both axes
     CHECK(has(refusal("-min(abs(x), abs(y))", ""), "min(abs(x),abs(y))"));
-    CHECK(has(refusal("-max(0, min(x, y) - 10*abs(x - y))", ""), "max"));  // not zero in a narrow cone alone
+    CHECK(has(refusal("-max(0, min(x, y) - 10*abs(x - y))", ""), "max"));  // not zero only in a narrow cone
     CHECK(has(refusal("abs(sin(x))", "", std::numbers::pi), "x = 3.14159"));
 }
 
-TEST_CASE("linearize: a potential without a second derivative is refused, and said to be one") {
+TEST_CASE("linearize: a potential without a second derivative is refused, and the message says so") {
     CHECK(has(refusal("0", "x^1.5"), "sqrt(x) in [energy] potential"));
     CHECK(has(refusal("0", "x^1.5"), "has an infinite slope where x grows"));
     CHECK(has(refusal("0", "x^2.5"), "has no value where x falls: the state is on the border of its domain"));
@@ -145,7 +145,7 @@ TEST_CASE(
           "-5*x + abs(x) - max(x, -x)", "-5*x + x'*abs(x)", "-5*x + none*abs(x)", "-5*x*sign(x)^2"})
         CHECK(stiffness(force, "") == doctest::Approx(5).epsilon(1e-14));
     CHECK(stiffness("0", "abs(x)^3 + x^2") == doctest::Approx(2).epsilon(1e-14));
-    CHECK(stiffness("-5*abs(x) + 5", "", 1) == doctest::Approx(5).epsilon(1e-14));  // off the kink
+    CHECK(stiffness("-5*abs(x) + 5", "", 1) == doctest::Approx(5).epsilon(1e-14));  // away from the kink
     CHECK(stiffness("x^1.5 - 1", "", 1) == doctest::Approx(-1.5).epsilon(1e-14));
     CHECK(stiffness("-tanh(x/0.001)", "") == doctest::Approx(1000).epsilon(1e-14));
     CHECK(stiffness("-sqrt(x^2 + 0.01) + 0.1 - 5*x", "") == doctest::Approx(5).epsilon(1e-14));  // smoothed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Linearized equations against closed forms, against a published benchmark, and against differences of the
-// nonlinear accelerations in 60 digits, in which dependent coordinates and rates are solved for at each state.
+// nonlinear accelerations in 60 digits, for which dependent coordinates and rates are solved at each state.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ Case textbook(const std::string& name, const std::string& by, const Overrides& a
     return linearized(read_scene(test::source_path("scenes/textbook/" + name + ".toml")), by, at);
 }
 
-/// x of S x = b by elimination with row exchanges.
+/// The solution x of S x = b by elimination with row exchanges.
 std::vector<Digits> solved(std::vector<std::vector<Digits>> S, std::vector<Digits> b) {
     const std::size_t n = b.size();
     for (std::size_t c = 0; c < n; ++c) {
@@ -189,7 +189,7 @@ TEST_CASE("linearize: the bicycle's matrices are the published ones") {
         CHECK(distance(lean_and_steer(c, c.near.D), v * C1) < 1e-12 * std::max(1.0, v));
         CHECK(distance(lean_and_steer(c, c.near.K + c.near.N), 9.81 * K0 + v * v * K2) <
               1e-12 * std::max(9.81, v * v));
-        CHECK(c.near.M.row(2).head(2).isZero(0));  // forward motion is on its own
+        CHECK(c.near.M.row(2).head(2).isZero(0));  // forward motion is uncoupled
         CHECK(c.near.D.row(2).isZero(0));
         CHECK(c.near.moving ==
               (v == 0 ? std::vector<std::string>{} : std::vector<std::string>{"x", "rear", "front"}));
@@ -308,7 +308,7 @@ TEST_CASE("linearize: a top in regular precession nods with the frequency of its
         "position = [0, 0, \"l\"]\naxes = \"T\"\n",
         "top.toml");
     const double A = 0.4, C = 0.1, w = 1.5 * 9.81 * 0.3, theta = 0.9, p = 1.7;
-    // Steady where A cos θ p² − C w3 p + m g l = 0: the spin that goes with the precession p.
+    // Steady where A cos θ p² − C w3 p + m g l = 0: the spin that belongs to the precession p.
     const double w3 = (A * std::cos(theta) * p * p + w) / (C * p), spin = w3 - p * std::cos(theta);
     for (const char* by : {"lagrange", "kane"}) {
         const Case c = linearized(scene, by, {{"theta", theta}, {"psi'", p}, {"phi'", spin}});
@@ -342,7 +342,7 @@ TEST_CASE("linearize: speeds of the scene are states, and inputs have columns") 
     CHECK(distance(cart.near.B, Eigen::Vector4d(0, 0, 1 / M, -1 / (M * l))) < 1e-15);
 }
 
-TEST_CASE("linearize: what is neither at rest nor steady is refused with what is left") {
+TEST_CASE("linearize: a state that is neither at rest nor steady is refused with its residual") {
     const auto message = [](const std::string& name, const std::string& by, const Overrides& at) {
         try {
             textbook(name, by, at);

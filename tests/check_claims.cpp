@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Verdicts on hand derivations: right ones in any dress are proved, wrong ones refuted with the slip named.
+// Verdicts on hand derivations: right ones in any form are proved, wrong ones are refuted and the slip is named.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void check_verdicts(const Checked& result, const std::vector<Verdict>& expected)
 
 }  // namespace
 
-TEST_CASE("check: every hand derivation that a textbook scene carries is proved") {
+TEST_CASE("check: every hand derivation in a textbook scene is proved") {
     int claims = 0;
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
@@ -72,7 +72,7 @@ sin(alpha) = 0
     CHECK_FALSE(result.complete);
 }
 
-// m x'' = a tan φ, m y'' = −a with any scale of a; x'' = … alone is taken up by a.
+// m x'' = a tan φ, m y'' = −a with any scale of a; a claim x'' = … alone can be satisfied by the choice of a.
 TEST_CASE(
     "check: unknown multipliers are in the author's sign and scale, and a claim that one takes up alone is "
     "vacuous") {
@@ -91,7 +91,8 @@ TEST_CASE(
 }
 
 // Three equations with one unknown: the two that agree show which is wrong.
-TEST_CASE("check: of claims that share an unknown the one that the others contradict is refuted, with its slip") {
+TEST_CASE(
+    "check: among claims with a common unknown, the one that the others contradict is refuted with its slip") {
     const Checked result = checked("sled", "unknowns a\nm*xC'' = a*tan(phi)\nm*yC'' = -a\na = m*xC'*phi'\n");
     CHECK(result.claims[0].verdict == Verdict::proved);
     CHECK(result.claims[1].verdict == Verdict::proved);
@@ -170,7 +171,7 @@ TEST_CASE("check: the slips in claims about rest and about impacts are named too
 }
 
 // 2·ω' J and the like divided by (e·e)², as the rotation is for every e, would be the quotients.
-TEST_CASE("check: equations printed of a body turned by a quaternion use e.e = 1, and are proved") {
+TEST_CASE("check: the printed equations of a body turned by a quaternion use e.e = 1 and are proved") {
     const Scene scene = parse_scene(R"(title = "Free body"
 [parameters]
 A = 1.0
@@ -246,7 +247,7 @@ potential = "b/4*((x2-x1)^4 + x1^4)"
 }
 
 // theta2' l2 cos has the dimension of a velocity among accelerations, and no single change sets the claim right.
-TEST_CASE("check: a term of another dimension than the others is named where no single change helps") {
+TEST_CASE("check: a term with the wrong dimension is named if no single change helps") {
     const Checked result = checked("double_pendulum", R"(
 (m1+m2)*l1*theta1'' - 3*m2*l2*theta2'*sin(theta1-theta2) + 2*(m1+m2)*g*cos(theta1) = 5*F*sin(theta1)
 (m1+m2)*l1*theta1'' - 3*m2*l2*theta2'^2*theta1*sin(theta2) + 2*(m1+m2)*g*cos(theta1) = 5*F*sin(theta1)
@@ -267,7 +268,7 @@ TEST_CASE("check: the difference from the nearest right equation is shown after 
     CHECK(result.claims[0].likely->kind == "sign");
 }
 
-TEST_CASE("check: a claim that holds at the scene's values only is refuted, with that said") {
+TEST_CASE("check: a claim that holds only at the scene's values is refuted, and the reason is given") {
     // two_body has m1 = 3 and m2 = 1.
     Scene scene = parse_scene(
         "[parameters]\nm = 2\nk = 8\n[coordinates]\nx = 1\n[energy]\nkinetic = \"m*x'^2/2\"\npotential = "
@@ -299,7 +300,7 @@ TEST_CASE(
     CHECK(complaint("# nothing\n").find("has no claims") != std::string::npos);
 }
 
-TEST_CASE("check: claims at an impact speak of the rates before and after, at the pose where the scene starts") {
+TEST_CASE("check: claims at an impact are about the rates before and after it, at the initial pose") {
     const Checked result = checked("struck_rods", R"(
 impact
 theta1' = 3*S/(7*m*l)
@@ -317,7 +318,7 @@ unknowns R
     CHECK(result.claims[4].verdict == Verdict::refuted);
 }
 
-TEST_CASE("check: nobody gives the derivative of a multiplier, an acceleration or an unknown function") {
+TEST_CASE("check: the derivative of a multiplier, an acceleration or an unknown function is refused") {
     for (const char* claims :
          {"(lambda1)' = 0\n", "(m*xC'*phi' + lambda1)' = 0\n", "unknowns a\n(a*phi')' = 0\n"}) {
         CAPTURE(claims);
@@ -345,7 +346,7 @@ abs(theta1')*(m2*l1*theta1''*cos(theta1-theta2) + m2*l2*theta2'' - m2*l1*theta1'
     check_verdicts(result, expected);
 }
 
-TEST_CASE("check: a drive whose frequency is a decimal, beside a constraint that is solved for an angle") {
+TEST_CASE("check: a drive with a decimal frequency and a constraint solved for an angle are possible together") {
     const Scene scene = parse_scene(R"toml([parameters]
 m = 1
 l = 2
@@ -376,7 +377,7 @@ cos(1.005*t) = 2*cos(0.5025*t)^2 - 1
 }
 
 // The angles at the coupler: a α' sin(α−β) = c γ' sin(γ−β), c = 7/2, from the loop's rates without β'.
-TEST_CASE("check: a loop whose lengths are numbers is solved for two angles at once") {
+TEST_CASE("check: a loop whose lengths are numbers is solved for two angles together") {
     const Scene scene = parse_scene(R"toml([coordinates]
 alpha = { initial = 0.5, rate = 2.0 }
 beta  = { guess = 0.6, rate_guess = 0 }
@@ -407,8 +408,8 @@ beta = 2*atan(2/3)
     CHECK_FALSE(result.claims[3].counterexample.empty());
 }
 
-// No constraint has an unknown of its own, nor any two of them two. b' is what the rates' rows leave of it by
-// Cramer's rule.
+// No constraint has an unknown of its own, and no two constraints have two. b' follows from the rows of the rates
+// by Cramer's rule.
 TEST_CASE("check: constraints that cannot be solved one after the other") {
     const Scene scene = parse_scene(R"toml([coordinates]
 a = { initial = 0.5, rate = 2.0 }
@@ -445,7 +446,7 @@ sin(a)*a' + sin(b)*sin(c)*b' + cos(b)*cos(c)*c' = cos(d)*d'/3
         CHECK(result.claims[k].counterexample.empty() == (expected[k] == Verdict::proved));
 }
 
-// x² = l² has two branches; nothing says which.
+// x² = l² has two branches; the claim does not say which.
 TEST_CASE("check: a claim that holds on one branch of a constraint only is refuted") {
     const Scene scene = parse_scene(
         "[parameters]\nm = 1\nl = 2\n[coordinates]\nx = 2\ny = 1\n[energy]\nkinetic = \"m*(x'^2+y'^2)/2\"\n"
@@ -458,9 +459,9 @@ TEST_CASE("check: a claim that holds on one branch of a constraint only is refut
     for (const std::size_t k : {2, 3, 4}) CHECK(result.claims[k].verdict == Verdict::proved);
 }
 
-// Two rows of one constraint, of which the second is left out: a claim that names its multiplier speaks of both,
-// of which the sum of forces alone is determined; one that does not speaks of the first as of the only one.
-// The least multipliers are in the ratio of the rows, 1 : 2, and exert the force (1 + 2·2)·lambda_c1 together.
+// There are two rows of one constraint, and the second is left out. A claim with its multiplier is about both, of
+// which only the sum of forces is determined; a claim without it treats the first as the only one. The multipliers
+// of least norm are in the ratio of the rows, 1 : 2, and together exert the force (1 + 2·2)·lambda_c1.
 TEST_CASE("check: the multipliers of a constraint and of its double") {
     const Scene scene = parse_scene(
         "[parameters]\nm = 1\ng = 9.81\n[coordinates]\nx = 0.2\ny = 0.2\n"
@@ -523,7 +524,7 @@ holonomic = "{}"
     CHECK(verdicts("a - 2*b = pi/2",
                    "cos(a) = -sin(2*b)\ncos(a) = sin(2*b)\n(4*I1+I2)*b'' = 2*k*cos(2*b) - k*cos(b)\n") == "prp");
     CHECK(verdicts("a - 2*b = pi/3", "2*cos(a) = cos(2*b) - sqrt(3)*sin(2*b)\ncos(a) = cos(2*b)\n") == "pr");
-    // No turn by π/5 in the field: what cannot be decided is not called wrong.
+    // The field has no turn by π/5; a claim that cannot be decided is not called wrong.
     CHECK(verdicts("a - 2*b = pi/5", "cos(a) = cos(2*b + pi/5)\ncos(a) = cos(2*b)\n") == "ur");
 }
 
@@ -648,7 +649,7 @@ TEST_CASE("check: the printed equations of chains of links are proved, and a wro
     }
 }
 
-TEST_CASE("check: a sine of pi/10 is the same whether it is a parameter's or written out") {
+TEST_CASE("check: the sine of pi/10 is the same as a parameter or written out") {
     const Scene scene = parse_scene(R"scene(title = "slope"
 [parameters]
 tilt = "pi/10"
@@ -681,8 +682,8 @@ m*g = 2*lambda6*(y6-y5)
     CHECK(result.claims[4].verdict != Verdict::proved);
 }
 
-// Rest of two weights on a rope needs m1 = m2; by a quotient of (m1 − m2)·g everything would follow.
-TEST_CASE("check: what would follow from unequal weights at rest is refuted") {
+// Rest of two weights on a rope needs m1 = m2; with a division by (m1 − m2)·g everything would follow.
+TEST_CASE("check: a claim that would follow from unequal weights at rest is refuted") {
     const Scene scene = parse_scene(R"(title = "Atwood's machine with springs"
 gravity = [0, "-g"]
 [parameters]

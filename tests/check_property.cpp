@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random right and wrong claims about every scene: no false proof, no false refutation, almost nothing left
-// undecided. ALEMBERT_CLAIMS sets how many of each there are a scene (3; tests/bench/check_property.sh asks for
-// 500), ALEMBERT_SCENE picks one scene.
+// Random right and wrong claims about every scene: there is no false proof and no false refutation, and almost
+// nothing is undecided. ALEMBERT_CLAIMS sets the number of each for a scene (3; tests/bench/check_property.sh asks
+// for 500), ALEMBERT_SCENE picks one scene.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ public:
         for (int k = 0; k < count; ++k) judge(rewritings_.claim(random_), true);
     }
 
-    /// One term changed, in an equation as it is or in a rewritten one.
+    /// One term is changed, in an original or in a rewritten equation.
     void wrong(int count) {
         for (int k = 0; k < count;) {
             std::vector<std::string> equations = rewritings_.right();
@@ -112,7 +112,7 @@ TEST_CASE(
             only != nullptr && file.find(only) == std::string::npos)
             continue;
         const Mechanism m = prepared(read_scene(file)).mechanism;
-        if (!m.unilateral.empty()) continue;  // the oracle does not read contacts
+        if (!m.unilateral.empty()) continue;  // the oracle does not support contacts
         Trial trial(file, seed);
         if (!trial.readable()) continue;
         trial.right(count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Roots on the sheet of the initial state, and formulas that are right on one branch. What is proved is held
-// against floating point: `eval`, which computes the roots themselves.
+// Roots on the sheet of the initial state, and formulas that are right on one branch. Proved formulas are compared
+// with `eval`, which computes the roots themselves in floating point.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -88,7 +88,7 @@ TEST_CASE("check: a coordinate that starts negative is on the other sheet, and e
     CHECK(a == doctest::Approx(-1.1 * 0.25 + 9.81 * std::cos(0.4) - 30 / 1.2 * (-1.1 + 0.8)).epsilon(1e-13));
 }
 
-TEST_CASE("check: nothing is assumed where a root's argument may pass zero, nor for a bouncing force") {
+TEST_CASE("check: no sign is assumed if a root's argument may pass zero, nor for a bouncing force") {
     const std::string bouncing = temporary("bouncing.toml", R"toml(
 [parameters]
 m = 1.0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Slips of students over all scenes: each that is wrong by an evaluation in 60 digits is refuted, and most are
-// named rightly. One of a kind of an equation, for a fourth of these; ALEMBERT_SLIPS asks for that many of every
-// one.
+// named rightly. A fourth of the equations get one slip of each kind; ALEMBERT_SLIPS sets how many slips every
+// equation gets.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ TEST_CASE(
     const char* const wanted = std::getenv("ALEMBERT_SLIPS");
     const std::size_t each = wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 1;
     std::mt19937 random(seed);
-    std::map<std::string, std::map<std::string, int>> named;  // made → named
+    std::map<std::string, std::map<std::string, int>> named;  // the kind that was made → the kind that was named
     std::string misnamed;
     for (const std::string& file : scenes_in("scenes/textbook")) {
         CAPTURE(file);
@@ -53,7 +53,7 @@ TEST_CASE(
                 slips.push_back(slip);
                 claims += slip.equation + "\n";
             }
-        if (slips.empty()) continue;  // nothing readable to slip on
+        if (slips.empty()) continue;  // there is no readable equation
         const Scene wrong = with_claims(scene, claims, "slips");
         const Checked result = check(wrong, m);
         for (std::size_t k = 0; k < slips.size(); ++k) {

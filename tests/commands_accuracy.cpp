@@ -43,7 +43,7 @@ Outcome simulated(const std::string& scene, const std::string& tolerance, const 
 
 }  // namespace
 
-// The local error of each component is at most the tolerance; on the way to t = 10 errors grow 10⁷-fold.
+// The local error of each component is at most the tolerance; until t = 10 errors grow 10⁷-fold.
 TEST_CASE("commands: the chaotic double pendulum at t = 10 is within what its error growth allows") {
     const Outcome at_13 = simulated("scenes/benchmark/double_pendulum_chaotic.toml", "1e-13", chaotic);
     CAPTURE(at_13.error);
@@ -55,7 +55,7 @@ TEST_CASE("commands: the chaotic double pendulum at t = 10 is within what its er
     CHECK(at_14.drift < 1e-11);
 }
 
-// No exponential growth here: a few hundred steps of at most 1e-13 each.
+// There is no exponential growth here: a few hundred steps have errors of at most 1e-13 each.
 TEST_CASE("commands: the regular double pendulum is within 1e-11 of 30 digits at t = 10") {
     const Outcome outcome = simulated("scenes/benchmark/double_pendulum_regular.toml", "1e-13", regular);
     CAPTURE(outcome.error);
@@ -63,7 +63,7 @@ TEST_CASE("commands: the regular double pendulum is within 1e-11 of 30 digits at
     CHECK(outcome.drift < 1e-11);
 }
 
-// What runs is the fastest, without the others being derived; what is shown is what a teacher would choose.
+// The fastest formalism runs, without the derivation of the others; the one that a teacher would choose is shown.
 TEST_CASE(
     "commands: a tree of many bodies runs by the recursion at once, accelerates as by Lagrange, and is shown by "
     "Lagrange") {

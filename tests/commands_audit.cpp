@@ -23,7 +23,7 @@ std::string scene(const std::string& coordinates, const std::string& constraints
 
 }  // namespace
 
-TEST_CASE("commands: audit tells the rolling disc's integral in text and JSON") {
+TEST_CASE("commands: audit gives the rolling disc's integral in text and JSON") {
     const std::string disc = source_path("scenes/textbook/rolling_disc.toml");
     const auto plain = run({"audit", disc});
     CHECK(plain.exit == 0);
@@ -51,7 +51,7 @@ TEST_CASE("commands: audit tells the rolling disc's integral in text and JSON") 
     CHECK(sleigh["coordinates_free"] == 3);
 }
 
-TEST_CASE("commands: audit of a scene without constraints has nothing to tell, and rank 0") {
+TEST_CASE("commands: audit of a scene without constraints reports nothing, and rank 0") {
     const auto result = run({"audit", source_path("scenes/textbook/double_pendulum.toml"), "--json"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
@@ -60,7 +60,7 @@ TEST_CASE("commands: audit of a scene without constraints has nothing to tell, a
     CHECK(json["degrees_of_freedom"] == 2);
 }
 
-TEST_CASE("commands: audit says what was adjusted") {
+TEST_CASE("commands: audit reports adjusted values") {
     const auto result = run({"audit", source_path("scenes/textbook/four_bar.toml"), "--json"});
     REQUIRE(result.exit == 0);
     const Json adjusted = Json::parse(result.out)["adjusted"];
@@ -88,8 +88,8 @@ TEST_CASE("commands: audit reports what is wrong with the constraints before it 
     CHECK(run({"audit", "nowhere.toml"}).exit == 3);
 }
 
-// z' = 0 comes out of the least-squares step as some 1e-18, beside which 1e-9 of the terms' sizes is nothing.
-TEST_CASE("commands: guesses that end at zero but for rounding have converged") {
+// The least-squares step gives about 1e-18 for z' = 0, and 1e-9 of the sizes of its terms is even smaller.
+TEST_CASE("commands: guesses that end at zero up to rounding have converged") {
     const std::string disc = temporary("disc.toml", R"toml(
 [parameters]
 r = 0.3
@@ -137,7 +137,7 @@ nonholonomic = "dot(vel(disc) + cross(omega(D), pos(disc, C)), ez(N))"
     const Json json = Json::parse(result.out);
     CHECK(json["rank"] == 3);
     CHECK(json["degrees_of_freedom"] == 3);
-    CHECK(json["coordinates_free"] == 5);  // a disc that rolls reaches every place, heading, lean and turn
+    CHECK(json["coordinates_free"] == 5);  // a rolling disc reaches every position, heading, lean and rotation
     CHECK(json["constraints"][1]["integrable"] == false);
     CHECK(json["constraints"][3]["redundant"] == true);
     CHECK(json["constraints"][3]["integral"] == "z - r*sin(theta)");

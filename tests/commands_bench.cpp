@@ -35,7 +35,8 @@ std::string scene(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("bench: the reference of Kepler's comet is Kepler's equation in the digits that it claims") {
+TEST_CASE(
+    "bench: the reference of Kepler's comet agrees with Kepler's equation in all the digits that it claims") {
     const std::string svg = temporary("kepler.svg", ""), csv = temporary("kepler.csv", "");
     const Json result =
         result_of({"bench", scene("kepler"), "--json", "--method", "dop853", "--svg", svg, "--csv", csv});
@@ -82,7 +83,7 @@ TEST_CASE("bench: methods for separable systems are left out where the system is
               .contains("kahanli8"));
 }
 
-TEST_CASE("bench: constraints are kept, and their error is told") {
+TEST_CASE("bench: constraints are kept, and their error is reported") {
     const Json result =
         result_of({"bench", scene("cartesian_pendulum"), "--json", "--duration", "10", "--method", "dop853"});
     const Json& end = result["reference"]["text"]["coordinates"];
@@ -104,7 +105,7 @@ TEST_CASE("simulate: the second run of a step beyond the duration takes half of 
     CHECK(result["error_estimate"]["trustworthy"] == false);
 }
 
-TEST_CASE("simulate: options that are no numbers in their range, or no use to the method, are refused") {
+TEST_CASE("simulate: options that are out of range, or without use for the method, are refused") {
     const std::string one =
         temporary("one.toml", "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n");
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--duration", "nan"},
@@ -123,7 +124,7 @@ TEST_CASE("simulate: options that are no numbers in their range, or no use to th
 }
 
 // x = 1/(1 − t)² is the motion of x'' = 6 x².
-TEST_CASE("bench: where no method reaches the end it says what stops them, and where") {
+TEST_CASE("bench: if no method reaches the end, the message says what stops them, and where") {
     const std::string pole = temporary("pole.toml",
                                        "[coordinates]\nx = { initial = 1, rate = 2 }\n[energy]\nkinetic = "
                                        "\"x'^2/2\"\npotential = \"-2*x^3\"\n[simulation]\nduration = 2\n");
@@ -156,7 +157,7 @@ TEST_CASE("simulate: the estimated error is within a factor of 30 of the true on
 }
 
 // Measured on the page: errors grow 10^6 to 10^7 fold in 10 s, 10^13 in 20 s: an exponent of 1.4 to 1.6.
-TEST_CASE("simulate: chaos is told with its exponent, and a result without digits says so on its first line") {
+TEST_CASE("simulate: chaos is reported with its exponent, and the first line of a result without digits says so") {
     const std::string chaotic = scene("double_pendulum_chaotic");
     const Json good = result_of({"simulate", chaotic, "--json"});
     CHECK(good["error_estimate"]["trustworthy"] == true);
@@ -175,7 +176,7 @@ TEST_CASE("simulate: chaos is told with its exponent, and a result without digit
     CHECK(regular["error_estimate"]["value"].get<double>() < 1e-10);
 }
 
-// Runs apart by 0.1: seen in their rows, where the estimate works with two other runs of its own.
+// The time at which runs differ by 0.1 is found in the rows; the estimate uses two other runs of its own.
 TEST_CASE(
     "simulate: the time after which no digit is left is the time at which a hundred times stricter run has "
     "parted") {
@@ -211,8 +212,8 @@ TEST_CASE(
     CHECK(loose["warning"].get<std::string>().starts_with("NOT TRUSTWORTHY"));
 }
 
-// The true errors: against the end of a run three decades stricter by another method, whose own error is a
-// hundredth and less of them.
+// The true errors are found by comparison with a run of another method at a tolerance three decades stricter,
+// whose own error is a hundredth of them or less.
 TEST_CASE("simulate: the estimated error is within a factor of 10 of the true one, whatever the scene") {
     for (const char* name : {"kepler", "pleiades", "andrews", "free_body", "car_axis", "stiff_spring_pendulum",
                              "double_pendulum_regular", "four_bars_2"}) {
@@ -234,9 +235,9 @@ TEST_CASE("simulate: the estimated error is within a factor of 10 of the true on
     }
 }
 
-// It touches down first at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e): `error` holds those times
-// against a strict run's.
-TEST_CASE("bench: a bouncing ball has its row, by the times of its contacts") {
+// The ball first touches the floor at sqrt(2h/g), and the bounces end at sqrt(2h/g)(1 + e)/(1 - e); `error`
+// compares these times with those of a strict run.
+TEST_CASE("bench: the error of a bouncing ball includes the times of its contacts") {
     const Json result = result_of({"bench", scene("bouncing_ball"), "--json", "--method", "dop853"});
     CHECK(result["reference"]["digits"].get<int>() >= 10);
     REQUIRE(result["runs"].size() == 11);

@@ -17,8 +17,8 @@ using alembert::test::source_path;
 using alembert::test::temporary;
 using Json = nlohmann::json;
 
-// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and place
-// by quadrature in 32 digits. Local errors of 1e-11 on some sixty steps of an attracting motion.
+// v' = a w², w' = −m a v w/(J + m a²): v = c tanh(l t + b), w = c √(m/(J + m a²)) sech(l t + b); angle and
+// position by quadrature in 32 digits. The local errors are 1e-11 in about sixty steps of an attracting motion.
 TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
     const auto result =
         run({"simulate", source_path("scenes/textbook/chaplygin_sleigh.toml"), "--json", "--tolerance", "1e-13"});
@@ -33,7 +33,8 @@ TEST_CASE("commands: the Chaplygin sleigh follows its closed form") {
     CHECK(json["constraint_drift"].get<double>() < 1e-12);
 }
 
-// A Cartesian pendulum from the horizontal is the angle's pendulum: the same end state by other equations.
+// A Cartesian pendulum released from the horizontal reaches the same end state as the pendulum in its angle, by
+// other equations.
 TEST_CASE(
     "commands: the Cartesian pendulum moves like the pendulum in its angle, with the tension m(g cos + l w²)") {
     const auto cartesian = run(
@@ -73,7 +74,7 @@ TEST_CASE("commands: a four-bar keeps its loop and its energy over a hundred tur
     CHECK(json["energy_drift"].get<double>() < 1e-9);
 }
 
-TEST_CASE("commands: a constraint that moves does work, and the balance says how much") {
+TEST_CASE("commands: a moving constraint does work, which the balance contains") {
     const std::string scene = temporary("driven.toml", R"toml(
 [coordinates]
 x = { guess = 1, rate_guess = 0 }
@@ -101,7 +102,7 @@ tolerance = 1e-11
           doctest::Approx(1 + std::sin(10.0) / 2).epsilon(1e-12));
 }
 
-TEST_CASE("commands: what is wrong with constraints has its message and exit code") {
+TEST_CASE("commands: mistakes in constraints have their messages and exit codes") {
     const auto scene = [](const std::string& constraint, const std::string& x = "x = 0.6",
                           const std::string& more = "") {
         return temporary("c.toml",
@@ -179,7 +180,7 @@ TEST_CASE("commands: reactions along the coordinates are those of the free body"
     CHECK(shown.out.find("Q(x) of rod = 2*x*lambda_rod") != std::string::npos);
 }
 
-TEST_CASE("commands: constraints that hold together only where the coordinates obey a relation are refused") {
+TEST_CASE("commands: constraints that hold together only if the coordinates obey a relation are refused") {
     const std::string scene = temporary("hidden.toml", R"toml(
 [coordinates]
 x = 0
@@ -201,9 +202,9 @@ nonholonomic = "x' = y*z' + z"
     }
 }
 
-// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the least of these is in the
-// ratio 1 : 2.
-TEST_CASE("commands: redundant constraints share their reaction in the least way") {
+// Two equations of one rod, f and 2f: λ₁ + 2 λ₂ is the one rod's multiplier, and the solution of least norm is in
+// the ratio 1 : 2.
+TEST_CASE("commands: the multipliers of redundant constraints are those of least norm") {
     const std::string rod = R"toml(
 gravity = [0, "-9.81"]
 [coordinates]
@@ -232,9 +233,9 @@ holonomic = "x^2 + y^2 = 1"
     CHECK(motion.exit == 0);
 }
 
-// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 against dop853; then the same
-// with what it cannot have, each named. x'' + x = cos 2t from rest: x = (cos t − cos 2t)/3. The load's work is
-// integrated with the motion.
+// Two particles on nonlinear springs, H = p²/2 + V(x, y): the composition of order 8 is compared with dop853; then
+// features that it does not support are added, and each is named. x'' + x = cos 2t from rest: x = (cos t − cos
+// 2t)/3. The load's work is integrated with the motion.
 TEST_CASE("commands: verlet and kahanli8 follow loads that are not in the energy") {
     const std::string driven = temporary("driven.toml",
                                          "[coordinates]\nx = 0\n[energy]\nkinetic = \"x'^2/2\"\npotential = "

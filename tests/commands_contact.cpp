@@ -54,7 +54,7 @@ TEST_CASE("contact: a ball bounces infinitely often in a finite time, then lies 
         if (rows[i][0] < 3 * first - 1e-3) CHECK(rows[i][3] == 0);
         if (rows[i][0] > 3 * first) CHECK(std::abs(rows[i][3] - 2 * g) < 1e-12);
     }
-    CHECK(twice == impacts.size());  // before and after
+    CHECK(twice == impacts.size());  // a row before and one after
     CHECK(rows.size() == 201 + 2 * twice);
 }
 
@@ -146,7 +146,7 @@ tolerance = 1e-12
 }
 
 // Slack where v² = −g l cos θ with v² = v₀² − 2 g l (1 − cos θ): cos θ = (2 − v₀²/(g l))/3, here −1/2. With the
-// angle α = π − θ from the top the parabola meets the circle again after 4 v sin α/g.
+// angle α = π − θ from the top, the parabola meets the circle again after the time 4 v sin α/g.
 TEST_CASE(
     "contact: a pendulum on a string goes slack at the angle of the closed form and taut again where its parabola "
     "ends") {
@@ -169,7 +169,7 @@ TEST_CASE(
     const double y = -l * std::cos(theta) + v * std::sin(theta) * flight - g * flight * flight / 2,
                  w = v * std::sin(theta) - g * flight;
     CHECK(std::abs(value(motion["contacts"][1], "speed_before") + (x * u + y * w) / l) < 1e-8);
-    // What is tangential stays; then it swings with the energy that is left.
+    // The tangential speed is kept; then the mass swings with the remaining energy.
     const double along = (-y * u + x * w) / l, x_end = coordinate(motion, "x"), y_end = coordinate(motion, "y");
     CHECK(std::abs(std::hypot(x_end, y_end) - l) < 1e-12);
     const double speed = std::hypot(rate(motion, "x"), rate(motion, "y"));
@@ -177,7 +177,7 @@ TEST_CASE(
     CHECK(motion["work_balance"].get<double>() < 1e-10);
 }
 
-// v² = u² + 2 g (1 − c) = g c on the unit circle; from then on the horizontal speed v c stays.
+// v² = u² + 2 g (1 − c) = g c on the unit circle; from then on the horizontal speed v c is constant.
 TEST_CASE("contact: a particle leaves a smooth sphere where the reaction vanishes") {
     const auto scene = [](const std::string& gap) {
         return temporary("sphere.toml", R"toml(
@@ -280,7 +280,7 @@ tolerance = 1e-11
     CHECK(of_kind(tilted, "rest", "left").size() == 1);
     CHECK(of_kind(tilted, "rest", "right").size() == 1);
     CHECK(std::abs(coordinate(tilted, "y")) + std::abs(coordinate(tilted, "phi")) < 1e-15);
-    CHECK(std::abs(tilted["impact_loss"].get<double>() - g) < 1e-9);  // all that there was
+    CHECK(std::abs(tilted["impact_loss"].get<double>() - g) < 1e-9);  // all of the energy
     CHECK(tilted["work_balance"].get<double>() < 1e-10);
 
     const Json flat = rod("0");

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Contacts beside other things: constraints, each other, moving frames, events, the start, and where nothing is
-// consistent.
+// Contacts together with constraints, other contacts, moving frames and events, at the start, and in cases where
+// nothing is consistent.
 #include "contacts.hpp"
 
 namespace commands_contacts {
 
 using namespace alembert::test;
 
-// The same pendulum against the same wall: in its angle, and in Cartesian coordinates with a rod as constraint.
+// A pendulum strikes a wall, described by its angle and by Cartesian coordinates with a rod as constraint.
 TEST_CASE("contact: impacts keep bilateral constraints: two kinds of coordinates give one motion") {
     const std::string angle = temporary("angle.toml", R"toml(
 [coordinates]
@@ -116,7 +116,7 @@ duration = 10
     for (const char* q : {"z", "a", "b"}) CHECK(std::abs(coordinate(legs, q)) < 1e-12);
 }
 
-// Seen from a platform that swings: x = y − s(t), and the floor stands still on it.
+// The motion relative to a swinging platform, x = y − s(t), on which the floor is at rest.
 TEST_CASE(
     "contact: a moving frame sees the same bounces, and the work of its motion in the impacts is accounted for") {
     const std::string moving = temporary("moving.toml", R"toml(
@@ -195,7 +195,7 @@ duration = 3
     CHECK(Json::parse(result.out)["completed"] == false);
 }
 
-TEST_CASE("contact: a gap that is negative at the start is a mistake of the scene, by name and depth") {
+TEST_CASE("contact: a gap that is negative at the start is a mistake of the scene, with its name and size") {
     for (const char* verb : {"simulate", "eval"}) {
         const auto result =
             run({verb, temporary("deep.toml",
@@ -206,18 +206,18 @@ TEST_CASE("contact: a gap that is negative at the start is a mistake of the scen
     }
 }
 
-TEST_CASE("contact: a scene's event stops a run among impacts, and is told once") {
+TEST_CASE("contact: a scene's event stops a run between impacts and is reported once") {
     const Json motion = simulated(ball(0.5, 3,
                                        "[[event]]\nname = \"high\"\nwhen = \"y - 0.5\"\n[[event]]\nname = "
                                        "\"end\"\nwhen = \"t - 1\"\nstop = true\n"));
     CHECK(motion["final"]["time"].get<double>() == doctest::Approx(1).epsilon(1e-14));
-    REQUIRE(motion["events"].size() == 2);  // on the way down; it never comes as high again
+    REQUIRE(motion["events"].size() == 2);  // on the way down; later it never reaches that height
     CHECK(std::abs(value(motion["events"][0], "time") - std::sqrt(1 / g)) < 1e-11);
     CHECK(motion["events"][1]["name"] == "end");
     CHECK(of_kind(motion, "impact").size() == 2);
 }
 
-TEST_CASE("contact: eval chooses the contacts that last, derive shows gaps and reactions") {
+TEST_CASE("contact: eval chooses the contacts that stay closed, and derive shows gaps and reactions") {
     const std::string scene = source_path("scenes/textbook/bouncing_ball.toml");
     const Json open = Json::parse(run({"eval", scene, "--json"}).out),
                closed = Json::parse(run({"eval", scene, "--json", "--at", "y=0"}).out);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether energy is conserved, where a given motion leaves T₁ and T₀ in T though t itself cancels. The verdict of
-// `simulate` is held against E at the two ends of the run, as `eval` has it.
+// Whether energy is conserved if a given motion leaves T₁ and T₀ in T although t itself cancels. The verdict of
+// `simulate` is compared with E from `eval` at the two ends of the run.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -95,7 +95,7 @@ axis = "y"
 coordinates = { th = 0.4 }
 )toml";
 
-/// E at a state that a run ended in.
+/// E at the final state of a run.
 double energy_at(const std::string& scene, const Json& state) {
     std::vector<std::string> words{"eval", scene, "--json", "--at",
                                    fmt::format("t={:.17g}", state["time"].get<double>())};
@@ -126,14 +126,15 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("commands: a prescribed motion does work, and a clock that moves nothing does none") {
+TEST_CASE("commands: a prescribed motion does work, and an input that moves nothing does none") {
     const auto driven = run({"simulate", temporary("driven.toml", jointed + run_table), "--json"});
     REQUIRE(driven.exit == 0);
     const Json json = Json::parse(driven.out);
     CHECK(json["energy_drift"].is_null());
     CHECK(json["work_balance"].get<double>() < 1e-9);
 
-    // The frame turns, but what stands in it is a ball whose orientation nothing sees: ½ m r'² along its axis z.
+    // The frame turns, but it carries only a ball, whose orientation does not matter: T = ½ m r'² along its z
+    // axis.
     const std::string idle = temporary("idle.toml", R"toml(
 [coordinates]
 r = { initial = 0.2, rate = 1 }

@@ -91,7 +91,7 @@ TEST_CASE("equilibrium: Watt's governor stands at its angle") {
     CHECK(are_close(values(found(textbook("watt_governor")), "alpha"), {-angle, 0, angle, M_PI}, 2e-15));
 }
 
-// cos θ = g/(l φ'²); the poles are equilibria in which φ says nothing.
+// cos θ = g/(l φ'²); the poles are equilibria in which φ does not matter.
 TEST_CASE("equilibrium: a conical pendulum is a steady motion at the rate that is given") {
     const Json cone = found(textbook("spherical_pendulum"), {"--at", "phi'=5"});
     const double l = found(textbook("spherical_pendulum"), {"--at", "l=1", "--at", "phi'=5"})["equilibria"].size();
@@ -141,14 +141,14 @@ position = ["l2*sin(theta2)", "-l2*cos(theta2)"]
 }
 
 // r = l₀ ± m g/k.
-TEST_CASE("equilibrium: coordinates that follow from others are put in") {
+TEST_CASE("equilibrium: coordinates that follow from others are substituted") {
     const Json two = found(textbook("elastic_pendulum"));
     CHECK(two["complete"] == true);
     CHECK(two["equilibria"].size() == 2);
     for (const Json& one : two["equilibria"]) CHECK(one["exact"].contains("r"));
 }
 
-// The heights of crank and rod grow with sin α: both ways of assembly stand at α = ±π/2.
+// The heights of crank and rod grow with sin α: both assemblies have equilibria at α = ±π/2.
 TEST_CASE("equilibrium: a slider-crank keeps its constraints, with multipliers") {
     const Json crank = found(textbook("slider_crank"));
     CHECK(are_close(values(crank, "alpha"), {-M_PI / 2, -M_PI / 2, M_PI / 2, M_PI / 2}, 1e-14));
@@ -189,7 +189,7 @@ damping = "c"
 }
 
 // V = (x² + y² − 1)²: a circle of equilibria.
-TEST_CASE("equilibrium: of a continuum one is shown, and said to be one of many") {
+TEST_CASE("equilibrium: one state of a continuum is shown, with a note that it is one of many") {
     const std::string ring = temporary("ring.toml", R"toml(
 [coordinates]
 x = 0.9
@@ -320,7 +320,7 @@ vector = ["-P*cos(b)", "-P*sin(b)"]
     CHECK(are_close(points(load, "hamiltonian hopf"), {3.5 - std::sqrt(2.0)}, 1e-10));
 }
 
-TEST_CASE("equilibrium: what has none is refused, each with its reason") {
+TEST_CASE("equilibrium: scenes without equilibria are refused, each with its reason") {
     const auto says = [](const std::vector<std::string>& args, int code, const std::string& words) {
         const auto result = run(args);
         CAPTURE(result.err);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `[[event]]` of a scene: where it is, in what order, and that one with `stop` ends the run there.
+// `[[event]]` of a scene: its time, its order, and that one with `stop` ends the run.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -82,8 +82,8 @@ TEST_CASE(
     }
 }
 
-// cos t = 0 at t = π/2; the second run stops at a time of its own, and what these times differ by is an error too.
-TEST_CASE("events: the estimated error of a run that an event stops is that of the time too") {
+// cos t = 0 at t = π/2; the second run stops at another time, and the difference of these times is an error too.
+TEST_CASE("events: the estimated error of a run that an event stops includes that of the time") {
     const std::string scene = temporary("quarter.toml", R"toml(
 [coordinates]
 x = 1
@@ -115,7 +115,7 @@ duration = 5
     }
 }
 
-TEST_CASE("events: on a constrained motion they are where the angle has them") {
+TEST_CASE("events: a constrained motion has them at the times found with the angle") {
     const std::string scene = temporary("swing.toml", R"toml(
 gravity = [0, "-g"]
 [parameters]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The contract of the command line: exit codes, JSON fields, what stands on which stream.
+// The contract of the command line: exit codes, JSON fields, and the contents of each stream.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -137,12 +137,12 @@ holonomic = "x = 0.1 + t^2"
 )toml");
     const auto beside = run({"eval", free});
     CHECK(beside.exit == 4);
-    CHECK(beside.err.find("no inertia resists z'") != std::string::npos);  // the constraint does not either
+    CHECK(beside.err.find("no inertia resists z'") != std::string::npos);  // nor does the constraint
 }
 
-// Cranks of length 1, pins 2 apart, a coupler of 2: flat at a = b = c = 0, where the first row, (-sin a, sin b, -2
-// sin c), is zero.
-TEST_CASE("commands: constraints that lose their rank at a pose are named, not taken for a division by zero") {
+// Cranks of length 1, pins 2 apart, a coupler of 2: the linkage is flat at a = b = c = 0, where the first row,
+// (-sin a, sin b, -2 sin c), is zero.
+TEST_CASE("commands: constraints that lose rank at a pose are named, and not reported as a division by zero") {
     const auto scene = [](const std::string& more) {
         return temporary("flat.toml", R"toml(
 [coordinates]
@@ -173,7 +173,7 @@ holonomic = "sin(a) + 2*sin(c) = sin(b)"
                               "drops from 2 to 1") != std::string::npos);
         CHECK(result.err.find("division") == std::string::npos);
     }
-    // With a mass on that crank the linkage goes on as the parallelogram that it is: a turn at constant speed.
+    // With a mass on that crank the linkage moves on as a parallelogram and turns at constant speed.
     const auto heavy = run({"simulate",
                             scene("[[particle]]\nname = \"B\"\nmass = 1\nposition = [\"2 + cos(b)\", "
                                   "\"sin(b)\"]\n[simulation]\nduration = 1\n"),
@@ -182,7 +182,7 @@ holonomic = "sin(a) + 2*sin(c) = sin(b)"
     CHECK(std::abs(Json::parse(heavy.out)["final"]["coordinates"]["b"].get<double>() - 1) < 1e-9);
 }
 
-TEST_CASE("commands: what is not a number is blamed on its term, and a run that fails keeps what it had") {
+TEST_CASE("commands: a value that is not a number is traced to its term, and a run that fails keeps its results") {
     const std::string scene = temporary("fall.toml", R"toml(
 [coordinates]
 r = { initial = 1.0 }
@@ -206,7 +206,7 @@ duration = 10
     CHECK(at_centre.err.find("[energy] potential") != std::string::npos);
 }
 
-TEST_CASE("commands: a folder that cannot be written is exit 5, and no half file is left") {
+TEST_CASE("commands: a folder that cannot be written gives exit 5, and no incomplete file remains") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     CHECK(run({"simulate", scene, "-o", "/no/such/folder/x.csv"}).exit == 5);
     const std::string file = temporary("occupied", "");

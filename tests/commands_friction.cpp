@@ -37,7 +37,7 @@ std::string changed(const std::string& name, const std::vector<std::pair<std::st
     return temporary(name + "_changed.toml", scene);
 }
 
-/// Rounding of the time and what the tolerance of 1e-12 of these scenes leaves.
+/// The allowed error: rounding of the time, and the effect of the tolerance of 1e-12 in these scenes.
 doctest::Approx near(double value) {
     return doctest::Approx(value).epsilon(1e-12);
 }
@@ -71,7 +71,7 @@ struct Ladder {
 
 }  // namespace
 
-TEST_CASE("friction: a block thrown up a slope stops, sticks, and is set free where its closed form says so") {
+TEST_CASE("friction: a block thrown up a slope stops, sticks and slides again at the times of the closed form") {
     const double m = 2, alpha = 0.3, mu = 0.4, mu_s = 0.5, v0 = 3, c = 2, end = 4;
     const Json motion = simulated(scene_of("block_on_slope"));
     const double down = g * std::sin(alpha), rub = g * std::cos(alpha);
@@ -109,7 +109,7 @@ TEST_CASE("friction: the period of a stick-slip oscillation is that of its close
     check_balance(motion);
 }
 
-TEST_CASE("friction: three blocks on a belt stick and slip as 40 digits with exact switching say") {
+TEST_CASE("friction: three blocks on a belt stick and slip as in a 40-digit run with exact switching") {
     struct Change {
         double time;
         const char* name;
@@ -137,7 +137,7 @@ TEST_CASE("friction: three blocks on a belt stick and slip as 40 digits with exa
     const Json motion = simulated(scene_of("belt_blocks"));
     std::vector<Json> found;
     for (const Json& event : motion["contacts"])
-        if (value(event, "time") > 0) found.push_back(event);  // all stick at the start
+        if (value(event, "time") > 0) found.push_back(event);  // at the start all contacts stick
     REQUIRE(found.size() == expected.size());
     for (std::size_t k = 0; k < found.size(); ++k) {
         CAPTURE(k);
@@ -156,7 +156,8 @@ TEST_CASE(
     for (const char* method : {"auto", "dop853", "verner98", "taylor"}) {
         CAPTURE(method);
         const Json motion = simulated(scene_of("coulomb_oscillator"), {"--method", method});
-        // 2.3 → −1.8 → 1.3 → −0.8 → 0.3 → −(−0.2) with mu N/k = 0.25: it turns every pi/2 and sticks at 5 pi/2.
+        // 2.3 → −1.8 → 1.3 → −0.8 → 0.3 → −(−0.2) with mu N/k = 0.25: the mass reverses every pi/2 and sticks at 5
+        // pi/2.
         const auto sticks = of_kind(motion, "stick"), slips = of_kind(motion, "slip");
         REQUIRE(sticks.size() == 1);
         CHECK(value(sticks[0], "time") == near(5 * pi / 2));
@@ -184,7 +185,7 @@ TEST_CASE("friction: a billiard ball rolls after 2 v0/(7 mu g), with 5/7 of its 
     check_balance(motion);
 }
 
-TEST_CASE("friction: a clutch slips, locks, and slips again where it can bear the torque no more") {
+TEST_CASE("friction: a clutch slips, locks, and slips again when it cannot transmit the torque any more") {
     const double I1 = 0.5, I2 = 1.5, M = 4, R = 0.1, mu = 0.4, mu_s = 0.45, N0 = 500, c = 50, w0 = 30;
     const Json motion = simulated(scene_of("clutch"));
     // a' − b' = w0 + M t/I1 − mu R (1/I1 + 1/I2)(N0 t − c t²/2)
@@ -203,7 +204,8 @@ TEST_CASE("friction: a clutch slips, locks, and slips again where it can bear th
     check_balance(motion);
 }
 
-TEST_CASE("friction: a brake that is pressed from a time on stops its wheel when its closed form says so") {
+TEST_CASE(
+    "friction: a brake that is pressed from a given time on stops its wheel at the time of the closed form") {
     const double J = 2, R = 0.15, mu = 0.5, c = 80, w0 = 10;
     const Json motion = simulated(scene_of("brake"));
     const auto sticks = of_kind(motion, "stick");
@@ -220,7 +222,7 @@ TEST_CASE("friction: a normal force that becomes negative ends the run and is na
           std::string::npos);
 }
 
-TEST_CASE("friction: on a constraint the normal force is the size of its multiplier") {
+TEST_CASE("friction: at a constraint the normal force is the absolute value of its multiplier") {
     // A bead on a circular wire in the plane, without gravity: v' = −mu v²/r, v = v0/(1 + mu v0 t/r).
     const std::string scene = temporary("bead.toml", R"toml(
 [coordinates]
@@ -265,7 +267,7 @@ TEST_CASE("friction: Painlevé's rod has no motion where its determinant is nega
     CHECK(smooth.exit == 0);
 }
 
-TEST_CASE("friction: a derivation says what it does in both of its modes, and a claim with its force is proved") {
+TEST_CASE("friction: a derivation describes both modes, and a claim with its force is proved") {
     const auto derived = run({"derive", scene_of("block_on_slope"), "--json"});
     REQUIRE(derived.exit == 0);
     const Json one = Json::parse(derived.out)["friction"][0];
@@ -284,7 +286,7 @@ TEST_CASE("friction: a derivation says what it does in both of its modes, and a 
     CHECK(audited["friction"][0]["modes"].size() == 3);
 }
 
-TEST_CASE("friction: what is wrong with a friction is said where it stands") {
+TEST_CASE("friction: mistakes in a friction are reported at their places") {
     const auto told = [](const std::string& from, const std::string& to) {
         const auto result = run({"derive", changed("block_on_slope", {{from, to}})});
         CHECK(result.exit == 3);
@@ -298,7 +300,7 @@ TEST_CASE("friction: what is wrong with a friction is said where it stands") {
     CHECK(told("normal = \"m*g*cos(alpha)\"", "").find("needs one of 'on'") != std::string::npos);
 }
 
-TEST_CASE("friction: a ball with backspin grips or slides in each bounce as Routh's closed form says") {
+TEST_CASE("friction: a ball with backspin grips or slides in each bounce as in Routh's closed form") {
     const double r = 0.03, mu = 0.25, e = 0.8;
     const Json motion = simulated(scene_of("spinning_ball"));
     const auto impacts = of_kind(motion, "impact");
@@ -325,7 +327,7 @@ TEST_CASE("friction: a ball with backspin grips or slides in each bounce as Rout
     check_balance(motion);
 }
 
-TEST_CASE("friction: verbs and methods that do not know it say so") {
+TEST_CASE("friction: verbs and methods that do not support it say so") {
     const auto told = [](const std::vector<std::string>& command) {
         const auto result = run(command);
         CHECK(result.exit == 3);
@@ -338,7 +340,7 @@ TEST_CASE("friction: verbs and methods that do not know it say so") {
         CHECK(told({verb, scene_of("billiard_ball")}).find("'cloth'") != std::string::npos);
 }
 
-TEST_CASE("friction: eval finds what sticks, and the force that holds it") {
+TEST_CASE("friction: eval finds the contacts that stick, and the forces that hold them") {
     // A block at rest on a slope, pulled by 5 N: it holds while 5 + m g sin alpha is below mu_s m g cos alpha.
     const auto at_rest = [](const char* force) {
         const auto result =
@@ -357,7 +359,7 @@ TEST_CASE("friction: eval finds what sticks, and the force that holds it") {
           near(5.0 / 2 + g * std::sin(0.3) - 0.4 * g * std::cos(0.3)));
 }
 
-TEST_CASE("friction: a ladder leaves its rough wall when Newton's equations say so") {
+TEST_CASE("friction: a ladder leaves its rough wall at the time given by Newton's equations") {
     const Json motion = simulated(scene_of("ladder"));
     const auto releases = of_kind(motion, "release", "wall");
     REQUIRE(releases.size() == 1);
@@ -374,7 +376,7 @@ TEST_CASE("friction: a ladder leaves its rough wall when Newton's equations say 
     check_balance(motion);
 }
 
-TEST_CASE("friction: the amplitudes of a pendulum obey the work that its pivot takes, to where it sticks") {
+TEST_CASE("friction: the amplitudes of a pendulum decrease by the work of its pivot's friction until it sticks") {
     const double weight = 9.81 * 0.5, moment = 0.2 * 50 * 0.02;
     double theta = 1.2, side = 1;
     std::size_t turns = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rolling rows that vanish at regular poses where they are taken along N: they are taken along the contact's axes.
-// Held against the same mechanism with the rolling integrated by hand.
+// Rolling rows that vanish at regular poses where they are taken along N: they are therefore taken along the axes
+// of the contact. The results are compared with the same mechanism with the rolling condition integrated by hand.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -102,10 +102,10 @@ TEST_CASE("commands: a planet gear's run keeps its digits through all poses") {
     CHECK(end["coordinates"]["psi"].get<double>() == doctest::Approx(phi_2 * 18 * 1.3 / 0.3).epsilon(1e-10));
 }
 
-// A ball rolls round inside a vertical cylinder: x and y obey the wall, so that its row along the radius follows
-// from it. It neither falls for ever nor rises: z'' = −(5/7) g + (2/7) r' …, and at the start without spin about
-// the radius z'' = −5/7 g.
-TEST_CASE("commands: a ball in a vertical cylinder starts where a row along N has no component") {
+// A ball rolls inside a vertical cylinder. x and y obey the wall, so that its row along the radius follows. It
+// neither falls for ever nor rises: z'' = −(5/7) g + (2/7) r' …, and at the start without spin about the radius
+// z'' = −5/7 g.
+TEST_CASE("commands: a ball in a vertical cylinder can start where a row along N vanishes") {
     for (const char* angle : {"0", "pi/2", "1"}) {
         const std::string scene = temporary("well.toml", fmt::format(R"toml(
 gravity = [0, 0, "-g"]

@@ -2,10 +2,10 @@
 // The hard cases of scenes/benchmark against their reference digits, each at a tolerance that takes a fraction of
 // a second.
 //
-// Where the digits come from: Pleiades, outer solar system, Kepler, Chaplygin's sleigh, free body: published, or
-// closed forms, or Taylor series in 110 digits against extrapolation (the cases' pages). Tops: elliptic functions,
-// tests/reference/heavy_top.py. The others: `bench`, whose two methods in 34 digits agree to more than what is
-// written here.
+// The digits for Pleiades, the outer solar system, Kepler, Chaplygin's sleigh and the free body are published, or
+// come from closed forms, or from Taylor series in 110 digits compared with extrapolation. Those of tops come from
+// elliptic functions, tests/reference/heavy_top.py. The others come from `bench`, whose two methods in 34 digits
+// agree to more digits than are written here.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ Json simulated(const std::string& path, std::vector<std::string> more) {
 
 using Values = std::map<std::string, double>;
 
-/// The largest |y − reference| / max(1, |reference|) over the names given; a prime asks for the rate.
+/// The largest |y − reference| / max(1, |reference|) over the given names; a name with a prime means the rate.
 double error(const Json& result, const Values& reference) {
     double largest = 0;
     for (const auto& [name, value] : reference) {
@@ -66,7 +66,7 @@ double error(const Json& result, const Values& reference) {
 
 }  // namespace
 
-// Error growth of about 100; the tolerance 1e-12 is kept some 600 times.
+// Errors grow about 100-fold; each of about 600 steps obeys the tolerance 1e-12.
 TEST_CASE("hard: Pleiades at t = 3 has the digits of the test set") {
     const Json end = simulated(path_of("pleiades"), {"--tolerance", "1e-12"});
     const Values page{{"x1", 0.37061391439705129},   {"x2", 3.23728409205723309},   {"x3", -3.22255903241832334},
@@ -94,7 +94,8 @@ TEST_CASE("hard: the outer solar system after 200 000 days has the page's digits
     CHECK(end["energy_drift"].get<double>() < 1e-11);
 }
 
-// h = 100 d, 270 000 years: the energy stays where it is, which no method without structure does at such steps.
+// h = 100 d, 270 000 years: the energy does not drift, which only a structure-preserving method achieves with such
+// steps.
 TEST_CASE("hard: a million steps of Kahan and Li over the outer solar system keep the energy to 1e-11") {
     const Json end =
         simulated(path_of("outer_solar_system"), {"--method", "kahanli8", "--step", "100", "--duration", "1e8",
@@ -104,7 +105,7 @@ TEST_CASE("hard: a million steps of Kahan and Li over the outer solar system kee
 }
 
 // Errors grow with the pericentres, each 200 times faster than the far end.
-TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's equation has it") {
+TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's equation puts it") {
     const Json end = simulated(path_of("kepler"), {});
     CHECK(error(end, {{"x", -0.13516647736782103},
                       {"y", -0.073200184472628027},
@@ -112,7 +113,7 @@ TEST_CASE("hard: Kepler's comet before its tenth pericentre is where Kepler's eq
                       {"y'", 0.78449894364958458}}) < 1e-8);
 }
 
-TEST_CASE("hard: the free body turns over as elliptic functions say") {
+TEST_CASE("hard: the free body turns over as given by elliptic functions") {
     const Json end = simulated(path_of("free_body"), {});
     CHECK(error(end,
                 {{"w1", 0.0447067883083085038}, {"w2", -0.999050200480192959}, {"w3", -0.0251574834491731180}}) <
@@ -120,7 +121,7 @@ TEST_CASE("hard: the free body turns over as elliptic functions say") {
     CHECK(end["energy_drift"].get<double>() < 1e-13);
 }
 
-TEST_CASE("hard: tops, fast and near sleeping, nutate as elliptic functions say") {
+TEST_CASE("hard: tops, fast and near sleeping, nutate as given by elliptic functions") {
     const Json fast = simulated(path_of("heavy_top_fast"), {});
     CHECK(error(fast, {{"theta", 1.00217590567521717}, {"phi", 0.503178285071918428}}) < 1e-12);
     // theta0 = 1e-6: the tilt at t = 100 is 1.0112065757852472e-5, the components of the quaternion half of that.
@@ -145,11 +146,11 @@ TEST_CASE("hard: Kapitza's pendulum stands above the critical frequency and fall
     CHECK(away(stands) < 5e-6);
     CHECK(error(stands, {{"theta", 3.14159353054483153}, {"theta'", 6.11334305292917362e-7}}) < 1e-10);
     CHECK(stands["work_balance"].get<double>() <
-          1e-10);  // of a kinetic energy of 40 J that comes and goes 400 times
+          1e-10);  // relative to a kinetic energy of 40 J that appears and vanishes 400 times
     CHECK(away(simulated(changed("kapitza", "value = 1.005", "value = 0.995"), {})) > 1e-5);
 }
 
-TEST_CASE("hard: Chaplygin's sleigh settles as its closed form says") {
+TEST_CASE("hard: Chaplygin's sleigh settles as in its closed form") {
     const Json end = simulated(path_of("chaplygin_sleigh"), {"--tolerance", "1e-12"});
     CHECK(error(end, {{"v", 2.29128781528791455},
                       {"w", 0.000343526576035294919},
@@ -169,16 +170,16 @@ TEST_CASE("hard: the spring of 1000 rad/s is followed through all its periods") 
     CHECK(end["energy_drift"].get<double>() < 1e-9);
 }
 
-// The taut line vibrates at 4400 rad/s; its force is the small difference of large ones, a part in 1e6 of which is
-// rounding.
-TEST_CASE("hard: a million times heavier bob leaves what is determined of the motion right") {
+// The taut line vibrates at 4400 rad/s; its force is the small difference of large ones, so that a part in 1e6 of
+// it is rounding.
+TEST_CASE("hard: with a bob a million times heavier, the determined part of the motion is right") {
     const Json end = simulated(path_of("mass_ratio"), {});
     CHECK(error(end, {{"theta1", -0.287003119617438600}, {"theta2", -0.287901527472195053}}) < 1e-7);
     CHECK(end["energy_drift"].get<double>() < 1e-12);
 }
 
 // The bounces end at sqrt(2h/g)(1 + e)/(1 - e).
-TEST_CASE("hard: the ball lies when all its bounces are over") {
+TEST_CASE("hard: the ball is at rest when all its bounces are over") {
     const Json end = simulated(path_of("bouncing_ball"), {"--tolerance", "1e-11"});
     const Json& last = end["contacts"].back();
     CHECK(last["event"] == "rest");
@@ -228,7 +229,7 @@ TEST_CASE("hard: the stiff flyball governor has the digits of its reduction to t
                       {"be'", 0.80846705134557740026}}) < 1e-7);
 }
 
-// Exact by elliptic functions (the case's page); the bar and the energy are kept by projection at each step.
+// The digits are exact by elliptic functions; the bar and the energy are kept by projection at each step.
 TEST_CASE(
     "hard: the pendulum in Cartesian coordinates is where elliptic functions have it at 10 s, and keeps bar and "
     "energy") {
@@ -245,11 +246,12 @@ TEST_CASE("hard: Bricard's mechanism moves, and keeps its energy and its loop") 
     CHECK(end["energy_drift"].get<double>() < 1e-11);
     CHECK(end["constraint_drift"].get<double>() < 1e-12);
     const Json& q = end["final"]["coordinates"];
-    CHECK(std::abs(q["q1"].get<double>() - q["q3"].get<double>()) < 1e-9);  // alternate joints turn alike
+    // Alternate joints turn in the same way.
+    CHECK(std::abs(q["q1"].get<double>() - q["q3"].get<double>()) < 1e-9);
 }
 
-// The initial values have nine digits, and the modes ring with what is left of them: the published end is not good
-// to more than this.
+// The initial values have nine digits, and their errors excite the modes, so that the published end is not more
+// accurate than this.
 TEST_CASE("hard: the slider-crank with a flexible rod has the published digits") {
     const Json end = simulated(path_of("slider_crank"), {"--tolerance", "1e-10"});
     CHECK(error(end, {{"phi1", 15.0},
@@ -265,7 +267,7 @@ TEST_CASE("hard: the slider-crank with a flexible rod has the published digits")
 }
 
 // The period is 4 K(sin 45°)/sqrt(g/l), from a start at rest in the horizontal: 10 000 s are 4223 periods and 0.60
-// s, a run of its own. Local errors of 1e-12 that all point one way would let the place slip by 1e-12 in each of
+// s, a run of its own. Local errors of 1e-12 in the same direction would shift the position by 1e-12 in each of
 // 570 000 steps.
 TEST_CASE("hard: the pendulum in Cartesian coordinates keeps bar, energy and phase for 10 000 s") {
     const double period = 2.36784194757623744930329503723863447586, rest = 10000 - 4223 * period;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Impacts of scenes against closed forms: the book's example to the letter, and momenta.
+// Impacts of scenes against closed forms: the book's example in every detail, and momenta.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@ namespace commands_impact {
 using namespace alembert::test;
 
 // Zhang & Qin, example 1-4. By hand: m l² [4/3 1/2; 1/2 1/3] ω = S l (1, 1/2).
-TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, exactly as such") {
+TEST_CASE("impact: the book's struck rods turn at 3S/7ml and 6S/7ml, in exactly this form") {
     const auto result = run({"impact", source_path("scenes/textbook/struck_rods.toml"), "--json"});
     REQUIRE(result.exit == 0);
     const Json json = Json::parse(result.out);
@@ -52,7 +52,7 @@ TEST_CASE("impact: a slanting rod on a table, in closed form and in symbols") {
     }
 }
 
-// No impulse has a moment about O but the hinge's, and that acts within the system; locked, it is one body.
+// Only the hinge's impulse has a moment about O, and it is internal to the system; locked, the system is one body.
 TEST_CASE(
     "impact: a double pendulum whose lower hinge locks keeps its angular momentum and loses Carnot's energy") {
     const Json json = impact_of(double_pendulum + lock);
@@ -69,9 +69,9 @@ TEST_CASE(
     CHECK(number(json["energy_loss"]) == doctest::Approx(kinetic(1 - w1, -2 - w2)).epsilon(1e-13));
     CHECK(json["imposed"] == Json({"lock"}));
     CHECK(json["solution"]["theta1"] == json["solution"]["theta2"]);
-    // The same scene is no start for anything else.
+    // Other verbs refuse the initial state of this scene.
     CHECK(run({"eval", temporary("locked.toml", double_pendulum + lock)}).exit == 3);
-    // A holonomic one: the angle between the rods stays what it is.
+    // A holonomic constraint keeps the angle between the rods constant.
     const Json welded =
         impact_of(double_pendulum + "[[constraint]]\nname = \"weld\"\nholonomic = \"theta1 - theta2 + 0.8\"\n");
     CHECK(number(welded["after"]["theta1"]) == doctest::Approx(w1).epsilon(1e-13));
@@ -142,8 +142,9 @@ TEST_CASE("impact: a generalized impulse is that of the forces that do its work"
           doctest::Approx(-number(by_point["energy_loss"])).epsilon(1e-13));
 }
 
-// A string of length l, slack no longer: gap = l − r, approached at the outward speed u, which e turns back.
-TEST_CASE("impact: a string that becomes taut takes the outward speed and leaves the one across") {
+// A string of length l becomes taut: gap = l − r closes at the outward speed u, which is reversed with the factor
+// e.
+TEST_CASE("impact: a string that becomes taut removes the radial speed and keeps the transverse one") {
     const Json json = impact_of(R"toml(
 [parameters]
 m = 2
@@ -168,7 +169,8 @@ restitution = "e"
     CHECK(number(json["reactions"]["string"]) == doctest::Approx(2 * 3.75).epsilon(1e-14));
 }
 
-// h' = 0.8 at t = 0 and the ball comes at −3: it leaves at 0.8 + e·3.8, and the floor works 0.8 times its impulse.
+// With h' = 0.8 at t = 0 and the ball at −3, it leaves at 0.8 + e·3.8, and the work of the floor is 0.8 times its
+// impulse.
 TEST_CASE("impact: a racket gives energy, and the balance says how much") {
     const Json json = impact_of(R"toml(
 [parameters]
@@ -196,9 +198,9 @@ restitution = "e"
     CHECK(json["solution"]["y"] == "(4+19*e)/5");
 }
 
-// The same motion in the scene's own speeds, whose initial values replace the rates; the reader takes these
-// nowhere else.
-TEST_CASE("impact: speeds with initial values give what the rates that they mean give") {
+// The same motion in the scene's own speeds, whose initial values replace the rates; the reader accepts these in
+// no other place.
+TEST_CASE("impact: speeds with initial values give the same result as the corresponding rates") {
     const std::string speeds =
         "[speeds]\nu1 = { form = \"theta1'\", initial = \"w1\" }\nu2 = { form = \"theta2' - theta1'\", initial = "
         "\"w2 - w1\" }\n";

@@ -13,8 +13,9 @@ namespace commands_impact_routes {
 
 using namespace alembert::test;
 
-// What is printed can be typed: outputs of a scene with other values of the parameters, against the numbers there.
-TEST_CASE("impact: the symbolic rates are right at other values than those at which they were found") {
+// Printed results are typed as outputs of a scene with other values of the parameters and compared with the
+// numbers there.
+TEST_CASE("impact: the symbolic rates are right for other values than those for which they were found") {
     const Json first =
         impact_of(filled(slanting_rod, {{"m", 2}, {"l", 0.8}, {"v", 1.5}, {"e", 0.4}, {"alpha", 0.6}}));
     std::string other =
@@ -30,7 +31,7 @@ TEST_CASE("impact: the symbolic rates are right at other values than those at wh
 }
 
 // A smooth pulse of the same ∫F dt, integrated by the equations of motion; gravity acts meanwhile, so the rates
-// differ by a term of first order in its length: halving it halves the difference.
+// differ by a term of first order in the length of the pulse; halving the length halves the difference.
 TEST_CASE("impact: it is the limit of a large short force") {
     std::string text = pinned_rod;
     text.replace(text.find("{h}"), 3, "0.9*l");
@@ -52,7 +53,7 @@ TEST_CASE("impact: it is the limit of a large short force") {
     }
 }
 
-// x' = 2 y' stands before and after; the guess obeys it, so the constraint is not imposed but carries on.
+// x' = 2 y' holds before and after the impact; the guess obeys it, so the constraint is not imposed suddenly.
 TEST_CASE("impact: guessed rates obey the constraints before the impact") {
     const Json json = impact_of(R"toml(
 [parameters]
@@ -75,7 +76,7 @@ x = "S"
 }
 
 // Rates before as numbers, rates after by `eval --at`, multipliers by the impulses of the reactions.
-TEST_CASE("impact: its equations read as claims, and hold, as do those that textbook scenes carry") {
+TEST_CASE("impact: its equations hold as claims, and so do those in textbook scenes") {
     int held = 0;
     const auto check = [&](const std::string& text, std::vector<std::string> claims) {
         const Json json = impact_of(text);
@@ -124,7 +125,7 @@ TEST_CASE("impact: its equations read as claims, and hold, as do those that text
     CHECK(held >= 12);
 }
 
-TEST_CASE("impact: where nothing is struck the rates stay, and that is said") {
+TEST_CASE("impact: if nothing is struck, the rates do not change, and the output says so") {
     for (const std::string more :
          {"", "[[unilateral]]\nname = \"far\"\ngap = \"1 - theta1\"\n",
           "[[unilateral]]\nname = \"opening\"\ngap = \"theta1 - 0.3\"\nrestitution = 1\n"}) {
@@ -136,7 +137,7 @@ TEST_CASE("impact: where nothing is struck the rates stay, and that is said") {
     }
 }
 
-TEST_CASE("impact: a long chain is computed in numbers, and that is said") {
+TEST_CASE("impact: a long chain is computed in numbers only, and the output says so") {
     std::string text = "[coordinates]\n";
     for (int i = 0; i < 12; ++i) text += fmt::format("a{} = {}\n", i, 0.1 * i);
     text += "[parameters]\nm = 1\nS = 1\n";
@@ -151,7 +152,7 @@ TEST_CASE("impact: a long chain is computed in numbers, and that is said") {
     CHECK(number(json["energy_loss"]) == doctest::Approx(-number(json["work_of_impulses"])).epsilon(1e-12));
 }
 
-TEST_CASE("impact: what cannot be struck is refused with its reason") {
+TEST_CASE("impact: impossible impacts are refused with the reason") {
     const auto refused = [](const std::string& more, int code, const char* reason) {
         const auto result = run({"impact", temporary("refused.toml", double_pendulum + more)});
         INFO(result.err);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Robots as scenes: accelerations by the recursion on the imported tree against a Newton-Euler of this file, which
-// reads the URDF's numbers by itself, goes link by link (fixed ones too) along the axes of the world, and knows
-// neither merged bodies nor scenes.
+// Robots as scenes: accelerations by the recursion on the imported tree are compared with a Newton-Euler recursion
+// in this file, which reads the numbers of the URDF itself, goes link by link (fixed ones too) along the axes of
+// the world, and uses neither merged bodies nor scenes.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ struct Body {
     V3 centre = V3::Zero(), centre_rpy = V3::Zero();
     M3 inertia = M3::Zero();
 };
-/// A simple joint with its child; floating ones are six.
+/// A simple joint with its child; a floating joint is six of them.
 struct Hinge {
     std::string name, type, parent, child, leader;
     V3 xyz = V3::Zero(), rpy = V3::Zero(), axis = V3::UnitX();
@@ -367,7 +367,7 @@ TEST_CASE("import: each joint gets a drive, whose torque accelerates all as the 
     CHECK((M * change - torque).norm() < 1e-11 * torque.norm());
 }
 
-TEST_CASE("import: right angles of few digits are counted, and exact where that is asked for") {
+TEST_CASE("import: right angles written with few digits are counted, and made exact on request") {
     const auto robot = [](const std::string& rpy) {
         return robot_of(link_of("base") + link_of("arm", heavy) +
                         hinge_of("j", "continuous", "base", "arm",
@@ -397,7 +397,7 @@ TEST_CASE("import: right angles of few digits are counted, and exact where that 
     CHECK(imported("1.5708 -1.57 3.1416", {}).first == 3);
 }
 
-TEST_CASE("import: what is left out is told, what is merged too, and the scene keeps limits as remarks") {
+TEST_CASE("import: omitted and merged parts are reported, and the scene has limits as comments") {
     const std::string scene = temporary("told.toml", "");
     const auto result = run({"import", source_path("tests/robots/arm6.urdf"), "-o", scene});
     REQUIRE(result.exit == 0);
@@ -414,8 +414,8 @@ TEST_CASE("import: what is left out is told, what is merged too, and the scene k
     CHECK(torso.err.find("dropped: joints that move no mass: antenna\n") != std::string::npos);
 }
 
-// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and turns as it did, whatever turns it; and a
-// planar joint across x does not fall along x.
+// Free, a body of two masses 2 and 1 at 0 and 0.3 falls with g and keeps its rotation, however that is described;
+// and a body on a planar joint normal to x does not fall along x.
 TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a planar joint keeps its plane") {
     const std::string two =
         temporary("two.urdf", robot_of(link_of("a", heavy) +
@@ -445,7 +445,7 @@ TEST_CASE("import: a root that floats falls, by angles and by a quaternion; a pl
     CHECK(std::abs(planar["table_turn"].get<double>()) < 1e-13);
 }
 
-TEST_CASE("import: what is no robot is told in one message, and nothing is written") {
+TEST_CASE("import: a file that is no robot gives one message, and nothing is written") {
     const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
     std::string nested = "<robot name=\"r\">";
     for (int k = 0; k < 50000; ++k) nested += "<a>";

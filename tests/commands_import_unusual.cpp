@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Thirty broken or unusual robot descriptions: a mass, an inertia or a joint never changes without a word. What is
-// read is held against the same robot as the reader has it from a plain description.
+// Thirty broken or unusual robot descriptions: a mass, an inertia or a joint never changes silently. The result is
+// compared with the same robot read from a plain description.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ double acceleration(const std::string& urdf) {
 
 }  // namespace
 
-TEST_CASE("import: what cannot be read of a mass, an inertia or a joint is refused with its line") {
+TEST_CASE("import: unreadable values of a mass, an inertia or a joint are refused with their line") {
     struct Case {
         Parts parts;
         int line;
@@ -96,12 +96,12 @@ TEST_CASE("import: what cannot be read of a mass, an inertia or a joint is refus
     }
 }
 
-TEST_CASE("import: unusual descriptions give the same motion as plain ones, and say what was completed") {
+TEST_CASE("import: unusual descriptions give the same motion as plain ones, and completed parts are reported") {
     const double plain = acceleration(file_of({}));
     const std::string no_products = R"(<inertia ixx="0.1" iyy="0.2" izz="0.15"/>)";
     struct Case {
         Parts parts;
-        const char* told;  ///< null: nothing has to be
+        const char* told;  ///< null if no message is required
     };
     const std::vector<Case> cases{
         {{.origin = "<origin xyz=\"0\n0\t0.5 \" rpy=\"0 0\n 1.5707963267948966\"/>",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bodies fixed to a frame that turns about a line through O have the kinetic energy θ'²/2 n·I n: the tensor about
-// O is held against what `eval` finds for the energy, about random lines.
+// O is compared with the energy from `eval`, about random lines.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

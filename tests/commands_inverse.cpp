@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inverse dynamics and what joints bear, as a user asks for them: against closed forms, Newton's and Euler's laws
-// for single bodies and for the whole, and the forward equations with the loads applied.
+// Inverse dynamics and reactions of joints, as a user requests them, against closed forms, Newton's and Euler's
+// laws for single bodies and for the whole, and the forward equations with the loads applied.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -146,7 +146,7 @@ TEST_CASE("inverse: the drive of a four-bar follows from its own acceleration, t
     for (const auto& [name, load] : idle["loads"].items()) CHECK(std::abs(load.get<double>()) < 1e-11);
 }
 
-TEST_CASE("inverse: what is asked wrongly is told") {
+TEST_CASE("inverse: wrong requests are refused with a message") {
     const std::string scene = source_path("scenes/gallery/four_bar_joints.toml");
     const auto refused = [&](const std::vector<std::string>& at, const std::string& told) {
         std::vector<std::string> args{"inverse", scene};
@@ -164,7 +164,7 @@ TEST_CASE("inverse: what is asked wrongly is told") {
 }
 
 // F = m (a_C − g), M = H_C' + r × F, with r from the pin to the mass centre and ω along z, I diagonal.
-TEST_CASE("reactions: a pin bears what Newton's and Euler's laws say of its rod, whichever of them is the child") {
+TEST_CASE("reactions: those of a pin obey Newton's and Euler's laws for its rod, whichever body is the child") {
     const double m = 1.3, g = 9.81, a = 0.7, h = 0.2, s = std::sin(0.4), c = std::cos(0.4), w = 1.7;
     const double tau = 0.8, e = (tau - m * g * a * s) / (0.35 + m * a * a);
     const V3 force{m * a * (e * c - w * w * s), m * a * (e * s + w * w * c) + m * g, 0};
@@ -191,13 +191,13 @@ TEST_CASE("reactions: a pin bears what Newton's and Euler's laws say of its rod,
     check_near(three(pin["moment"]), {-moment[0], -moment[1], -moment[2]}, 1e-12);
 }
 
-TEST_CASE("reactions: derive shows what a pin bears as a textbook has it") {
+TEST_CASE("reactions: derive shows those of a pin as in a textbook") {
     const Json pin = json_of({"derive", temporary("pin.toml", with_forces(pendulum, {{"theta", 0.8}})),
                               "--reactions"})["joint_reactions"]["pin"];
     CHECK(pin["F_x"] == "1.3*a*theta''*cos(theta) - 1.3*a*theta'^2*sin(theta)");
     CHECK(pin["F_y"] == "1.3*a*theta''*sin(theta) + 1.3*a*theta'^2*cos(theta) + 1.3*g");
     CHECK(pin["F_z"] == "0");
-    // With numbers it is what eval has, about the free axis too.
+    // With numbers it agrees with eval, also about the free axis.
     const std::string scene = with_forces(pendulum, {{"theta", 0.8}});
     std::string outputs = scene + "[outputs]\n";
     for (const auto& [name, formula] : pin.items())
@@ -211,7 +211,7 @@ TEST_CASE("reactions: derive shows what a pin bears as a textbook has it") {
     }
 }
 
-// The carriage does not turn: about its joint's point M = c × m (a − g), wherever on the rail it is.
+// The carriage does not turn: about its joint's point M = c × m (a − g), at any position on the rail.
 TEST_CASE(
     "reactions: a rail bears the moment of a carriage about the carriage's own point, with springs and forces "
     "counted") {
@@ -256,7 +256,7 @@ damping = 4
     const V3 moment{c[1] * force[2] - c[2] * force[1], c[2] * force[0] - c[0] * force[2],
                     c[0] * force[1] - c[1] * force[0] - 3.5};
     check_near(three(json["joint_reactions"]["rail"]["moment"]), moment, 1e-12);
-    CHECK(std::abs(0.6 * force[0] + 0.8 * force[1] + 4 * 1) < 1e-12);  // along the rail there is the damper alone
+    CHECK(std::abs(0.6 * force[0] + 0.8 * force[1] + 4 * 1) < 1e-12);  // along the rail only the damper acts
 }
 
 TEST_CASE(
@@ -301,7 +301,7 @@ TEST_CASE(
 // F = Σ m (a − g) − P and M = Σ (r_i − r_Q) × m (a − g) + H_i' − (r_tip − r_Q) × P over the base and an arm on it,
 // about the base's point Q of the joint; all from the positions and angular velocities of the bodies,
 // differentiated as outputs.
-TEST_CASE("reactions: a joint of each type bears what Newton's and Euler's laws say of all that hangs on it") {
+TEST_CASE("reactions: those of each type of joint obey Newton's and Euler's laws for all bodies beyond it") {
     struct Type {
         std::string name, rest;
     };
@@ -443,7 +443,7 @@ TEST_CASE(
         }
     CHECK(std::abs(load["force"][2].get<double>()) > 1);
     for (std::size_t k = 0; k < 3; ++k)
-        CHECK(std::abs(load["moment"][k].get<double>()) < 1e-9);  // a spherical joint bears no moment
+        CHECK(std::abs(load["moment"][k].get<double>()) < 1e-9);  // a spherical joint transmits no moment
 }
 
 namespace {
@@ -468,8 +468,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string closed_elsewhere(const std::string& text, const std::string& opened, const std::string& coordinates) {
-    // The joint `opened` closed the loop and gets coordinates; it is now a joint of the tree, as it stands before
-    // the one to close.
+    // The joint `opened` closed the loop and now gets coordinates. It becomes a joint of the tree because it
+    // stands before the joint that closes the loop now.
     const std::size_t at = text.find("name = \"" + opened + "\"");
     REQUIRE(at != std::string::npos);
     const std::size_t end = std::min(text.find("\n\n", at), text.size());
@@ -494,7 +494,7 @@ Q4 times(const Q4& p, const Q4& q) {
 
 }  // namespace
 
-TEST_CASE("reactions: a four-bar's joints bear the same wherever its loop is closed") {
+TEST_CASE("reactions: those of a four-bar's joints are the same wherever its loop is closed") {
     const std::string text = contents(source_path("scenes/gallery/four_bar_joints.toml"));
     const Json one = json_of({"eval", temporary("one.toml", text), "--reactions"});
     const auto q = [&](const char* name) { return one["coordinates"][name].get<double>(); };
@@ -524,7 +524,7 @@ TEST_CASE("reactions: a four-bar's joints bear the same wherever its loop is clo
     CHECK(std::abs(about_centre - 1.5 * 3.5 * 3.5 / 12 * second) < 1e-10);
 }
 
-TEST_CASE("reactions: a spatial linkage closed at a hinge bears there what it bears there as a tree") {
+TEST_CASE("reactions: at a hinge that closes a spatial linkage they are those of the same hinge in a tree") {
     const std::string text = contents(source_path("scenes/gallery/rssr.toml"));
     const Json one = json_of({"eval", temporary("one.toml", text), "--reactions"});
     const auto q = [&](const char* name) { return one["coordinates"][name].get<double>(); };

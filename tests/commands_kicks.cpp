@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `[[event]]` with impulses and a direction: kicks, held against closed forms and against other coordinates for
-// the same system.
+// `[[event]]` with impulses and a direction: kicks, compared with closed forms and with other coordinates for the
+// same system.
 #include "contacts.hpp"
 
 namespace commands_kicks {
@@ -71,8 +71,8 @@ std::vector<Json> named(const Json& motion, const std::string& name) {
 
 }  // namespace
 
-// Half a period takes π/ω of the time and leaves the part d = exp(−aπ/ω) of the speed, ω² = 4 − a²; so v⁻ → d (v⁻
-// + P), and after the kick P/(1 − d) in the limit.
+// Half a period lasts π/ω and reduces the speed by the factor d = exp(−aπ/ω), ω² = 4 − a²; so v⁻ → d (v⁻ + P), and
+// after the kick P/(1 − d) in the limit.
 TEST_CASE(
     "kicks: the escapement of a linear oscillator has the times, the energies and the limit cycle of its closed "
     "form") {
@@ -108,9 +108,9 @@ TEST_CASE(
     }
 }
 
-// Of a swing A = θ'/ω = 0.05 the pendulum takes A²/16 of its period more: the limit of small swings is met to some
-// 2e-4.
-TEST_CASE("kicks: the clock of the gallery comes to the swing of its formula from below and from above") {
+// With the amplitude A = θ'/ω = 0.05 the period of the pendulum is longer by the part A²/16, so that the limit of
+// small amplitudes is reached to about 2e-4.
+TEST_CASE("kicks: the clock of the gallery approaches the amplitude of its formula from below and from above") {
     const double m = 1, l = 0.994, c = 0.062, P = 0.0048,
                  d = std::exp(-M_PI * c / std::sqrt(4 * m * m * g * l * l * l - c * c));
     for (const char* start : {"0.02", "0.08"}) {
@@ -140,7 +140,7 @@ TEST_CASE(
         INFO(method);
         const std::vector<Json> bats = named(motion, "bat"), marks = named(motion, "mark");
         REQUIRE(bats.size() == 4);
-        REQUIRE(marks.size() == 4);  // the zero that is passed at the kick is one zero
+        REQUIRE(marks.size() == 4);  // the zero at the kick counts once
         CHECK(named(motion, "rising").empty());
         CHECK(motion["events"][0]["name"] == "mark");
         CHECK(motion["events"][1]["name"] == "bat");
@@ -160,7 +160,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("kicks: where rates jump the table has two rows, and speeds of the scene jump with them") {
+TEST_CASE("kicks: where rates jump, the table has two rows, and the scene's speeds jump too") {
     const std::string csv = temporary("batted.csv", "");
     const Json motion = simulated(batted(0.5, 1, 1), {"--no-estimate", "-o", csv});
     const double time = named(motion, "bat")[0]["time"];
@@ -298,7 +298,8 @@ tolerance = 1e-12
     CHECK(speeds["work_balance"].get<double>() < 1e-11);
 }
 
-// a and b touch. Together: 3 on a, 1 on b, −2 on c; a contact at rest is hard, so a and b go on with 4/3.
+// a and b touch. The impulses act together: 3 on a, 1 on b, −2 on c. A contact at rest does not rebound, so a and
+// b go on with 4/3.
 TEST_CASE(
     "kicks: all that is zero at one instant is told in the scene's order, acts as one impact with the closed "
     "contacts, and then stops") {
@@ -439,7 +440,7 @@ duration = 5
         CHECK(std::abs(value(alone["events"][k], "time") - value(stiff["events"][k], "time")) < 1e-8);
 }
 
-TEST_CASE("kicks: what is stopped in flight falls on, though rounding leaves it on either side of the height") {
+TEST_CASE("kicks: a body stopped in flight falls on, even if rounding puts it on either side of the height") {
     for (const double h : {0.0, 1.0, 0.3})
         for (const std::string method : {"dopri5", "dop853", "verner98", "taylor", "abm", "radau"}) {
             const Json motion = simulated(batted(0, h, 3), {"--no-estimate", "--method", method});
@@ -450,7 +451,7 @@ TEST_CASE("kicks: what is stopped in flight falls on, though rounding leaves it 
         }
 }
 
-TEST_CASE("kicks: infinitely many in finite time end with a message, however fast they come") {
+TEST_CASE("kicks: infinitely many in a finite time end with a message, however fast they come") {
     for (const double e : {0.99, 0.8, 0.1, 0.001})
         for (const double h : {0.0, 1.0}) {
             const auto result = run({"simulate", batted(e, h, 1000), "--no-estimate"});
@@ -461,7 +462,7 @@ TEST_CASE("kicks: infinitely many in finite time end with a message, however fas
         }
 }
 
-TEST_CASE("kicks: bench measures them against a strict run, and what does not follow them says so") {
+TEST_CASE("kicks: bench compares them with a strict run, and methods that do not support them say so") {
     const std::string scene = temporary("escapement.toml", escapement);
     const auto measured = run({"bench", scene, "--method", "dop853", "--duration", "5", "--json"});
     REQUIRE(measured.exit == 0);

@@ -58,7 +58,7 @@ TEST_CASE("linearize: JSON has the matrices, the states and the eigenvalues") {
     CHECK(std::abs(sum - A.trace()) < 1e-13);
 }
 
-TEST_CASE("linearize: a state that is not steady exits with 3 and says what is left") {
+TEST_CASE("linearize: a state that is not steady gives exit 3 and the residual") {
     const auto result = run({"linearize", bicycle});
     CHECK(result.exit == 3);
     CHECK(result.out.empty());
@@ -81,15 +81,15 @@ TEST_CASE("bicycle: energy and constraints are kept, and the speed settles") {
     const Json run = json_of({"simulate", bicycle, "--json", "--duration", "20"});
     CHECK(run["energy_drift"].get<double>() < 1e-10);
     CHECK(run["constraint_drift"].get<double>() < 1e-10);
-    // All energy of the kick that does not come back into the lean has become forward motion: weave and capsize
-    // are stable at 4.6 m/s.
+    // The energy of the kick that does not return to the lean has become forward motion: weave and capsize are
+    // stable at 4.6 m/s.
     const Json& rates = run["final"]["rates"];
     CHECK(std::abs(rates["lean"].get<double>()) < 1e-3);
     CHECK(-0.3 * rates["rear"].get<double>() > 4.6);
 }
 
 // x(t) = exp(A t) x(0) + O(kick²).
-TEST_CASE("bicycle: after a small kick it moves as the eigenvalues say") {
+TEST_CASE("bicycle: after a small kick it moves according to the eigenvalues") {
     std::ifstream stream(bicycle);
     std::ostringstream text;
     text << stream.rdbuf();
@@ -205,8 +205,8 @@ TEST_CASE(
     CHECK(near["matrices"]["C"] == Json::parse("[[0.0, 0.0], [0.0, 0.0]]"));
 }
 
-// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards and
-// returns from a bounce.
+// On the floor y = 0: x'' = -4 x while the weight W presses. Without weight the particle leaves upwards, and after
+// a bounce it returns.
 TEST_CASE("linearize: a contact that presses is a constraint, and one that touches without a force is refused") {
     const auto scene = [](const std::string& weight) {
         return temporary("floor" + weight + ".toml",
@@ -227,7 +227,7 @@ TEST_CASE("linearize: a contact that presses is a constraint, and one that touch
     CHECK(touching.err.find("contact floor touches at this state without a force") != std::string::npos);
 }
 
-// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force takes part in the slope, and |y| =
+// A bead on y = x² under unit weight: x'' = -2 x + f(x). The constraint force contributes to the slope, and |y| =
 // x² has no kink on the curve.
 TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, and not where it runs along it") {
     const auto bead = [](const std::string& name, const std::string& force) {
@@ -246,7 +246,7 @@ TEST_CASE("linearize: on a constraint a kink counts where the curve crosses it, 
     CHECK(run({"linearize", bead("root", "-sqrt(y)")}).exit == 3);
 }
 
-TEST_CASE("linearize: a state that is none names one that is") {
+TEST_CASE("linearize: for a state that is not steady, the message names one that is") {
     const auto result = run({"linearize", source_path("scenes/textbook/rotating_hoop.toml"), "--at", "theta=0.8"});
     CHECK(result.exit == 3);
     CHECK(result.err.find("theta'' = ") != std::string::npos);
@@ -254,7 +254,7 @@ TEST_CASE("linearize: a state that is none names one that is") {
 }
 
 // M x'' = F − m g θ − b x', l θ'' = g θ − x''; the outputs see accelerations and the force itself.
-TEST_CASE("linearize: a cart's matrices of inputs and outputs are those by hand") {
+TEST_CASE("linearize: a cart's matrices of inputs and outputs are those derived by hand") {
     const std::string cart = temporary("cart.toml", R"toml(
 gravity = [0, "-g"]
 [parameters]

@@ -27,7 +27,7 @@ potential = "x^2/2"
 duration = 20
 )toml";
 
-// Eigenvalues of about -1e5 and -1: x follows sin(t) at its leisure.
+// The eigenvalues are about -1e5 and -1; x follows sin(t) slowly.
 const char* const stiff = R"toml(
 [coordinates]
 x = 0
@@ -64,7 +64,7 @@ TEST_CASE("auto: tolerance, step, structure and length choose the method, and th
     check_choice({"--step", "0.001"}, "kahanli8", "20000 steps");
     const auto text = run({"simulate", temporary("oscillator.toml", oscillator), "--no-estimate"});
     CHECK(text.out.find("dop853: the tolerance is 1e-09") != std::string::npos);
-    // Given by name there is nothing to explain.
+    // For a method given by name no reason is given.
     CHECK(!simulated(temporary("oscillator.toml", oscillator), {"--method", "dop853"}).contains("method_why"));
 }
 
@@ -76,7 +76,8 @@ TEST_CASE(
     CHECK(simulated(kink, {"--tolerance", "1e-14"})["method"] == "verner98");
 }
 
-TEST_CASE("auto: forces with rates keep a long run with a fixed step from being symplectic") {
+TEST_CASE(
+    "auto: with forces that depend on rates, a long run with a fixed step does not use a symplectic method") {
     const std::string damped = temporary("damped.toml",
                                          "[coordinates]\nx = 1\n[energy]\nkinetic = \"x'^2/2\"\n[forces]\nx = "
                                          "\"-x - 0.01*x'\"\n[simulation]\nduration = 20\n");
@@ -102,7 +103,7 @@ TEST_CASE("auto: a stiff run goes on with radau and its emitted Jacobian, and en
     CHECK(text.out.find("the system is stiff there") != std::string::npos);
 }
 
-TEST_CASE("auto: taylor too gives way to radau where stiffness holds its steps") {
+TEST_CASE("auto: taylor too changes to radau where stiffness limits its steps") {
     const Json result = simulated(temporary("stiff.toml", stiff), {"--tolerance", "1e-13"});
     CHECK(result["method"] == "taylor");
     REQUIRE(result.contains("switched"));

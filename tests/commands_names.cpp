@@ -83,7 +83,7 @@ TEST_CASE(
     CHECK(run({"check", last, claims}).exit == 0);
 }
 
-TEST_CASE("commands: a function of the geometry without its parenthesis is told as one") {
+TEST_CASE("commands: a geometric function without its parenthesis is recognized in the message") {
     const auto result = run({"derive", temporary("nameless.toml", R"toml(
 [coordinates]
 x = 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that cannot be: in a scene, a claim or an option they are told by name and place, never computed with.
+// Impossible numbers in a scene, a claim or an option are reported by name and place, and never used.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ TEST_CASE("numbers: the root of a negative number inside max, min or sign stops 
         CHECK(at_once.exit == 4);
         CHECK(says(at_once.err, "sqrt(-0.1)"));
         CHECK(run({"eval", temporary("root.toml", oscillator(force))}).exit == 4);
-        // x passes zero on the way.
+        // x passes zero during the motion.
         CHECK(run({"simulate", temporary("later.toml", oscillator(force, "{ initial = -0.1, rate = 1 }"))}).exit ==
               4);
     }
@@ -122,7 +122,7 @@ TEST_CASE("numbers: impact without a blow leaves the motion of a scene that give
     }
 }
 
-TEST_CASE("numbers: powers that are no whole ones do not keep the derivation from its end") {
+TEST_CASE("numbers: fractional powers do not prevent the derivation from ending") {
     // In a^(1/1250), a common denominator of the exponents, this inertia is of degree 3927.
     const std::string body =
         "[parameters]\nm1 = 2\na = 0.66\n[coordinates]\ntheta = 0.3\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where -o leads: ordinary files, links, pipes, devices, and files that must not be overwritten.
+// The targets of -o: ordinary files, links, pipes, devices, and files that must not be overwritten.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -86,7 +86,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("output: what a pipe takes, and what a link to /dev/stdout gives, is what a file gets") {
+TEST_CASE("output: a pipe and a link to /dev/stdout get the same text as a file") {
     const Place place;
     REQUIRE(place.simulate(place.folder / "motion.csv").exit == 0);
     const std::string expected = contents(place.folder / "motion.csv");
@@ -119,7 +119,7 @@ TEST_CASE("output: what a pipe takes, and what a link to /dev/stdout gives, is w
     CHECK(contains(gone.err, "cannot write 'lost': Broken pipe"));
 }
 
-TEST_CASE("output: a device is written to, through a link too, and a full one is an error of the environment") {
+TEST_CASE("output: a device is written to, also through a link, and a full one is an error of the environment") {
     const Place place;
     for (const auto& [device, exit] : {std::pair{"/dev/null", 0}, std::pair{"/dev/full", 5}}) {
         const fs::path link = place.folder / fs::path(device).filename();
@@ -133,7 +133,7 @@ TEST_CASE("output: a device is written to, through a link too, and a full one is
     }
 }
 
-TEST_CASE("output: the scene itself is refused, under its name and through links, and stays as it is") {
+TEST_CASE("output: the scene itself is refused as output, under its name and through links, and is not changed") {
     const Place place;
     const fs::path soft = place.folder / "soft.toml", hard = place.folder / "hard.toml";
     fs::create_symlink(place.scene, soft);

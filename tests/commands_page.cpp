@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page of a scene: what it holds, that it is well formed, and that nothing of a scene becomes markup or
-// script.
+// The page of a scene: its contents, that it is well formed, and that nothing of a scene becomes markup or script.
 #include <doctest/doctest.h>
 
 #include <cctype>
@@ -41,7 +40,7 @@ std::string page_of(const std::string& scene, int code = 0, const std::vector<st
     return contents(file);
 }
 
-/// What is wrong with the nesting of the elements of a page or a picture; empty if nothing is.
+/// The mistake in the nesting of the elements of a page or a picture; empty if there is none.
 std::string nesting(const std::string& page, const std::set<std::string>& empty_elements) {
     std::vector<std::string> open;
     for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
@@ -154,8 +153,8 @@ TEST_CASE("page: a scene that cannot be read has a page with the mistake, and th
     CHECK(page.find("role=\"alert\"") != std::string::npos);
 }
 
-TEST_CASE("page: where a step fails its message stands there, and the rest is there") {
-    // Half of the scene has no inertia: it derives, and cannot be run.
+TEST_CASE("page: a step that fails is replaced by its message, and the rest is complete") {
+    // Half of the scene has no inertia, so that its equations can be derived but not run.
     const std::string scene =
         temporary("singular.toml",
                   "[coordinates]\nx = 1\ny = 1\n[parameters]\nm = 1\n[[particle]]\nname = \"P\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures of motions, sweeps and measurements: what is drawn is read back from the SVG and held against the
+// Pictures of motions, sweeps and measurements: the drawn values are read back from the SVG and compared with the
 // closed form of the motion.
 #include <doctest/doctest.h>
 
@@ -46,7 +46,7 @@ std::string picture(std::vector<std::string> words, const std::string& option) {
     return contents(file);
 }
 
-/// Every tag is closed in turn, and no text has a bare & or <: as far as drawing programs want XML.
+/// Every tag is closed in turn, and no text has a bare & or <: as drawing programs require.
 bool is_well_formed(const std::string& svg) {
     static const std::regex token(
         "<(/?)([a-z]+)((?:\\s+[\\w:-]+='[^'<&]*')*)\\s*(/?)>|&(?:lt|gt|amp|quot);|[^<&]");
@@ -90,7 +90,7 @@ PlotPoints first_line(const std::string& svg) {
 
 }  // namespace
 
-TEST_CASE("plot: ticks are round numbers inside the range, two at least and no more than asked for") {
+TEST_CASE("plot: ticks are round numbers inside the range, at least two and not more than requested") {
     for (const auto& [low, high] :
          {std::pair{-0.83, 1.02}, {0.0, 10.0}, {-6.1, 4.3}, {1e-9, 3.1e-9}, {-2e7, 5e7}, {99.99, 100.01}})
         for (const int most : {3, 5, 9}) {
@@ -141,7 +141,7 @@ TEST_CASE("simulate: the line that --plot draws is the motion, read back by its 
     CHECK(svg.find(">x in m<") != std::string::npos);
     CHECK(svg.find(">x' in m/s<") != std::string::npos);
     CHECK(svg.find(">t in s<") != std::string::npos);
-    CHECK(svg.find(">energy − 2 in J<") != std::string::npos);  // it changes by rounding alone
+    CHECK(svg.find(">energy − 2 in J<") != std::string::npos);  // it changes only by rounding
     const auto ticks = vertical_ticks(svg);
     REQUIRE(ticks.size() > 2);
     const double scale = (ticks[1].second - ticks[0].second) / (ticks[1].first - ticks[0].first);
@@ -187,8 +187,8 @@ TEST_CASE("simulate, sweep: nothing of a scene becomes markup in a picture") {
     }
 }
 
-// x = x0 + v0 t, drawn over both: the brightest place is where both are largest, and places with one sum are
-// alike.
+// x = x0 + v0 t, drawn over both: the brightest cell is where both are largest, and cells with the same sum have
+// the same colour.
 TEST_CASE("sweep: --svg draws a map over two varied quantities, whose colours are the final values") {
     const std::string scene = temporary("free.toml",
                                         "[coordinates]\nx = { initial = 0, rate = 0 }\n[energy]\n"
@@ -240,7 +240,7 @@ TEST_CASE("bench: each method has a style of its own, and the fastest at some er
         for (int d = 1; d < 12; ++d) one.points.emplace_back(std::pow(10, -d), 1e-5 * (k + 1) * d);
         curves.push_back(one);
     }
-    curves[16].points.emplace_back(1e-13, 1);  // alone there, and so the fastest
+    curves[16].points.emplace_back(1e-13, 1);  // the only curve there, and so the fastest
     const std::string svg = work_precision(curves, "seventeen");
     CHECK(is_well_formed(svg));
     static const std::regex line(

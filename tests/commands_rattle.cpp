@@ -88,7 +88,7 @@ duration = 3
 
 }  // namespace
 
-TEST_CASE("rattle: the Cartesian pendulum keeps its length and its energy, and is where its angle says") {
+TEST_CASE("rattle: the Cartesian pendulum keeps length and energy and is where the angle's equation puts it") {
     const std::string scene = source_path("scenes/benchmark/cartesian_pendulum.toml");
     const Json angle =
         simulated(temporary("angle.toml", by_angle), {"--tolerance", "1e-13", "--method", "dop853"});
@@ -109,7 +109,7 @@ TEST_CASE("rattle: the Cartesian pendulum keeps its length and its energy, and i
     CHECK(std::abs(std::log2(error(coarse) / error(fine)) - 2) < 0.1);
     CHECK(error(high) < 1e-8);
     CHECK(fine["method"] == "rattle");
-    // No drift: a hundred seconds are no worse than ten.
+    // There is no drift: after a hundred seconds the error is not larger than after ten.
     const Json longer = runs("rattle", "0.002", "200");
     CHECK(longer["energy_drift"].get<double>() < 1.01 * coarse["energy_drift"].get<double>());
     CHECK(longer["constraint_drift"].get<double>() < 1e-12);
@@ -140,11 +140,12 @@ TEST_CASE("rattle: moving constraints, dampers and loads keep the order, and the
     CHECK(std::abs(std::log2(coarse["work_balance"].get<double>() / fine["work_balance"].get<double>()) - 2) <
           0.2);
     CHECK(apart(simulated(scene, {"--method", "rattle8", "--step", "0.05"}), exact) < 1e-8);
-    // The power of what moves the centre has accelerations in it: so has the row of the work in radau's Jacobian.
+    // The power of the drive that moves the centre contains accelerations, and so does the row of the work in
+    // radau's Jacobian.
     CHECK(apart(simulated(scene, {"--method", "radau", "--tolerance", "1e-11"}), exact) < 1e-8);
 }
 
-// By quaternions no inertia resists the direction of e: L has the constraint's share there
+// With quaternions there is no inertia along e; L contains a term of the constraint there
 // (alembert/canonical.hpp). sin b = 0.4 sin 7t, x = 0.2 cos 7t + 0.5 cos b. Rows of duration/200 fall on ends of
 // steps up to rounding: steps of no length to there.
 TEST_CASE(
@@ -186,7 +187,7 @@ holonomic = "0.2*sin(phi) = 0.5*sin(beta)"
     }
 }
 
-TEST_CASE("rattle: a body turned by a quaternion spins as Euler's equations have it") {
+TEST_CASE("rattle: a body turned by a quaternion spins according to Euler's equations") {
     const Json exact = simulated(textbook("free_body_quaternion"),
                                  {"--tolerance", "1e-13", "--method", "dop853", "--duration", "5"});
     const Json high = simulated(textbook("free_body_quaternion"),
@@ -198,7 +199,7 @@ TEST_CASE("rattle: a body turned by a quaternion spins as Euler's equations have
               .err.find("generalized speeds") != std::string::npos);
 }
 
-TEST_CASE("rattle: constraints of rates are refused with the name of one, and a step is asked for") {
+TEST_CASE("rattle: constraints on rates are refused by name, and a step is required") {
     const auto sled = run({"simulate", textbook("sled"), "--method", "rattle", "--step", "0.01"});
     CHECK(sled.exit == 3);
     CHECK(sled.err.find("one of rates") != std::string::npos);
@@ -210,7 +211,7 @@ TEST_CASE("rattle: constraints of rates are refused with the name of one, and a 
 
 namespace {
 
-/// The back end is built where SUNDIALS is.
+/// The back end is built if SUNDIALS is installed.
 bool has_sundials() {
     return std::filesystem::exists(std::filesystem::path(ALEMBERT_PROGRAM).parent_path() / "alembert-sundials.so");
 }
@@ -242,7 +243,7 @@ TEST_CASE("sundials: cvode and ida end where dop853 ends, free, constrained, dri
     CHECK(stiff.contains("jacobian_operations"));
 }
 
-TEST_CASE("sundials: rows fall on the grid, the estimate is made, and budgets end a run with what there is") {
+TEST_CASE("sundials: rows fall on the grid, the error is estimated, and a used-up budget keeps the results") {
     if (!has_sundials()) return;
     const std::string scene = textbook("cartesian_pendulum"), file = temporary("rows.csv", "");
     const auto result =

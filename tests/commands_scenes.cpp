@@ -46,7 +46,7 @@ double distance(const Json& found, const std::map<std::string, double>& expected
     return worst;
 }
 
-/// The rows of a CSV file, each by the names of its columns.
+/// The rows of a CSV file, each as values by the names of the columns.
 std::vector<std::map<std::string, double>> rows_of(const std::string& file) {
     std::ifstream in(file);
     std::string line, word;
@@ -67,7 +67,7 @@ std::vector<std::map<std::string, double>> rows_of(const std::string& file) {
 }  // namespace
 
 // v along the blade and w are constant: a circle of radius v/w. The side force is m v w, to the left of the
-// heading. Some hundred steps with local errors of 1e-13 each.
+// heading. There are some hundred steps with local errors of 1e-13 each.
 TEST_CASE("commands: the sled runs in a circle, through the headings at which tan is infinite") {
     const double v = 1.2, w = 1, t = 10;
     const Json json = simulated("sled_regular", "10");
@@ -110,7 +110,7 @@ TEST_CASE("commands: the ball on a turntable runs in a circle at 2/7 of the tabl
     }
 }
 
-// The lower machine is to the upper rope a mass of 4 m2 m3/(m2 + m3).
+// For the upper rope the lower machine acts as a mass of 4 m2 m3/(m2 + m3).
 TEST_CASE("commands: the double Atwood machine moves as if the lower machine were its effective mass") {
     const double g = 9.81, m1 = 3, m2 = 1.7, m3 = 0.4, mp = 0.3;
     const double effective = 4 * m2 * m3 / (m2 + m3);
@@ -129,7 +129,7 @@ TEST_CASE("commands: the double Atwood machine moves as if the lower machine wer
     CHECK(ropes["outputs"]["lower_tension"].get<double>() == doctest::Approx(pull).epsilon(1e-13));
     CHECK(ropes["outputs"]["upper_tension"].get<double>() == doctest::Approx(m1 * (g - heavy)).epsilon(1e-13));
 
-    // A pulley of no mass at all is resisted by its ropes.
+    // The ropes give inertia to a pulley without mass.
     std::ifstream file(scene("double_atwood_ropes"));
     std::string text(std::istreambuf_iterator<char>(file), {});
     text.replace(text.find("mass = \"mp\""), 11, "mass = 0");

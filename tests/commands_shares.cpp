@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Constraints that depend on each other: their multipliers are the least ones in every verb. `eval` shares them
-// out in floating point; what `derive` prints and `check` proves is held against its numbers, and against
-// Moore-Penrose's inverse in this file.
+// Constraints that depend on each other: every verb gives the multipliers of least norm. `eval` computes them in
+// floating point; the relations that `derive` prints and `check` proves are compared with these numbers and with
+// the Moore-Penrose inverse in this file.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,8 +53,8 @@ at = "disc"
 vector = ["-2*x + 3", 1]
 )toml";
 
-/// A cylinder that rolls inside a ring, which rolls on the ground: the inner rolling's rows along x and y are cos
-/// θ and sin θ of one.
+/// A cylinder that rolls inside a ring, which rolls on the ground: the rows of the inner rolling condition along x
+/// and y are cos θ and sin θ times the same row.
 std::string ring(const std::string& theta) {
     return fmt::format(R"toml(
 gravity = [0, "-g"]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program that is told to stop while the compiler runs leaves nothing behind: no temporary file, no folder, no
+// A program that a signal ends while the compiler runs leaves nothing behind: no temporary file, no folder, no
 // compiler.
 #include <doctest/doctest.h>
 
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A compiler that takes its time and notes its process.
+/// A slow compiler that writes down its process number.
 const std::string script = R"sh(
 cd "$1"
 cat >slow <<'END'
@@ -48,7 +48,7 @@ exit 0
 TEST_CASE("signals: a run that is ended while it compiles removes its files and its compiler") {
     const std::string scene = source_path("scenes/textbook/cart_pole.toml");
     for (const auto& [signal, exit] : {std::pair{"TERM", "143\n"}, std::pair{"HUP", "129\n"}})
-        for (const char* cache : {"cache", "file"}) {  // the second is none: a private folder takes its place
+        for (const char* cache : {"cache", "file"}) {  // the second is no folder, so that a private folder is used
             CAPTURE(signal);
             CAPTURE(cache);
             const Run result = run_shell(script, {temporary_folder("signals"), scene, signal, cache});

@@ -46,7 +46,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-/// Without the tables that begin with `header`.
+/// The text without the tables that begin with `header`.
 std::string without(std::string text, const std::string& header) {
     for (std::size_t at; (at = text.find(header)) != std::string::npos;) {
         const std::size_t end = text.find("\n[", at + 1);
@@ -113,7 +113,7 @@ TEST_CASE(
         CHECK(std::abs(number(rolling, "accelerations", q) - number(rows, "accelerations", q)) < 1e-11);
         CHECK(std::abs(number(rolling, "rates", q) - number(rows, "rates", q)) < 1e-11);
     }
-    CHECK(rolling["multipliers"].size() == 2);  // the third row holds by itself
+    CHECK(rolling["multipliers"].size() == 2);  // the third row holds identically
     CHECK(std::abs(number(rolling, "multipliers", "lambda_roll_x") - number(rows, "multipliers", "lambda_x")) <
           1e-11);
     CHECK(std::abs(number(rolling, "multipliers", "lambda_roll_y") - number(rows, "multipliers", "lambda_y")) <
@@ -121,7 +121,8 @@ TEST_CASE(
     CHECK(std::abs(number(rows, "multipliers", "lambda_x")) > 0.1);
 }
 
-// 7 x'' = −2 Ω y', 7 y'' = 2 Ω x': a circle run with 2Ω/7 from the state at the start, whatever turns the ball.
+// 7 x'' = −2 Ω y', 7 y'' = 2 Ω x': a circle with the rate 2Ω/7 from the state at the start, however the rotation
+// of the ball is described.
 TEST_CASE("space: a ball turned by a quaternion runs on the turntable's circle") {
     std::string text = without(without(textbook("ball_on_turntable"), "[[constraint]]"), "[[claim]]");
     text = replaced(text, "rotate = [[\"z\", \"psi\"], [\"x\", \"theta\"], [\"z\", \"phi\"]]",
@@ -146,7 +147,7 @@ TEST_CASE("space: a ball turned by a quaternion runs on the turntable's circle")
     }
 }
 
-// Where a wheel of radius r rolls on one of radius R that turns: r psi' = (R + r) phi' − R alpha'. With T in
+// For a wheel of radius r that rolls on a turning wheel of radius R: r psi' = (R + r) phi' − R alpha'. With T in
 // alpha' and phi',
 //   M = (I1 + I2 R²/r²,  −I2 R (R + r)/r²;  …,  (m + I2/r²)(R + r)²),   M (alpha'', phi'') = (tau, 0),   and along
 //   the rim the force on the planet is −I2 psi''/r.
@@ -270,8 +271,8 @@ TEST_CASE("space: the free body moves by Jacobi's elliptic functions, and its mo
         for (const double h : column(file, name)) CHECK(std::abs(h - value) < 1e-12);
 }
 
-// The same by a free joint, without speeds: four coordinates, their multiplier, and the mass centre drifting
-// along.
+// The same with a free joint and without speeds: four coordinates, their multiplier, and a mass centre that
+// drifts.
 TEST_CASE("space: a body on a free joint tumbles by Jacobi's elliptic functions") {
     const double A = 1, B = 2, C = 3, w1 = 0.3, w2 = 1, T2 = A * w1 * w1 + B * w2 * w2,
                  L2 = A * A * w1 * w1 + B * B * w2 * w2;
@@ -375,8 +376,8 @@ TEST_CASE("space: the heavy top follows its elliptic solution, by Euler angles a
     }
 }
 
-// The same disc with a height of its own, held on the plane by a constraint, and the contact from the normal: the
-// rolling's third row follows.
+// The same disc with its height as a coordinate, kept on the plane by a constraint, and the contact given by the
+// normal; the third row of the rolling condition then follows.
 TEST_CASE("space: the disc by a quaternion and by angles rolls the same way") {
     std::string text =
         without(without(without(textbook("rolling_disc_in_space"), "[[frame]]"), "[[point]]"), "[[claim]]");
@@ -437,7 +438,7 @@ lean = "tilt"
     CHECK(proved.out.substr(0, proved.out.find('\n')).ends_with(": proved"));
 }
 
-TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes") {
+TEST_CASE("space: gimbal lock is reported with the frame, and a quaternion passes through the pose") {
     const std::string by_angles = source_path("scenes/textbook/heavy_top.toml");
     const std::string upright = temporary(
         "upright.toml", replaced(textbook("heavy_top"), "theta = { initial = 1,", "theta = { initial = 0,"));
@@ -457,7 +458,7 @@ TEST_CASE("space: gimbal lock is told with the frame, and the quaternion passes"
     const std::string passes =
         temporary("passes.toml",
                   replaced(textbook("heavy_top_quaternion"), "theta0 = { value = 1.0", "theta0 = { value = 0.0"));
-    const Json end = json_of({"simulate", passes, "--json"})["final"];  // it sleeps
+    const Json end = json_of({"simulate", passes, "--json"})["final"];  // the top sleeps
     CHECK(std::abs(number(end, "coordinates", "e0") - std::cos(20.0)) < 1e-10);
 }
 
@@ -486,7 +487,7 @@ TEST_CASE("space: the rattleback turns back in one sense and goes on in the othe
     for (const double spin : on) CHECK(spin > 4.9);
 }
 
-TEST_CASE("space: what is wrong with a quaternion or a contact at the scene's values is told") {
+TEST_CASE("space: mistakes in a quaternion or a contact at the scene's values are reported") {
     const auto off =
         run({"derive", temporary("off.toml", replaced(textbook("free_body_quaternion"), "e1 = 0", "e1 = 0.01"))});
     CHECK(off.exit == 3);
@@ -519,7 +520,8 @@ TEST_CASE("space: the gallery's mechanisms in space keep their energy and their 
     }
 }
 
-// The crank's end, the rocker's foot and end: the coupler spans them with its length, wherever the crank is.
+// The crank's end, the rocker's foot and end: the coupler connects them with its length at every position of the
+// crank.
 TEST_CASE("space: the rocker of the spatial four-bar stands where the crank's angle puts it") {
     const Json end = json_of({"simulate", source_path("scenes/gallery/rssr.toml"), "--json"})["final"];
     const double alpha = number(end, "coordinates", "alpha"), beta = number(end, "coordinates", "beta");
@@ -537,7 +539,7 @@ TEST_CASE("space: the Furuta pendulum of bodies obeys its hand derivation, and i
     CHECK(json_of({"simulate", scene, "--json"})["work_balance"].get<double>() < 1e-10);
 }
 
-TEST_CASE("space: moments that no body has are refused or told, with the body, at the values of the run") {
+TEST_CASE("space: impossible moments are refused or reported with the body, at the values of the run") {
     const std::string text =
         "[parameters]\nJ = 1\n[coordinates]\nphi = 0\n[[frame]]\nname = \"F\"\nrotate = [[\"z\", "
         "\"phi\"]]\n[[body]]\nname = \"B\"\n"
@@ -561,14 +563,14 @@ TEST_CASE("space: moments that no body has are refused or told, with the body, a
     const auto later = run({"eval", with("[1, 1, \"J\"]"), "--at", "J=-0.5"});
     CHECK(later.exit == 3);
     CHECK(later.err.find("of body 'B', -0.5, 1 and 1, are not all") != std::string::npos);
-    // About a point half a metre away: the mass centre's share is more than what is given.
+    // About a point half a metre away: the contribution of the mass centre exceeds the given moment.
     const auto about = run({"derive", with("[1, 0.1, 1]\nabout = \"P\"\n[[point]]\nname = \"P\"\nfrom = "
                                            "\"B\"\noffset = [0.5, 0]\naxes = \"F\"")});
     CHECK(about.exit == 3);
     CHECK(about.err.find("(about its mass centre; they are given about 'P'), -0.15, ") != std::string::npos);
 }
 
-TEST_CASE("space: a loop that cannot close is told with the joint, and how far apart its bodies stand") {
+TEST_CASE("space: a loop that cannot close is reported with its joint and the distance of its bodies") {
     const std::string text =
         "[[body]]\nname = \"A\"\nmass = 1\ninertia = [1, 1, 1]\n[[joint]]\nname = \"a\"\ntype = "
         "\"revolute\"\nparent = \"N\"\n"
@@ -578,7 +580,7 @@ TEST_CASE("space: a loop that cannot close is told with the joint, and how far a
     CHECK(apart.exit == 3);
     CHECK(apart.err.find("joint 'b' cannot close: in its locked direction 3") != std::string::npos);
     CHECK(apart.err.find("the bodies stand apart by -1, and no coordinate can change that") != std::string::npos);
-    // Coordinates move these, but never far enough.
+    // The coordinates move these bodies, but never far enough.
     const auto far =
         run({"derive", temporary("far.toml", text + "parent_point = [1, 0, 0]\nchild_point = [3, 0, 0]\n")});
     CHECK(far.exit == 3);
@@ -603,7 +605,7 @@ TEST_CASE(
                   1e-12 * std::max(1.0, std::abs(value.get<double>())));
         }
     }
-    // They are symbols: with another mass and another offset it is another arm.
+    // The numbers are symbols: another mass and another offset give another arm.
     const Json other = json_of({"eval", source_path("scenes/benchmark/trees/arm7_symbols.toml"), "--at", "m7=0.9",
                                 "--at", "px4=0.01", "--json"})["accelerations"];
     CHECK(std::abs(other["q7"].get<double>() - numbers["q7"].get<double>()) > 1e-3);

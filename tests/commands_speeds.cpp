@@ -120,10 +120,10 @@ TEST_CASE("commands: all ways of elimination give the same motion, multipliers a
     }
 }
 
-TEST_CASE("commands: eval and simulate give speeds by name, rates still by coordinate") {
+TEST_CASE("commands: eval and simulate give speeds by name, and rates by coordinate") {
     const std::string scene = source_path("scenes/textbook/chaplygin_sleigh_in_speeds.toml");
     const Json json = json_of({"eval", scene, "--json", "--at", "v=0.3", "--at", "w=-1", "--at", "phi=0.4"});
-    CHECK(json["speeds"] == Json{{"v", 0.3}, {"w", -1.0}});  // as given, not by way of the rates
+    CHECK(json["speeds"] == Json{{"v", 0.3}, {"w", -1.0}});  // as given, not computed from the rates
     CHECK(std::abs(number(json, "speed_rates", "v") - 0.5) < 1e-15);
     CHECK(std::abs(number(json, "speed_rates", "w") - 0.5 * 0.3 / 1.25) < 1e-15);
     CHECK(std::abs(number(json, "rates", "x") - 0.3 * std::cos(0.4)) < 1e-15);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Starts that obey their constraints but for what rounding makes of π/2, and numbers of the command line that are
+// Initial states that obey their constraints up to the rounding of π/2, and numbers on the command line that are
 // expressions.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -19,8 +19,8 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// A particle on a circle whose radius's angle is a coordinate too. Each row holds exactly at the start, where
-/// each of its terms is 0 or what rounding leaves of 0.
+/// A particle on a circle whose radius's angle is a coordinate too. Each row holds at the start, where each of its
+/// terms is 0 up to rounding.
 std::string circle(const std::string& constraint, const std::string& x, const std::string& theta,
                    const std::string& rate = "0") {
     return temporary("circle.toml", fmt::format(R"toml(
@@ -42,7 +42,7 @@ name = "c"
 
 }  // namespace
 
-TEST_CASE("commands: a start that obeys its constraints but for rounding is taken, in positions and in rates") {
+TEST_CASE("commands: a start that obeys its constraints up to rounding is accepted, in positions and in rates") {
     for (const auto& [constraint, x, theta] : {
              std::array<const char*, 3>{R"x(holonomic = "x - l*cos(theta)")x", "0", "pi/2"},
              {R"x(holonomic = "x - l*sin(theta)")x", "0", "pi"},
@@ -61,7 +61,7 @@ TEST_CASE("commands: a start that obeys its constraints but for rounding is take
     const auto rate =
         run({"eval", circle(R"x(nonholonomic = "x' - cos(theta)*theta'")x", "0", "pi/2", "3"), "--json"});
     CHECK(rate.exit == 0);
-    // 1e-9 of the terms stays the bound where the terms are no rounding.
+    // If the terms are more than rounding, the bound is still 1e-9 of them.
     CHECK(run({"eval", circle(R"x(holonomic = "x - l*sin(theta)")x", "2.000001", "pi/2")}).exit == 3);
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("commands: numbers of --at and --vary may be expressions of numbers an
     }
 }
 
-// −0.5 was +0.5 in symbols: d²/dx²(−x³) = −6x there.
+// A former version took −0.5 as +0.5 in symbols; d²/dx²(−x³) = −6x there.
 TEST_CASE("commands: linearize takes the sign of a number of --at in its symbols too") {
     const std::string scene = temporary("cubic.toml", R"toml(
 [parameters]

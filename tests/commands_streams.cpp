@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Standard output that is full, closed or no longer read; and other people's text on its way to a terminal.
+// Standard output that is full, closed or no longer read, and text from outside on its way to a terminal.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ const std::vector<std::string> every_verb{"derive S",
                                           "--version",
                                           "derive --help"};
 
-/// Each command with its standard output as given, with the exit code and what it said on standard error.
+/// The exit code and the standard error of each command with its standard output redirected as given.
 std::string with_output(const std::string& redirection) {
     std::string script = "S=$1 C=$2 D=$3 R=$4\ntry() { code=0; \"$ALEMBERT\" \"$@\" 2>\"$D/err\" " + redirection +
                          " || code=$?; message=$(tail -n 1 \"$D/err\"); echo \"$code $* $message\"; }\n";
@@ -81,7 +81,7 @@ std::string with_output(const std::string& redirection) {
         .out;
 }
 
-/// Does it have bytes that steer a terminal?
+/// Is it free of bytes that control a terminal?
 bool is_harmless(const std::string& text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const auto byte = static_cast<unsigned char>(text[i]);
@@ -109,7 +109,7 @@ TEST_CASE("streams: a standard output that is full or closed is exit 5 with a me
     }
 }
 
-TEST_CASE("streams: a reader that goes away ends the program in silence") {
+TEST_CASE("streams: a reader that stops reading ends the program silently") {
     const Run result = run_shell(R"({ sleep 0.1; "$ALEMBERT" derive "$1" --json; echo $? >&3; } 3>&2 | true)",
                                  {source_path("scenes/textbook/cart_pole.toml")});
     CHECK(result.err == "141\n");  // 128 + SIGPIPE

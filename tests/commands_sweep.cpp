@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `sweep`: each row is what `simulate` gives from that state; what cannot run says so in its row.
+// `sweep`: each row is the result of `simulate` from that state; a member that cannot run says so in its row.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// A spring whose mass starts at x = k/10: with the parameter the start follows.
+/// A spring whose mass starts at x = k/10, so that the start changes with the parameter.
 const char* const spring = R"toml(
 [parameters]
 m = 1
@@ -52,7 +52,7 @@ Json sweep(std::vector<std::string> words, int exit = 0) {
 
 }  // namespace
 
-TEST_CASE("sweep: each row is what simulate gives from that state") {
+TEST_CASE("sweep: each row is the result of simulate from that state") {
     const std::string scene = source_path("scenes/benchmark/double_pendulum_regular.toml");
     const Json table = sweep({scene, "--vary", "theta1=0.1:0.7:3", "--vary", "l1=1:1.5:2", "--vary",
                               "theta2'=-0.5:0.5:2", "--duration", "3"});
@@ -132,7 +132,7 @@ TEST_CASE(
     CHECK(broken["failed"].get<int>() >= 1);
 }
 
-TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
+TEST_CASE("sweep: mistakes in --vary are reported, with exit code 3") {
     const std::string scene = temporary("spring.toml", spring);
     for (const auto& [vary, words] :
          std::vector<std::pair<std::string, std::string>>{{"kk=0:1:2", "no coordinate, rate, parameter"},
@@ -152,7 +152,7 @@ TEST_CASE("sweep: what is wrong with --vary is told, with exit code 3") {
     CHECK(run({"sweep", source_path("scenes/textbook/bouncing_ball.toml"), "--vary", "g=9:10:2"}).exit == 3);
 }
 
-// x = 1 - t²/2: a scene whose numbers are all in it has no parameters to hand on.
+// x = 1 - t²/2: a scene with plain numbers only has no parameters to pass on.
 TEST_CASE("sweep: a scene without parameters is swept, side by side and by every packed method") {
     const std::string scene =
         temporary("plain.toml",

@@ -61,7 +61,8 @@ TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where 
     CHECK(std::abs(coordinate(comet, "x") + 0.1351664773678210293925794571396607994198) < 1e-8);
     CHECK(std::abs(rate(comet, "y") - 0.7844989436495845826968187373479917536626) < 1e-8);
     const Json stars = simulated(benchmark("pleiades"), {"--tolerance", "1e-13"});
-    // Close encounters: rounding alone leaves 2e-12 to 3e-11, whichever tolerance from 1e-11 to 1e-14.
+    // Because of close encounters rounding alone causes errors of 2e-12 to 3e-11, for any tolerance from 1e-11 to
+    // 1e-14.
     CHECK(std::abs(coordinate(stars, "x1") - 0.37061391439705129009) < 1e-10);
     CHECK(std::abs(rate(stars, "y7") + 1.947020434263291900674262585469) < 1e-10);
     const Json planets = simulated(benchmark("outer_solar_system"), {"--tolerance", "1e-13"});
@@ -70,8 +71,8 @@ TEST_CASE("taylor: Kepler's comet, the Pleiades and the outer planets end where 
     CHECK(std::abs(coordinate(planets, "zPluto") + 15.043469221823263493829179433668) < 1e-10);
 }
 
-// Lanes of a pack that wait for the accelerations or have other equal arguments, entries of M that no row needs
-// but through it.
+// These scenes have lanes of a pack that wait for the accelerations or have other equal arguments, and entries of
+// M that rows need only through M.
 TEST_CASE("taylor: linkages and odd frames move as by Runge and Kutta") {
     for (const std::string name :
          {"scenes/benchmark/bricard.toml", "tests/odd/space.toml", "tests/odd/turning.toml"}) {
@@ -89,7 +90,7 @@ TEST_CASE("taylor: linkages and odd frames move as by Runge and Kutta") {
     }
 }
 
-TEST_CASE("taylor: the double pendulum is at its 50 digits at t = 10, as far as its error growth allows") {
+TEST_CASE("taylor: the double pendulum at t = 10 agrees with 50 digits, as far as its error growth allows") {
     // 10⁷-fold growth of local errors of 1e-14.
     const Json chaotic = simulated(benchmark("double_pendulum_chaotic"), {"--tolerance", "1e-14"});
     CHECK(std::abs(coordinate(chaotic, "theta1") + 0.75312887429491135322) < 1e-5);
@@ -115,7 +116,7 @@ TEST_CASE("taylor: rows between steps are as good as their ends") {
     }
     CHECK(rows == 2001);
     CHECK(result["steps"].get<int>() < 40);  // fifty rows a step
-    CHECK(worst < 40 * 1e-13);               // a local error each
+    CHECK(worst < 40 * 1e-13);               // each with one local error
 }
 
 TEST_CASE("taylor: events are found on its polynomial, to 1e-12") {

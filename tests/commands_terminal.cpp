@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person at a terminal gets: colours, lines that fit, help, completion, the manual, and what is said of
+// Features for people at a terminal: colours, lines that fit, help, completion, the manual, and messages about
 // mistakes on the command line.
 #include <doctest/doctest.h>
 
@@ -56,7 +56,7 @@ TEST_CASE("terminal: verdicts and carets are in colour there, and nowhere else, 
     const std::string error = on_terminal("TERM=xterm \"$ALEMBERT\" derive \"$1\"", {broken}, 100);
     CHECK(std::regex_search(error, std::regex("\033\\[1;31m +\\^\033\\[0m")));
     CHECK(run({"derive", broken}).err.find('\033') == std::string::npos);
-    // Somebody else's escape sequences stay text.
+    // Escape sequences from outside stay text.
     const std::string hostile = temporary("hostile.toml", "title = \"\\u001b[31mred\"\n" + pendulum);
     CHECK(on_terminal("TERM=xterm \"$ALEMBERT\" derive \"$1\"", {hostile}, 100).find("\033[31m") ==
           std::string::npos);
@@ -88,7 +88,7 @@ TEST_CASE("wrap: a line is broken before operators, outside parentheses where th
     CHECK(wrapped("θ″ + ω²·sin θ + ω²·θ³ = 0", 20) == "θ″ + ω²·sin θ\n    + ω²·θ³ = 0");
 }
 
-TEST_CASE("command line: mistakes in verbs, options and formalisms are told with the nearest name") {
+TEST_CASE("command line: mistakes in verbs, options and formalisms are reported with the nearest name") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     const auto says = [](const std::vector<std::string>& words, const std::string& what) {
         const auto result = run(words);
@@ -170,7 +170,7 @@ TEST_CASE("man: every page passes mandoc, and names every option of its verb") {
     }
 }
 
-TEST_CASE("warnings: those found before an error are told too") {
+TEST_CASE("warnings: those found before an error are printed too") {
     // The inertia breaks the triangle inequality (a warning), and the formalism does not exist (an error).
     const std::string scene = temporary(
         "warned.toml",
@@ -186,7 +186,7 @@ TEST_CASE("warnings: those found before an error are told too") {
     CHECK(result.err.find("warning") == result.err.rfind("warning"));  // once
 }
 
-TEST_CASE("wording: numbers of one, fractions, rounding and digits read as a person would write them") {
+TEST_CASE("wording: singulars, fractions, rounding and digits read as a person would write them") {
     const std::string scene = temporary("pendulum.toml", pendulum);
     CHECK(run({"emit", scene, "-o", alembert::test::temporary_folder("solver")}).out.find("1 multiplication,") !=
           std::string::npos);
@@ -198,7 +198,7 @@ TEST_CASE("wording: numbers of one, fractions, rounding and digits read as a per
     const auto rest = run({"check", scene, temporary("rest.txt", "rest\ntheta = 0\n")});
     CHECK(rest.out.find("theta = 3.1415926535897931,") != std::string::npos);
     CHECK(rest.out.find("3.14159265358979323") == std::string::npos);
-    // A hinge bears no moment about its free axis: the balance of moments of the two rods.
+    // A hinge transmits no moment about its free axis: the balance of moments of the two rods.
     const auto joints = nlohmann::json::parse(
         run({"eval", source_path("scenes/textbook/double_pendulum_joints.toml"), "--reactions", "--json"}).out);
     for (const char* const joint : {"hook", "elbow"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What a run says of its own trustworthiness, and pulses that a step could pass over, against closed forms.
+// The statement of a run about its accuracy, and pulses that a step could pass over, against closed forms.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ double at_end(const Json& result, const std::string& name) {
 
 }  // namespace
 
-// ∫ exp(−(s/w)²) sin(T − 5 − s) ds = w √π exp(−w²/4) sin(T − 5), T = 20: the pulse is over long before.
+// ∫ exp(−(s/w)²) sin(T − 5 − s) ds = w √π exp(−w²/4) sin(T − 5), T = 20: the pulse is over long before that.
 TEST_CASE(
     "simulate: no method that chooses its steps passes over a narrow pulse, wherever it is and however narrow") {
     for (const double w : {1e-2, 1e-3, 1e-6}) {
@@ -72,7 +72,7 @@ TEST_CASE(
 
 // A box from 7.3 to 7.301 s: x(20) = ∫ sin(20 − s) ds. A triangle of half the width w about 7.3: w sin(12.7) (1 +
 // O(w²)).
-TEST_CASE("simulate: switches and triangles by sign, abs and max are met, and cost no long way in short steps") {
+TEST_CASE("simulate: switches and triangles made of sign, abs and max are found, without many short steps") {
     const Json box = simulated(oscillator("(sign(t-7.3) - sign(t-7.301))/2"));
     CHECK(std::abs(at_end(box, "x") - (std::cos(20 - 7.301) - std::cos(20 - 7.3))) < 1e-8);
     CHECK(box["steps"].get<int>() < 300);
@@ -116,7 +116,7 @@ TEST_CASE("simulate: no step is longer than max_step, of the scene or of the com
 }
 
 // θ(t) = θ₀ cos(√(g/l) t) for small θ₀; x(t) = x₀ cos t.
-TEST_CASE("simulate: a motion of any size is trusted where it has two digits, and only there") {
+TEST_CASE("simulate: a motion of any size is trusted if it has two digits, and only then") {
     for (const char* const initial : {"1e-15", "1e-9", "1e-4", "1", "1e9"}) {
         CAPTURE(initial);
         const double size = std::stod(initial);
@@ -138,7 +138,7 @@ TEST_CASE("simulate: a motion of any size is trusted where it has two digits, an
             if (trusted(swing)) CHECK(good(size * std::cos(std::sqrt(9.81) * 20), at_end(swing, "theta")));
         }
     }
-    // What is right is not doubted.
+    // A correct result is trusted.
     CHECK(trusted(simulated(oscillator("0*t", "1"))));
     CHECK(trusted(simulated(oscillator("0*t", "1e9"))));
     CHECK(trusted(simulated(pendulum("1e-4"))));
@@ -147,7 +147,7 @@ TEST_CASE("simulate: a motion of any size is trusted where it has two digits, an
     CHECK(trusted(simulated(pendulum("1e-15"), {"--method", "rk4", "--step", "0.01"})));
 }
 
-TEST_CASE("simulate: what is not trusted is said with every reason, for people and in JSON") {
+TEST_CASE("simulate: for a run that is not trusted every reason is given, for people and in JSON") {
     const std::string scene = pendulum("1.2");
     const Json result = simulated(scene, {"--method", "euler", "--step", "0.02"});
     CHECK_FALSE(trusted(result));

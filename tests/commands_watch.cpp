@@ -74,7 +74,7 @@ struct Connection {
     Connection& operator=(const Connection&) = delete;
     ~Connection() { close(descriptor); }
 
-    /// What comes until `end` is there, or nothing more.
+    /// Reads until `end` has arrived or nothing more comes.
     std::string read_until(const std::string& end) const {
         std::string text;
         char bytes[4096];
@@ -96,7 +96,7 @@ int status(const std::string& answer) {
     return answer.size() > 12 ? std::stoi(answer.substr(9, 3)) : 0;
 }
 
-/// Was the program built with a server? With one it serves until it is ended; port 1 is nobody's.
+/// Was the program built with a server? With one it serves until it is ended; port 1 is not available to users.
 bool is_built() {
     static const bool built = [] {
         const auto result =
@@ -108,7 +108,7 @@ bool is_built() {
 
 }  // namespace
 
-TEST_CASE("watch: it answers this machine's names alone, and serves nothing but the page and its events") {
+TEST_CASE("watch: it answers only to this machine's names, and serves nothing but the page and its events") {
     if (!is_built()) return;
     const Watching watching(scene_text);
     const int port = watching.port;
@@ -137,7 +137,7 @@ TEST_CASE("watch: it answers this machine's names alone, and serves nothing but 
     CHECK(page.find("Access-Control-Allow-Origin") == std::string::npos);
 }
 
-TEST_CASE("watch: a saved scene is told to the browser, and a mistake is shown in the page where it stands") {
+TEST_CASE("watch: the browser is informed of a saved scene, and the page shows a mistake at its place") {
     if (!is_built()) return;
     const Watching watching(scene_text);
     const std::string ours = "127.0.0.1:" + std::to_string(watching.port);

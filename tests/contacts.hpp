@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What the tests of contacts share: a run and what it tells, a ball, a reader of rows.
+/// Functions that the tests of contacts share: a run with its events, a ball, a reader of rows.
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The reference of the scene language and the JSON schema, held against the reader's own list of tables and keys.
-// (What the program prints in the guide, and the options of the commands, tests/docs.sh compares.)
+// The reference of the scene language and the JSON schema, compared with the reader's own list of tables and keys.
+// (tests/docs.sh compares the output shown in the guide and the options of the commands.)
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -49,7 +49,7 @@ Tables of_the_reader() {
     return result;
 }
 
-/// What stands between backticks in a line.
+/// The texts between backticks in a line.
 std::vector<std::string> in_backticks(const std::string& line) {
     std::vector<std::string> words;
     for (std::size_t begin = line.find('`'); begin != std::string::npos;) {
@@ -148,7 +148,7 @@ void compare(const Tables& found, const Tables& expected, const std::string& whe
     }
 }
 
-/// As much of JSON Schema as ours uses.
+/// Checks a value by the part of JSON Schema that our schema uses.
 bool obeys(const Json& value, const Json& node) {
     const Json& s = resolved(node);
     const auto has_type = [&](const std::string& type) {
@@ -214,7 +214,7 @@ Json json_of(const std::filesystem::path& file) {
     return json_of(static_cast<const toml::node&>(toml::parse(text)));
 }
 
-/// What the reader says of an example, without that names in it are declared elsewhere.
+/// The reader's complaints about an example, without those about names that are declared elsewhere.
 std::string complaints(const std::string& example) {
     std::string told;
     try {
@@ -243,7 +243,7 @@ TEST_CASE("docs: the schema has every table and key of the reader, and no other"
     compare(of_the_schema(), of_the_reader(), "docs/scene.schema.json");
 }
 
-TEST_CASE("docs: the reader's list has the tables that it reads, in the shape that it says") {
+TEST_CASE("docs: the reader's list has the tables that it reads, in the shape that the list gives") {
     for (const TableKeys& table : table_keys) {
         if (table.table.empty() || table.shape == TableKeys::Shape::inner || table.keys().empty()) continue;
         const std::string told = complaints(title_of(table) + "\nno_such_key_ = 1\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is emitted in C is compiled as strict C99 and computes what the interpreter of the same program does. Where
-// a compiler for a controller is there, it takes the files too, with floats.
+// Emitted C is compiled as strict C99 and computes the same as the interpreter of the same program. If a compiler
+// for a microcontroller is installed, it must accept the files too, with floats.
 #include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -101,7 +101,7 @@ void compare(const Library& library, const Emission& e) {
 
 }  // namespace
 
-TEST_CASE("emit: C99 without a warning, whose rates and Jacobian are those of the program") {
+TEST_CASE("emit: the C99 compiles without a warning, and its rates and Jacobian are those of the program") {
     const Folder folder;
     std::vector<std::unique_ptr<Emission>> all;
     std::string files;

@@ -22,7 +22,7 @@ namespace emit_parts {
 
 using namespace alembert;
 
-TEST_CASE("parts: what one part makes and a later one takes is carried, once") {
+TEST_CASE("parts: a value that one part makes and a later one uses is carried once") {
     const FunctionParts parts = in_parts({{.names = {"a"}, .uses = {"x"}, .text = "const Real a = x + 1.5e3;"},
                                           {.names = {"b"}, .uses = {"a"}, .text = "const Real b = 2 * a;"},
                                           {.names = {"c"}, .uses = {"a", "b"}, .text = "const Real c = a * b;"},
@@ -55,7 +55,7 @@ TEST_CASE("parts: all names of a statement can be carried") {
     CHECK(parts.list[2].lines.front() == "const Real& c0 = carried[1];");
 }
 
-TEST_CASE("parts: a file whose functions are in parts computes what the whole one does, packs too") {
+TEST_CASE("parts: a file whose functions are in parts computes the same as the whole one, packs too") {
     const Mechanism m = prepared(read_scene(test::source_path("scenes/benchmark/trees/arm7.toml"))).mechanism;
     const Program program = choose(m, recursive(m)).program;
     const auto module_of = [&](std::size_t longest) {
@@ -93,7 +93,7 @@ TEST_CASE("parts: a file whose functions are in parts computes what the whole on
     }
 }
 
-TEST_CASE("parts: of scenes of every kind, in the shortest parts") {
+TEST_CASE("parts: scenes of every kind can be written in the shortest parts") {
     for (const char* scene :
          {"textbook/four_bar.toml", "textbook/heavy_top_quaternion.toml", "textbook/rattleback.toml",
           "benchmark/pleiades.toml", "benchmark/flyball_governor.toml"}) {

@@ -26,7 +26,7 @@ using namespace alembert;
 
 namespace {
 
-/// What the options of an emitted file are, by the seed of its scene: all pairs of them occur.
+/// The options of an emitted file, chosen by the seed of its scene so that all pairs of them occur.
 struct Wishes {
     bool fold, jacobian, batch, taylor;
 };
@@ -39,7 +39,7 @@ Choice chosen(const Mechanism& m, bool fold) {
                                    .derive(m)};
     try {
         if (!in_speeds) all.push_back(formalism("recursive").derive(m));
-    } catch (const ModelError&) {  // it does not apply
+    } catch (const ModelError&) {  // the formalism does not apply
     }
     return choose(m, all, {.fold = fold});
 }
@@ -66,7 +66,7 @@ std::string emitted(const std::string& scene, const std::string& name, const Wis
     return text;
 }
 
-/// What the compiler says of a text that it reads, instantiates and does not translate.
+/// The compiler's messages about a text that it parses and instantiates without generating code.
 std::string complaints(const std::string& text) {
     const std::filesystem::path source = std::filesystem::temp_directory_path() /
                                          fmt::format("alembert_random_{}.cpp", getpid()),
@@ -86,7 +86,7 @@ std::string complaints(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("emit: what is emitted for five hundred small scenes at random compiles, with every option") {
+TEST_CASE("emit: the files of five hundred small random scenes compile, with every option") {
     const char* const asked = std::getenv("ALEMBERT_RANDOM_SCENES");
     const unsigned count = asked != nullptr ? static_cast<unsigned>(std::atoi(asked)) : 500U, together = 50;
     unsigned refused = 0;

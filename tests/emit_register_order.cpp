@@ -56,13 +56,13 @@ TEST_CASE("register order: 400 values that would wait for their partners fit in 
     CHECK(most_live(statements, order) <= 32);
 }
 
-TEST_CASE("register order: a chain, whose length is what counts, stays as it is") {
+TEST_CASE("register order: a chain, for which only its length matters, is not changed") {
     std::vector<Computation> statements(1);
     for (int k = 0; k < 100; ++k) statements.push_back({.needs = {k}});
     CHECK(register_order(statements) == as_given(statements.size()));
 }
 
-TEST_CASE("register order: any order keeps what is needed first, and depends on nothing but the statements") {
+TEST_CASE("register order: arguments come first in any order, which depends only on the statements") {
     std::mt19937 random(5);
     for (int round = 0; round < 50; ++round) {
         std::vector<Computation> statements;

@@ -8,7 +8,7 @@ namespace emit_scheduled_sum {
 
 using namespace alembert;
 
-TEST_CASE("scheduled sum: what is ready last is added last") {
+TEST_CASE("scheduled sum: the term that is ready last is added last") {
     const ScheduledSum sum({.terms = {{.late = "x", .ready = {.node = 0}},
                                       {.weight = "w", .late = "y", .ready = {.node = 1}, .negative = true},
                                       {.late = "z", .ready = {.node = 2, .delay = 1}}}});

@@ -169,7 +169,7 @@ TEST_CASE("figure: a slider-crank has a crank, a rod and a block on a horizontal
     CHECK(near(d.pose[x->points[0]], {0, 0, 0}));
 }
 
-TEST_CASE("figure: wheels have the radius that their rolling says, and their rim turns with them") {
+TEST_CASE("figure: wheels have the radius of their rolling condition, and their rim turns with them") {
     SUBCASE("on a line, by a velocity constraint") {
         Drawn d = drawn("scenes/textbook/hoop_pendulum.toml");
         d.start.q = {0.3, 0.7, 1.0};
@@ -232,7 +232,7 @@ TEST_CASE("figure: springs along a coordinate are found between their points, st
     CHECK(of_kind(chain.figure, Kind::wall).size() == 2);
 }
 
-TEST_CASE("figure: scenes of energies alone have none, and all others have points that are numbers") {
+TEST_CASE("figure: scenes with energies only have none, and all others have finite points") {
     CHECK_FALSE(drawn("scenes/textbook/rolling_disc.toml").figure.obstacle.empty());
     CHECK_FALSE(drawn("scenes/textbook/magnetic_field.toml").figure.obstacle.empty());
     for (const char* folder : {"scenes/textbook", "scenes/gallery", "scenes/benchmark"})

@@ -164,7 +164,7 @@ TEST_CASE("agree: every scene is proved") {
 
 // Pleiades: 21 square roots, all of which exist at one point in two million; Kapitza: an angle of time by a number
 // of 16 decimals.
-TEST_CASE("agree: a root for each pair of bodies, and decimals in angles") {
+TEST_CASE("agree: scenes with a root for each pair of bodies, or with decimals in angles, are decided") {
     for (const char* const name : {"pleiades", "kapitza"}) {
         CAPTURE(name);
         const Mechanism mechanism =
@@ -176,7 +176,7 @@ TEST_CASE("agree: a root for each pair of bodies, and decimals in angles") {
     }
 }
 
-// H of sixteen rods through M⁻¹ would be of a degree that no bound on the failure of sampling allows.
+// With M⁻¹, H of sixteen rods would have such a high degree that sampling could not be bounded.
 TEST_CASE("agree: all formalisms are proved equal on a chain of sixteen rods, Hamilton's equations too") {
     const Agreed result = agree(read_scene(test::source_path("scenes/benchmark/trees/pend16.toml")), 0.1);
     CHECK(result.agreement.verdict == Agreement::Verdict::proved);
@@ -194,7 +194,8 @@ TEST_CASE("agree: a formalism with one wrong entry is refuted") {
             CAPTURE(kind);
             Equations wrong = right;
             wrong.formalism = "wrong";
-            int row = 0;  // whose acceleration is not zero: a free x'' = 0 may be multiplied by anything
+            // A row whose acceleration is not zero, because a free x'' = 0 may be multiplied by anything.
+            int row = 0;
             while (kind == 0 && row + 1 < right.size() && right.forcing(row).is_zero() && right.A.empty()) ++row;
             if (kind == 0) wrong.M(row, row) = wrong.z->name(wrong.M(row, row) * (1 + m.q[0] * m.q[0]));
             if (kind == 1) wrong.own[0] = wrong.z->name(wrong.own[0] + m.qdot[0]);
@@ -204,7 +205,7 @@ TEST_CASE("agree: a formalism with one wrong entry is refuted") {
     }
 }
 
-TEST_CASE("kane and dalembert: refuse energies that belong to no body, and say why") {
+TEST_CASE("kane and dalembert: energies that belong to no body are refused with the reason") {
     const Mechanism m = prepared(read_scene(test::source_path("tests/odd/kinetic.toml"))).mechanism;
     CHECK_THROWS_WITH_AS(kane(m), doctest::Contains("[energy] kinetic"), ModelError);
     CHECK_THROWS_WITH_AS(dalembert(m), doctest::Contains("[energy] kinetic"), ModelError);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is printed by a formalism is that formalism's, and holds; a formalism that derives is one that `agree`
-// knows.
+// The equations that a formalism prints are its own, and they hold; `agree` uses every formalism that derives.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -137,7 +136,7 @@ TEST_CASE("steps: in LaTeX the formulas among the words of every formalism are t
         }
 }
 
-// A disc that rolls between rails: its constraints say some things twice.
+// A disc that rolls between rails has redundant constraints.
 TEST_CASE("formalisms: agree knows each formalism by which derive works, with redundant constraints too") {
     const std::string scene = temporary("twice.toml", R"toml(
 [parameters]

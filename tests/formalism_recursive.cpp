@@ -319,7 +319,7 @@ TEST_CASE("recursive: closed loops keep their multipliers") {
     }
 }
 
-TEST_CASE("recursive: every form accelerates trees of bodies as computed elsewhere") {
+TEST_CASE("recursive: every form gives the accelerations of trees of bodies that were computed elsewhere") {
     std::ifstream file(test::source_path("tests/reference/trees.txt"));
     std::string line;
     std::getline(file, line);
@@ -366,7 +366,7 @@ TEST_CASE("recursive: the operations of articulated bodies grow linearly with th
     CHECK(all - eighteen == eighteen - nine);
 }
 
-TEST_CASE("recursive: without the mass matrix, the same accelerations") {
+TEST_CASE("recursive: the accelerations are the same without the mass matrix") {
     for (const std::string& text : {chain(5), tree_in_space(6)}) {
         const Mechanism m = from_text(text);
         const Program expected = lower(m, lagrange(m), energy_of(m)),
@@ -438,7 +438,7 @@ TEST_CASE("recursive: over doubles, articulated bodies undo composite bodies, wi
     }
 }
 
-TEST_CASE("recursive: scenes that are no tree of joints are refused with what is missing") {
+TEST_CASE("recursive: scenes that are no tree of joints are refused, and the message says what is missing") {
     const auto reason = [](const char* scene) -> std::string {
         try {
             recursive(prepared(read_scene(test::source_path(scene))).mechanism);

@@ -78,7 +78,7 @@ TEST_CASE("kane: without speeds nonholonomic constraints are solved for a rate w
     CHECK(agree({routh(m), equations}, m).verdict == Agreement::Verdict::proved);
 }
 
-TEST_CASE("kane: without speeds a blade leaves the one combination of rates that it does not hold") {
+TEST_CASE("kane: without speeds, a blade leaves the one combination of rates free that it does not constrain") {
     const Mechanism m = textbook("chaplygin_sleigh");
     const Derivation shown = derivation_of(m, kane(m));
     REQUIRE(shown.speeds.size() == 1);
@@ -127,7 +127,7 @@ TEST_CASE("agree: one wrong entry in equations in speeds is refuted") {
     }
 }
 
-TEST_CASE("speeds: too many, dependent ones and ones that a constraint fixes are told apart") {
+TEST_CASE("speeds: too many, dependent ones and ones that a constraint fixes have different messages") {
     const auto mistake = [](const std::string& speeds) {
         const Mechanism m =
             build(parse_scene("[coordinates]\nx = 0.1\ny = 0.2\nz = 0.3\n[speeds]\n" + speeds +
@@ -190,7 +190,7 @@ TEST_CASE("kinematics: q' = h(q,u,t) inverts the forms and obeys what was elimin
     }
 }
 
-TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
+TEST_CASE("emitted: a solver in speeds computes the same as the interpreter") {
     for (const char* name : {"scenes/textbook/ball_on_turntable.toml", "tests/odd/speeds_oblique.toml",
                              "tests/odd/speeds_with_multipliers.toml", "tests/odd/speeds_all_eliminated.toml"}) {
         CAPTURE(name);
@@ -246,7 +246,7 @@ TEST_CASE("emitted: a solver in speeds computes what the interpreter does") {
     }
 }
 
-TEST_CASE("cancelled: poles that are none disappear, others stay, and the value never changes") {
+TEST_CASE("cancelled: removable poles disappear, others stay, and the value never changes") {
     const Mechanism m = build(parse_scene("[coordinates]\nx = 0.3\ny = 0.7\n", "p.toml"));
     const ex x = m.q[0], y = m.q[1];
     const auto result = [&](const ex& e) { return m.z->expand(cancelled(m.z->name(e), m)); };
@@ -265,7 +265,7 @@ TEST_CASE("cancelled: poles that are none disappear, others stay, and the value 
     }
 }
 
-TEST_CASE("lagrange1: Newton's law with multipliers, and what is missing elsewhere") {
+TEST_CASE("lagrange1: it gives Newton's law with multipliers, or says what is missing") {
     const Mechanism m = textbook("cartesian_pendulum");
     const Derivation shown = derivation_of(m, lagrange1(m));
     CHECK(text(shown.equations[0].lhs) + " = " + text(shown.equations[0].rhs) == "m*x'' = 2*x*lambda_rod");

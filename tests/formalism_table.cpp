@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every row of the table of formalisms promises, and the origins of a mechanism's parts.
+// The properties that every row of the table of formalisms must have, and the origins of a mechanism's parts.
 #include <doctest/doctest.h>
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ std::vector<std::string> all_scenes() {
 
 }  // namespace
 
-TEST_CASE("formalisms: a derivation throws the obstacle, and there is none where it does not throw") {
+TEST_CASE("formalisms: a derivation throws if and only if there is an obstacle") {
     int applied = 0, refused = 0;
     for (const std::string& file : all_scenes()) {
         CAPTURE(file);
@@ -64,7 +64,7 @@ TEST_CASE("formalisms: a derivation throws the obstacle, and there is none where
     CHECK(refused > 50);
 }
 
-TEST_CASE("formalisms: a mechanism is the same after it was derived from, compared and checked") {
+TEST_CASE("formalisms: a mechanism is the same after derivations, comparisons and checks") {
     for (const char* const name : {"double_pendulum", "chaplygin_sleigh_in_speeds", "rolling_disc_in_space",
                                    "watt_governor", "coin", "rolling_disc"}) {
         CAPTURE(name);
@@ -89,7 +89,7 @@ TEST_CASE("formalisms: a mechanism is the same after it was derived from, compar
         CHECK(same());
         CHECK_FALSE(check(scene, m).claims.empty());
         CHECK(same());
-        // Lagrange's equations after all that are the ones of a mechanism that nothing was asked of before.
+        // After all this, Lagrange's equations are the same as those of a new mechanism.
         const Mechanism untouched = prepared(scene).mechanism;
         const Derivation late = derivation_of(m, routh(m)), early = derivation_of(untouched, routh(untouched));
         REQUIRE(late.equations.size() == early.equations.size());
@@ -121,12 +121,12 @@ TEST_CASE("formalisms: equations with tables of their own are compared, lowered 
             CHECK(x[a.nodes_of(group)[k]] == doctest::Approx(y[b.nodes_of(group)[k]]).epsilon(1e-12));
 }
 
-TEST_CASE("formalisms: a name that is none is refused with all that are") {
+TEST_CASE("formalisms: an unknown name is refused with a list of all names") {
     CHECK_THROWS_WITH_AS(formalism("newton"), doctest::Contains(formalism_names().c_str()), ModelError);
     for (const Formalism& f : formalisms()) CHECK(&formalism(f.name) == &f);
 }
 
-TEST_CASE("formalisms: speeds that a scene names are no rates, even where each is one") {
+TEST_CASE("formalisms: named speeds of a scene never count as rates, even if each is one") {
     const Mechanism m = build(parse_scene(R"(
         [parameters]
         m = 1.0

@@ -149,7 +149,7 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
         std::vector<double> y = state.q, rate(2 * n);
         y.insert(y.end(), state.qdot.begin(), state.qdot.end());
         rhs(state.t, y.data(), rate.data());
-        // What a unit in the last place of the state does, to either side.
+        // The effect of a unit in the last place of the state, in both directions.
         double largest = 1e-300, moved = 0;
         for (const double side : {10.0, 0.1}) {
             State<double> beside = state;
@@ -165,7 +165,8 @@ void agrees(const std::string& file, bool with_plain_derivatives) {
             continue;
         }
         const double harder = std::max(1.0, moved / (2e-14 * largest));
-        largest *= harder;  // where a rounding of the state alone moves them more, no more can be asked
+        // If rounding of the state alone changes them more, no better agreement can be required.
+        largest *= harder;
         check_energy(module, program, state, y, rate);
         std::vector<double> multipliers;
         for (const int id : program.nodes_of(Group::multiplier))
@@ -192,7 +193,7 @@ TEST_CASE("generator: emitted function, interpreter and plain derivatives agree 
     for (const std::string& file : test::scenes_in("scenes/textbook")) agrees(file, true);
 }
 
-TEST_CASE("generator: every node of a program says whose term it is") {
+TEST_CASE("generator: every node of a program has the source of its term") {
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);
         const Mechanism mechanism = prepared(read_scene(file)).mechanism;

@@ -18,8 +18,8 @@ using namespace alembert;
 namespace {
 
 /// The largest |lhs − rhs| over the sum of the sizes of its terms, at 32 random states, for each claim that speaks
-/// of motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is held against the largest
-/// acceleration of the state; one that no state could be found for gives −1.
+/// of motion: each becomes an output of the scene. A claim of a single term (x'' = 0) is compared with the largest
+/// acceleration of the state; −1 if no state could be found for a claim.
 std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
     std::string text = scene.text;
     std::string outputs;
@@ -81,7 +81,7 @@ std::vector<std::pair<std::string, double>> misfits(const Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("generator: the hand derivations that textbook scenes carry hold") {
+TEST_CASE("generator: the hand derivations in textbook scenes hold") {
     int claims = 0;
     for (const std::string& file : test::scenes_in("scenes/textbook")) {
         CAPTURE(file);

@@ -151,7 +151,7 @@ TEST_CASE("partials: forward, reverse and least fill give what dual numbers give
     }
 }
 
-TEST_CASE("partials: what lies before an input is held, and a budget is kept") {
+TEST_CASE("partials: nodes before an input are constant, and the budget is respected") {
     Program p;
     const int x = p.variable({Variable::Kind::coordinate, 0}), s = p.call(Op::sin, {x});
     const int f = p.sum(0, {{1, p.product(1, {{s, 2}})}, {3, x}});

@@ -89,14 +89,15 @@ TEST_CASE(
             Drift drift(module.table().coordinates, module.table().speeds, true);
             const Trajectory one = alone(e, k, options, &drift);
             const Outcome& outcome = ends.members[k];
-            // Rounding alone tells them apart: it grows with the motion, and shifts a step's length by the same
+            // They differ only by rounding, which grows with the motion and changes a step's length in the same
             // ratio.
             CHECK(distance(ends.state(k), one.final_state().first(ends.state(k).size())) < 1e-10);
             CHECK(outcome.failure.empty());
             CHECK(outcome.time == e.starts[k] + e.durations[k]);
             CHECK(std::abs(outcome.steps - one.statistics.steps) <= 1);
             CHECK(std::abs(outcome.evaluations - one.statistics.evaluations) <= 13);
-            // Of E itself only at the ends of steps, which rounding shifts a little: the balance does not mind.
+            // The drift of E is measured at the ends of steps, which rounding shifts a little; the balance is not
+            // affected.
             CHECK(std::abs(outcome.work_balance - drift.balance()) < 1e-10);
         }
     }
@@ -129,7 +130,7 @@ TEST_CASE("ensemble: no bit depends on the number of threads or on the neighbour
     }
 }
 
-TEST_CASE("ensemble: one that fails says why, as alone, and changes no other by a bit") {
+TEST_CASE("ensemble: a member that fails says why, as in a single run, and changes no bit of another") {
     const Module module = module_of("scenes/textbook/elastic_pendulum.toml");
     Ensemble e = random_members(module, 20);
     const Options options{.tolerance = 1e-10, .budget = 5000};

@@ -26,7 +26,7 @@ struct Fixture {
 
 }  // namespace
 
-TEST_CASE_FIXTURE(Fixture, "intermediates: the same expression gets the same symbol, and expands to what it was") {
+TEST_CASE_FIXTURE(Fixture, "intermediates: the same expression gets the same symbol, and expands to itself") {
     const ex e = sin(x + y) * a + pow(x * y + 1, 2);
     const ex named = z.name(e);
     CHECK(GiNaC::is_a<GiNaC::symbol>(named));

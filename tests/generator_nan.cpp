@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is no number stays none through min, max and sign, in every place that computes.
+// A value that is not a number stays so through min, max and sign, in every evaluator.
 #include <doctest/doctest.h>
 
 #include <cmath>

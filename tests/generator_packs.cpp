@@ -148,7 +148,7 @@ TEST_CASE(
     agrees(test::source_path("scenes/textbook/double_pendulum.toml"), "lagrange", {"-march=x86-64"});
 }
 
-TEST_CASE("packs: sines of sums by addition theorems give M and f as sines of their own do") {
+TEST_CASE("packs: with addition theorems for sines of sums, M and f are the same as with direct sines") {
     for (const char* name : {"double_pendulum", "double_pendulum_joints"}) {
         CAPTURE(name);
         const Mechanism mechanism =

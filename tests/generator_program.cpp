@@ -29,7 +29,7 @@ int parameter(Program& p, int index) {
 
 }  // namespace
 
-TEST_CASE("program: equal values are one node, whatever order they came in") {
+TEST_CASE("program: equal values are one node, in whatever order they were made") {
     Program p;
     const int x = coordinate(p, 0), y = coordinate(p, 1), a = parameter(p, 0);
     CHECK(p.sum(0, {{1, x}, {1, y}}) == p.sum(0, {{1, y}, {1, x}}));
@@ -54,7 +54,7 @@ TEST_CASE("program: cos is even, sin is odd, and √x·√x is x") {
     CHECK(p.call(Op::sqrt, {p.number(Rational(4) / 9)}) == p.number(Rational(2) / 3));
 }
 
-TEST_CASE("program: what depends on parameters alone is gathered and not counted") {
+TEST_CASE("program: parts that depend on parameters only are collected and not counted") {
     Program p;
     const int x = coordinate(p, 0), a = parameter(p, 0), b = parameter(p, 1);
     const int value = p.product(3, {{a, 1}, {b, 2}, {x, 1}});
@@ -138,7 +138,7 @@ TEST_CASE("solve: sparse, dense, indefinite and singular matrices against Eigen"
     CHECK_FALSE(solve_symmetric(p, {a, zero, zero}, {a, a}));
 }
 
-TEST_CASE("constants: a sum of parameters has no terms that cancel, and a shared one without any stays") {
+TEST_CASE("constants: terms of parameters that cancel are removed, and a shared sum without any is kept") {
     Program p;
     const int A = p.variable({Variable::Kind::parameter, 0}), C = p.variable({Variable::Kind::parameter, 1});
     const int m = p.variable({Variable::Kind::parameter, 2}), q = p.variable({Variable::Kind::coordinate, 0});
@@ -156,7 +156,7 @@ TEST_CASE("constants: a sum of parameters has no terms that cancel, and a shared
               doctest::Approx(before[p.nodes_of(Group::output)[k]]).epsilon(1e-14));
 }
 
-TEST_CASE("emit: M and f are there by name, and functions with nothing to do are not") {
+TEST_CASE("emit: M and f are visible by name, and functions with nothing to do are not written") {
     const Mechanism m = prepared(read_scene(test::source_path("scenes/textbook/heavy_top_joint.toml"))).mechanism;
     const std::string text = emit(choose(m, formalism("kane").derive(m)).program).text;
     for (const char* part : {"// M00 = A, M10 = 0, M11 = A, M20 = 0, M21 = 0, M22 = C",

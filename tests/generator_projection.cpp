@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The emitted step to the constraints against what defines it, from the other functions of the same file: A δq = f
-// with M δq in the span of the rows of A (the least change in the metric of M), rates likewise at the place
-// arrived at.
+// with M δq in the span of the rows of A (the least change in the metric of M), and the same for rates at the new
+// position.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
@@ -42,7 +42,7 @@ Seen seen(const Module& module, const std::vector<double>& par, const std::vecto
     return s;
 }
 
-/// How much of M x is no combination of the rows of A, beside |M x|.
+/// The part of M x that is no combination of the rows of A, relative to |M x|.
 double off_span(const Seen& s, const VectorXd& x) {
     const VectorXd force = s.M * x, multipliers = s.A.transpose().colPivHouseholderQr().solve(force);
     return (force - s.A.transpose() * multipliers).norm() / force.norm();
@@ -87,7 +87,7 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
         CHECK(off_span(before, du) < 1e-8);
         for (std::size_t k = 0; k < position.size(); ++k)
             CHECK(position[k] == doctest::Approx(before.position[static_cast<Eigen::Index>(k)]));
-        // In the end it obeys them.
+        // After repeated steps the state obeys the constraints.
         Projection project(module, start.parameters);
         project(0, state.data());
         CHECK(project.residual(0, state.data()) < 1e-13 * std::max(1.0, before.A.norm()));
@@ -96,7 +96,7 @@ TEST_CASE("projection: the emitted step is Newton's, by the least change in the 
     CHECK(scenes >= 5);
 }
 
-TEST_CASE("projection: a run that went astray is forgotten before the next") {
+TEST_CASE("projection: a failed run is forgotten before the next") {
     const Mechanism m =
         prepared(read_scene(test::source_path("scenes/textbook/cartesian_pendulum.toml"))).mechanism;
     const Program program = choose(m, routh(m)).program;

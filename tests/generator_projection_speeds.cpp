@@ -37,7 +37,7 @@ struct Loaded {
     std::vector<double> par, state;  ///< at the start, which obeys the constraints
 };
 
-/// `without`: the file does not show its projection.
+/// With `without`, the file's own projection is hidden.
 Loaded loaded(const Scene& scene, bool without = false) {
     const Mechanism m = prepared(scene).mechanism;
     const Equations equations = kane(m);
@@ -181,7 +181,7 @@ TEST_CASE("projection: in speeds a file without its own step is projected to the
             CHECK(std::abs(a[i] - b[i]) < 1e-10 * (1 + size));  // the matrices of the two are 1e-6 apart
         CHECK(emitted.residual(here.start.t, a.data()) < 1e-14 * (1 + size * size));
         CHECK(emitted.residual(here.start.t, b.data()) < 1e-14 * (1 + size * size));
-        // What obeys is left as it is.
+        // A state that obeys the constraints is not changed.
         std::vector<double> again = a;
         emitted(here.start.t, again.data());
         CHECK(again == a);
@@ -195,7 +195,8 @@ TEST_CASE("projection: in speeds constraints hold to rounding along long runs, a
         const Loaded here = loaded(file);
         Projection projection(here.module, here.start.parameters);
         const bool conserved = here.mechanism.inputs.empty() &&
-                               std::string(file).find("odd") == std::string::npos;  // its ring swells
+                               // The radius of its ring changes.
+                               std::string(file).find("odd") == std::string::npos;
         double worst = 0, first = 0, drift = 0;
         const auto on_step = [&](double t, std::span<const double> y, std::span<const double> rate) {
             worst = std::max(worst, projection.residual(t, y.data()));

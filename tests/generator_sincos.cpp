@@ -143,7 +143,7 @@ TEST_CASE("sincos: the doubles nearest to multiples of π/2 keep their digits") 
     }
 }
 
-TEST_CASE("sincos: zeros keep their sign, denormals are their own sine, what libm gives is given beyond 1e8") {
+TEST_CASE("sincos: zeros keep their sign, denormals are their own sine, and beyond 1e8 the values are libm's") {
     for (const std::vector<std::string>& flags : targets)
         for (const int n : {1, 2, 4, 7}) {
             const Module module = solver_of_sines(n, flags);

@@ -94,7 +94,7 @@ void check_function(const std::string& text, const std::function<Complex(Complex
     }
 }
 
-/// What an inner function is made of, so that no recurrence is the trivial one.
+/// An inner function for which no recurrence is trivial.
 Complex g(Complex t) {
     return 0.3L + 0.2L * std::sin(t) + 0.1L * t;
 }
@@ -205,7 +205,7 @@ TEST_CASE(
         const std::vector<double> out = series_of(one.module, state.t, y, order);
         const std::size_t width = y.size(), n = state.q.size();
         double h = 1;
-        for (const int k : {order - 1, order})  // where every other coefficient is 0, the last says nothing
+        for (const int k : {order - 1, order})  // if every other coefficient is 0, the last one may be 0
             for (std::size_t i = 0; i < width; ++i)
                 h = std::min(h, std::pow(1e-14 / (std::abs(out[static_cast<std::size_t>(k) * width + i]) /
                                                       std::max(1.0, std::abs(y[i])) +

@@ -85,7 +85,7 @@ mass = 2
 inertia = { xx = 0.4, yy = 0.5, zz = 0.6, xy = 0.01, yz = -0.02, zx = 0.03 }
 )";
 
-/// A joint's type with what it is made of: turns and shifts as frames and points say them.
+/// A joint's type with its turns and shifts, written with frames and points.
 struct Case {
     const char* type;
     const char* keys;
@@ -216,8 +216,8 @@ axes = "FB"
                               c.backwards, back, c.shift, masses);
 }
 
-/// Two bodies, the second moved as `motion` says against the first, and a joint of this type that closes a loop
-/// between them.
+/// Two bodies, the second of which moves relative to the first according to `motion`, and a joint of this type
+/// that closes a loop between them.
 std::string loop(const std::string& type, const std::string& keys, const std::string& free) {
     return fmt::format(R"({}
 [[body]]
@@ -572,7 +572,7 @@ TEST_CASE("joints: every formalism that applies gives the same equations of the 
 }
 
 // Of six directions a joint leaves those in which it moves; a quaternion is four coordinates for three of them.
-TEST_CASE("joints: what is locked and what moves are six directions in all") {
+TEST_CASE("joints: locked and free directions are six in all") {
     for (const std::string& name : joint_types()) {
         CAPTURE(name);
         const Joint::Type type = joint_type_named(name).value();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A negative moment of inertia that is what rounding left is zero, and one relative bound tells so everywhere.
+// A negative moment of inertia that is only rounding counts as zero, decided everywhere by the same relative
+// bound.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -48,7 +49,7 @@ inertia = {}
 
 }  // namespace
 
-TEST_CASE("model: negative moments within 1e-9 of the largest are rounding, wherever they come from") {
+TEST_CASE("model: negative moments within 1e-9 of the largest count as rounding, wherever they come from") {
     const double expected = Json::parse(run({"eval", rod("[0, 1, 1]"), "--json"}).out)["accelerations"]["a"];
     for (const char* inertia :
          {"[-1e-20, 1, 1]", "[\"J\", 1, 1]", "[-1e-10, 1, 1]", "{ xx = 0, yy = 1, zz = 1, xy = 1e-6 }"}) {
@@ -65,7 +66,7 @@ TEST_CASE("model: negative moments within 1e-9 of the largest are rounding, wher
 }
 
 // A point mass at 0.3, given about P at 0.1: I about the mass centre is 0, of which rounding leaves −3e-19.
-TEST_CASE("model: moments about another point are judged beside what they are the difference of") {
+TEST_CASE("model: moments about another point are judged relative to the terms of which they are the difference") {
     const std::string about = "about = \"P\"";
     for (const char* inertia : {"[0, \"m*0.2^2\", \"m*(0.3-k)^2\"]", "\"m*(0.3-k)^2\""}) {
         const auto result = run({"eval", rod(inertia, about), "--json"});

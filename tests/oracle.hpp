@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// What a claim comes to at states in 60 digits, by a way that shares nothing with `check` but the parser: the
+/// Evaluates a claim at states in 60 digits, by a route that has only the parser in common with `check`: the
 /// claim's tree is evaluated on Taylor series in time, at accelerations and multipliers from the interpreted
 /// Program.
 ///
@@ -24,12 +24,12 @@ public:
     Oracle(const Scene& scene, const Mechanism& mechanism, const Equations& equations, unsigned seed,
            int states = 3);
 
-    /// log₁₀ of |lhs − rhs| over the sizes of all terms, at the worst state. Nothing where it has a value at none
-    /// of them, or asks for what is not known here (vector functions, momenta, third derivatives).
+    /// log₁₀ of |lhs − rhs| over the sizes of all terms, at the worst state. Nothing if it has no value at any of
+    /// them, or contains something that is not supported here (vector functions, momenta, third derivatives).
     std::optional<double> misfit(const Equality& claim) const;
 
-    /// A claim is wrong if it is off by more than 1e-30 of its terms, and right below 1e-40: between lie bad
-    /// oracles.
+    /// A claim is wrong if it is off by more than 1e-30 of its terms, and right below 1e-40: between these bounds
+    /// the oracle is not accurate enough.
     std::optional<bool> holds(const Equality& claim) const;
 
     int states() const { return static_cast<int>(states_.size()); }

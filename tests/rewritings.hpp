@@ -2,8 +2,8 @@
 #pragma once
 
 /// Random right claims about a scene, as text: combinations of its equations with functions of the state as
-/// coefficients, multiples of the constraints and of their derivatives added, rates replaced by what the
-/// constraints give, sines and cosines rewritten, sides exchanged.
+/// coefficients, multiples of the constraints and of their derivatives added, rates replaced by means of the
+/// constraints, sines and cosines rewritten, sides exchanged.
 ///
 ///     const Rewritings right(scene, mechanism, equations);
 ///     right.claim(random)       // "(1+x^2)*(m*x'' - F) + (x'-r*phi')/cos(phi) = 0", in some dress
@@ -23,11 +23,11 @@ public:
 
     std::string claim(std::mt19937& random) const;
 
-    /// False where equations are written in intermediate symbols, which the oracle does not read.
+    /// False if equations are written in intermediate symbols, which the oracle does not support.
     bool readable() const { return readable_; }
 
-    /// What the combinations are made of: the equations as `derive` prints them, a row for each coordinate and
-    /// those in the scene's speeds, and the scene's claims without open names.
+    /// The equations that are combined: those that `derive` prints, a row for each coordinate and those in the
+    /// scene's speeds, and the scene's claims without open names.
     const std::vector<std::string>& right() const { return right_; }
 
 private:

@@ -91,7 +91,7 @@ extern "C" const alembert_solver_table* alembert_solver() { return &table; }
 )";
 }
 
-/// A cache of its own for each test, gone at its end.
+/// A separate cache for each test, removed at its end.
 struct Cache {
     Cache() {
         std::string pattern = (fs::temp_directory_path() / "alembert-test-XXXXXX").string();
@@ -178,7 +178,7 @@ TEST_CASE("fingerprint: the published values of FNV-1a with 128 bits") {
     CHECK(of("abc") == "a68d622cec8b5822836dbc7977af7f3b");
 }
 
-TEST_CASE("process: arguments reach the program as they are, and its words come back") {
+TEST_CASE("process: arguments reach the program unchanged, and its output comes back") {
     const Finished echo = run({find_program("printf").string(), "%s|", "a b", "$HOME", "`id`; *"});
     CHECK(echo.status == 0);
     CHECK(echo.output == "a b|$HOME|`id`; *|");
@@ -233,10 +233,10 @@ TEST_CASE("compile: several processes that compile the same thing at once do not
     });
     CHECK(good == 4);
     CHECK(compile(pendulum_source(), "pendulum", cache.options()).from_cache);
-    CHECK(cache.files() == 2);  // nothing left over
+    CHECK(cache.files() == 2);  // no further files
 }
 
-TEST_CASE("compile: what the compiler says is in the error") {
+TEST_CASE("compile: the error contains the compiler's messages") {
     const Cache cache;
     const std::string message =
         compile_error([&] { compile("int f() { return nothing_here; }", "bad", cache.options()); });
@@ -246,7 +246,7 @@ TEST_CASE("compile: what the compiler says is in the error") {
     CHECK(cache.files() == 0);
 }
 
-TEST_CASE("compile: a missing compiler is told with what was looked for and what to install") {
+TEST_CASE("compile: the message about a missing compiler says what was looked for and what to install") {
     const Cache cache;
     CompileOptions options = cache.options();
     options.compiler = "no-such-compiler";
@@ -271,7 +271,7 @@ TEST_CASE("compile: $CXX may carry arguments") {
     CHECK(compile_error([&] { compile("static_assert(VALUE == 7);", "x", cache.options()); }).empty());
 }
 
-TEST_CASE("compile: every compiler that is there takes the flags") {
+TEST_CASE("compile: every installed compiler accepts the flags") {
     const Cache cache;
     for (const char* compiler : {"g++", "clang++"}) {
         if (find_program(compiler).empty()) continue;
@@ -289,7 +289,7 @@ TEST_CASE("compile: every compiler that is there takes the flags") {
     CHECK(tiny / 2 > 0);
 }
 
-TEST_CASE("compile: without a cache that can be written a private folder serves") {
+TEST_CASE("compile: if the cache cannot be written, a private folder is used") {
     const Cache cache;
     const fs::path file = cache.path / "file";
     std::ofstream(file) << "in the way";
@@ -307,7 +307,7 @@ TEST_CASE("compile: $XDG_CACHE_HOME is where the cache is") {
     CHECK(compile(pendulum_source(), "pendulum", {}).object.parent_path() == cache.path / "alembert");
 }
 
-TEST_CASE("compile: folders of the cache and what is in them are their owner's alone, whatever the umask says") {
+TEST_CASE("compile: folders of the cache and their contents belong to the owner only, whatever the umask is") {
     const Cache cache;
     const mode_t before = umask(0);
     const Compiled compiled = compile(pendulum_source(), "pendulum", {.cache = cache.path / "a" / "b"});
@@ -346,7 +346,7 @@ TEST_CASE(
                compile(pendulum_source(), "pendulum", cache.options()).from_cache;
     };
     fs::rename(object, elsewhere);
-    fs::create_symlink(elsewhere, object);  // the very bytes that would be taken as a file
+    fs::create_symlink(elsewhere, object);  // the same bytes as an ordinary file would be accepted
     CHECK(is_renewed());
     fs::remove(object);
     REQUIRE(mkfifo(object.c_str(), 0600) == 0);
@@ -419,7 +419,7 @@ TEST_CASE("solver: an emitted pendulum swings with the period of the elliptic in
     CHECK(std::abs(motion.events[0].state[1] + 2 * std::sqrt(g / l) * std::sin(start / 2)) < 1e-10);
 }
 
-TEST_CASE("solver: the work of a damper is what the energy loses") {
+TEST_CASE("solver: the work of a damper is the loss of energy") {
     const Cache cache;
     const Module module = load(compile(pendulum_source(), "pendulum", cache.options()).object);
     const std::vector<double> values = {1, 9.81, 0.3};

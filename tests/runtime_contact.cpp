@@ -93,7 +93,7 @@ struct Ball {
 
 }  // namespace
 
-TEST_CASE("contact: the lasting contacts are those that enumeration of all subsets finds") {
+TEST_CASE("contact: the contacts that stay closed are those that enumeration of all subsets finds") {
     const unsigned seed = 7;
     CAPTURE(seed);
     std::mt19937_64 random(seed);
@@ -162,7 +162,7 @@ TEST_CASE("contact: of four legs no more than three carry a plate, and none pull
         }
 }
 
-TEST_CASE("contact: contacts that ask for contradictory accelerations have no mode") {
+TEST_CASE("contact: contacts that require contradictory accelerations have no mode") {
     const Situation s{.M = MatrixXd::Identity(1, 1),
                       .f = VectorXd::Zero(1),
                       .bilateral = no_rows(1),
@@ -210,7 +210,7 @@ TEST_CASE(
             }
 }
 
-TEST_CASE("contact: a run that ends among the last bounces says nothing of a rest to come") {
+TEST_CASE("contact: a run that ends during the last bounces does not report the rest to come") {
     Ball ball{.e = 0.5};
     const double end = 3 * std::sqrt(2 / g);
     for (const double left : {1e-3, 1e-6}) {
@@ -239,7 +239,7 @@ TEST_CASE("contact: a thousand impacts without loss keep height and rhythm to wh
 }
 
 // y'' = −3 + t on a floor: it lies until t = 3, then rises by (t − 3)³/6; e = 0 closes at once.
-TEST_CASE("contact: what lies lets go when its reaction vanishes, and rounding does not close it again") {
+TEST_CASE("contact: a resting contact opens when its reaction vanishes, and rounding does not close it again") {
     std::array<ContactMode, 2> modes;
     for (std::size_t lies = 0; lies < 2; ++lies) {
         modes[lies].rhs = make_rhs(2, [lies](double t, const double* y, double* rate) {

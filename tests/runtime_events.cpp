@@ -31,7 +31,7 @@ Rhs oscillator() {
     });
 }
 
-/// y' = 1: one step of an adaptive method is as long as it likes.
+/// y' = 1: a step of an adaptive method can be arbitrarily long.
 Rhs stopwatch() {
     return make_rhs(1, [](double, const double*, double* rate) { rate[0] = 1; });
 }
@@ -66,7 +66,8 @@ TEST_CASE("events: a falling body reaches the ground at √(2h/g), and the run e
     }
 }
 
-// Not abm and bdf: their own error in a hundred seconds is some 1e-8, which is no matter of events.
+// abm and bdf are left out, because their own error in a hundred seconds is about 1e-8, which does not concern
+// events.
 TEST_CASE("events: every zero of a sine is found, in both directions, and the zero at the start is none") {
     for (const Method method : {Method::rk4, Method::dopri5, Method::dop853, Method::verner76, Method::verner98,
                                 Method::gauss, Method::radau}) {
@@ -130,7 +131,7 @@ TEST_CASE("events: in one step they come in the order of time, simultaneous ones
     CHECK(motion.times.back() == doctest::Approx(5).epsilon(1e-14));
 }
 
-TEST_CASE("events: what is simultaneous with the one that stops is told, whichever is declared first") {
+TEST_CASE("events: those simultaneous with the one that stops are reported, whichever is declared first") {
     const Events events = make_events({{.name = "end", .stop = true}, {.name = "mark"}, {.name = "later"}},
                                       [](double, const double* y, const double*, double* out) {
                                           out[0] = y[0] - 5;
@@ -144,7 +145,7 @@ TEST_CASE("events: what is simultaneous with the one that stops is told, whichev
     CHECK(motion.times.back() == doctest::Approx(5).epsilon(1e-14));
 }
 
-TEST_CASE("events: accelerations may take part") {
+TEST_CASE("events: they may contain accelerations") {
     // y'' + y = 0 with y = cos t: y'' = −1/2 at t = π/3
     const Trajectory motion = integrate(
         oscillator(), {1, 0}, {.duration = 2, .tolerance = 1e-13},
@@ -168,7 +169,7 @@ TEST_CASE("events: rounding at the start is no event") {
     CHECK(motion.events.empty());
 }
 
-TEST_CASE("events: a pole is none, and neither is the edge of what is defined") {
+TEST_CASE("events: a pole is no event, and neither is the edge of the domain") {
     const Trajectory motion = integrate(
         stopwatch(), {0}, {.duration = 10, .step = 10},
         make_events({{.name = "pole"}, {.name = "edge"}}, [](double, const double* y, const double*, double* out) {
@@ -181,7 +182,7 @@ TEST_CASE("events: a pole is none, and neither is the edge of what is defined") 
 }
 
 // A particle flies through a thin disc, then through a wall that ends the run; one step goes far beyond both.
-TEST_CASE("events: in a step that goes far beyond an event that stops, an earlier one is not passed over") {
+TEST_CASE("events: in a step that goes far beyond an event that stops, an earlier one is not missed") {
     const Trajectory motion =
         integrate(stopwatch(), {0}, {.duration = 100, .step = 100},
                   make_events({{.name = "wall", .stop = true}, {.name = "disc", .stop = true}},
@@ -194,7 +195,7 @@ TEST_CASE("events: in a step that goes far beyond an event that stops, an earlie
     CHECK(std::abs(motion.times.back() - 0.38) < 1e-11);
 }
 
-TEST_CASE("events: two that would stop the run at one instant are both told, and what is zero there is listed") {
+TEST_CASE("events: two that stop the run at the same instant are both reported, and all zeros there are listed") {
     const Events events = make_events({{.name = "one", .stop = true},
                                        {.name = "wrong way", .stop = true, .direction = -1},
                                        {.name = "mark"},
@@ -220,7 +221,7 @@ TEST_CASE("events: two that would stop the run at one instant are both told, and
 }
 
 // x = cos t falls through zero at π/2 and rises at 3π/2.
-TEST_CASE("events: direction tells zeros where the value grows from those where it falls") {
+TEST_CASE("events: direction distinguishes zeros where the value grows from those where it falls") {
     const auto times = [](int direction, double offset) {
         const Trajectory motion = integrate(oscillator(), {1, 0}, {.duration = 12, .tolerance = 1e-13},
                                             make_events({{.name = "x", .direction = direction}},
@@ -244,7 +245,7 @@ TEST_CASE("events: direction tells zeros where the value grows from those where 
 
 // g = |x − a| − b has zeros at a − b and a + b; a projectile goes through such a slab at both of its walls, twice
 // where it comes back.
-TEST_CASE("events: a step that goes through a thin slab sees both walls, wherever in the step it stands") {
+TEST_CASE("events: a step through a thin slab finds both walls, wherever in the step the slab is") {
     for (const double b : {1e-2, 1e-4, 1e-6})
         for (const double a : {0.13, 1.23, 2.5, 3.7, 4.98, 5.6, 6.26, 7.44, 8.89, 9.9}) {
             CAPTURE(a);

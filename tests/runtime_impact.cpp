@@ -80,8 +80,8 @@ TEST_CASE("impact: two equal elastic balls exchange their velocities") {
 }
 
 // Three balls that touch: γ⁺ = (1, 0) from x' = (1, 0, 0) and equal masses give (−1, 2, 2)/3 (Glocker, ch. 7):
-// Newton's law at all contacts at once is not the play of successive collisions.
-TEST_CASE("impact: three balls that touch share the blow as the law says") {
+// Newton's law at all contacts at once differs from successive collisions.
+TEST_CASE("impact: three touching balls share the impulse according to the law") {
     const ImpactResult hit =
         bounce(MatrixXd::Identity(3, 3), vector({1, 0, 0}), rows({{-1, 1, 0}, {0, -1, 1}}), 1);
     CHECK(near(hit.after, vector({-1. / 3, 2. / 3, 2. / 3})));
@@ -96,7 +96,7 @@ TEST_CASE("impact: a rod dropped flat on two supports stays level and each takes
     }
 }
 
-TEST_CASE("impact: a table dropped flat on four legs is no rank trouble and each leg takes a quarter") {
+TEST_CASE("impact: a table dropped flat on four legs is not singular, and each leg takes a quarter") {
     const MatrixXd M = vector({8, 1, 1}).asDiagonal();
     const ImpactResult hit =
         bounce(M, vector({-1, 0, 0}), rows({{1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}), 0);
@@ -147,8 +147,8 @@ TEST_CASE("impact: in a sharp wedge an elastic ball keeps its speed and leaves b
     }
 }
 
-// Leaves at 1, is struck back at once: −2, bounces to 1; the impulse did ½(−3)(−2 + 1).
-TEST_CASE("impact: a contact that was opening and is pressed has a collision of its own") {
+// The body leaves at 1, is struck back at once to −2 and bounces to 1; the impulse did ½(−3)(−2 + 1).
+TEST_CASE("impact: an opening contact that is pressed back has a collision of its own") {
     const ImpactResult hit =
         strike(rows({{1}}), vector({1}), vector({-3}), none(1), zeros(0), rows({{1}}), zeros(1), vector({0.5}));
     CHECK(near(hit.after, vector({1})));
@@ -193,7 +193,7 @@ TEST_CASE("impact: a coordinate without mass goes with the constraint that holds
     CHECK(near(hit.bilateral, vector({3})));  // 0 = 3 − Λ
 }
 
-TEST_CASE("impact: what cannot be is said, not computed") {
+TEST_CASE("impact: contradictory conditions are reported, not computed") {
     const MatrixXd M = MatrixXd::Identity(1, 1);
     const auto twice = [&](double b) {
         return strike(M, zeros(1), zeros(1), rows({{1}, {2}}), vector({-1, b}), none(1), zeros(0), zeros(0));
@@ -212,8 +212,9 @@ TEST_CASE("impact: what cannot be is said, not computed") {
               .failure.find("prescribe") != std::string::npos);
 }
 
-// What defines the result: momenta, constraints, signs, complementarity; it is unique, so nothing else need be
-// compared. After several collisions complementarity belongs to each of them; then it is left out.
+// The result is tested by its defining conditions: momenta, constraints, signs, complementarity. It is unique, so
+// nothing else need be compared. After several collisions complementarity holds for each of them, and is not
+// tested.
 TEST_CASE("impact: random systems obey the law, and the balance of energy closes without a gain") {
     constexpr std::uint64_t seed = 20040301;
     std::mt19937_64 random(seed);

@@ -33,7 +33,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// shared/cases/double_pendulum.md: 2 θ₁'' + c θ₂'' = −s ω₂² − 2 g sin θ₁, c θ₁'' + θ₂'' = s ω₁² − g sin θ₂.
+// The double pendulum: 2 θ₁'' + c θ₂'' = −s ω₂² − 2 g sin θ₁, c θ₁'' + θ₂'' = s ω₁² − g sin θ₂.
 constexpr double g = 9.81;
 
 Rhs double_pendulum() {
@@ -58,7 +58,7 @@ double energy(const double* y) {
 
 struct Chaos {
     double error = 0;  ///< the largest of the four components
-    double drift = 0;  ///< as commands.md defines it, over rows and accepted steps
+    double drift = 0;  ///< as docs/commands.md defines it, over rows and accepted steps
 };
 
 Chaos chaos(double tolerance) {
@@ -86,7 +86,7 @@ Chaos chaos(double tolerance) {
 
 }  // namespace
 
-// The bounds are the project's own; errors grow about 10⁷-fold on the way.
+// The bounds are our own; errors grow about 10⁷-fold during the motion.
 TEST_CASE("dop853: the chaotic double pendulum at t = 10 agrees with 39 digits, and keeps its energy") {
     const Chaos loose = chaos(1e-13);
     CHECK(loose.error < 1e-4);
@@ -125,7 +125,7 @@ TEST_CASE("trajectory: rows between steps are as good as the steps") {
     }
 }
 
-TEST_CASE("statistics: evaluations are counted, and steps are told") {
+TEST_CASE("statistics: evaluations and steps are counted") {
     long calls = 0, told = 0;
     double last = -1;
     const Rhs counted = make_rhs(1, [&calls](double, const double* y, double* rate) {
@@ -160,7 +160,7 @@ TEST_CASE("statistics: evaluations are counted, and steps are told") {
     CHECK(!method_named("dop8530"));
 }
 
-TEST_CASE("quadrature: it follows the motion and does not touch its steps") {
+TEST_CASE("quadrature: it follows the motion and does not affect its steps") {
     const Rhs wild = make_rhs(
         2,
         [](double t, const double* y, double* rate) {
@@ -184,7 +184,7 @@ TEST_CASE("quadrature: it follows the motion and does not touch its steps") {
     CHECK(std::abs(motion.final_state()[0] + motion.final_state()[1] - 1) < 1e-11);
 }
 
-// y' = y², y(0) = 1 is 1/(1 − t); y₀ = t is a bystander.
+// y' = y², y(0) = 1 is 1/(1 − t); y₀ = t does not take part.
 TEST_CASE("failure: a solution that blows up ends in step size underflow at its pole") {
     for (const Method method : {Method::dopri5, Method::dop853, Method::verner76, Method::verner98}) {
         const Trajectory motion = integrate(blow_up(), {0, 1}, {.method = method, .duration = 2});
@@ -202,7 +202,7 @@ TEST_CASE("failure: a solution that blows up ends in step size underflow at its 
     }
 }
 
-TEST_CASE("failure: a rate that stops being a number is approached, and the component named") {
+TEST_CASE("failure: a run ends close to where a rate stops being a number, and the component is named") {
     Rhs edge = make_rhs(2, [](double t, const double*, double* rate) {
         rate[0] = 1;
         rate[1] = std::sqrt(1 - t);
@@ -215,10 +215,10 @@ TEST_CASE("failure: a rate that stops being a number is approached, and the comp
     CHECK(contains(motion.failure->message, "x' (component 1)"));
     CHECK(contains(motion.failure->message, "not finite"));
     CHECK(std::abs(motion.failure->time - 1) < 1e-14);
-    CHECK(std::abs(motion.failure->state[1] - 2. / 3) < 1e-7);  // error control sees little of the kink
+    CHECK(std::abs(motion.failure->state[1] - 2. / 3) < 1e-7);  // error control hardly notices the kink
 }
 
-TEST_CASE("failure: a rate that is not a number at the start is said at once") {
+TEST_CASE("failure: a rate that is not a number at the start is reported at once") {
     const Trajectory motion = integrate(decay(), {not_a_number}, {.duration = 1});
     REQUIRE(motion.failure);
     CHECK(motion.failure->kind == FailureKind::not_a_number);
@@ -254,7 +254,7 @@ TEST_CASE("failure: a budget that is used up keeps the rows until then") {
     }
 }
 
-TEST_CASE("options: what makes no sense is refused with its name") {
+TEST_CASE("options: invalid ones are refused by name") {
     const auto refusal = [](const Options& options, const std::vector<double>& initial = {1.0}) -> std::string {
         try {
             integrate(decay(), initial, options);
@@ -278,7 +278,7 @@ TEST_CASE("options: what makes no sense is refused with its name") {
 }
 
 // x'' + x = exp(−((t − 5)/w)²) from rest: x(20) = w √π exp(−w²/4) sin 15.
-TEST_CASE("quick times: steps that are told of a narrow pulse meet it, and are no shorter elsewhere") {
+TEST_CASE("quick times: steps that know of a narrow pulse do not miss it, and are no shorter elsewhere") {
     const double w = 1e-4, exact = w * std::sqrt(std::acos(-1.0)) * std::exp(-w * w / 4) * std::sin(15.0);
     const Rhs rhs = make_rhs(2, [=](double t, const double* y, double* rate) {
         rate[0] = y[1];

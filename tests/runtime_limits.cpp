@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every method ends, whatever it is given: with a result, or with a message, within its budget.
+// Every method ends for any input, with a result or with a message, within its budget.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -102,8 +102,8 @@ TEST_CASE(
         }
 }
 
-// A step whose error is rounding alone cannot be made better by a shorter one.
-TEST_CASE("no crawl: tolerances beyond rounding take a few times the evaluations of 1e-13, not thousands") {
+// If the error of a step is only rounding, a shorter step is no better.
+TEST_CASE("limits: tolerances below rounding take a few times the evaluations of 1e-13, not thousands") {
     const Rhs pendulum =
         make_rhs(2, [](double, const double* y, double* f) { f[0] = y[1], f[1] = -9.81 * std::sin(y[0]); });
     const Rhs planet = make_rhs(4, [](double, const double* y, double* f) {

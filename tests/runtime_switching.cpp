@@ -64,7 +64,8 @@ TEST_CASE("switching: amplitudes with dry friction fall by 2 a/w² in each half 
     }
 }
 
-TEST_CASE("switching: a block that is faster than its belt is as fast again when the closed form says so") {
+TEST_CASE(
+    "switching: a block faster than its belt reaches the belt's speed again at the time of the closed form") {
     // x'' = −x − sign(x' − 1) · 1/2 with the belt's speed 1, from rest at 0: it is accelerated by 1/2 until x'
     // = 1.
     Switching system = one_sign(
@@ -109,7 +110,7 @@ TEST_CASE("switching: rows fall on the grid, as without signs") {
         CHECK(motion.times[row] == doctest::Approx(0.5 * static_cast<double>(row)).epsilon(1e-14));
 }
 
-TEST_CASE("switching: a state from which two motions go on is a failure that says so") {
+TEST_CASE("switching: a state from which two motions are possible is a failure with that message") {
     Switching system = one_sign(
         1, [](const double*, double s, double* rate) { rate[0] = s; }, [](const double* y) { return y[0]; },
         [](const double*, const double* rate) { return rate[0]; });

@@ -160,7 +160,7 @@ TEST_CASE("gauss: in steps far beyond the period of a stiff spring the energy do
     CHECK(worst < 0.01);  // of 9.81 J that go to and fro
 }
 
-TEST_CASE("gauss: a step in which its equations have no solution says so") {
+TEST_CASE("gauss: a step whose equations have no solution is reported") {
     // y' = y² from 1 is infinite at t = 1.
     const Rhs square = make_rhs(1, [](double, const double* y, double* rate) { rate[0] = y[0] * y[0]; });
     const Trajectory motion = integrate(square, {1.0}, {.method = Method::gauss, .duration = 10, .step = 5});

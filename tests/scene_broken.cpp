@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Scenes that must be refused: tests/broken/*.toml say in their first lines what must be told and where.
+// Scenes that must be refused: the first lines of tests/broken/*.toml give the expected messages and their places.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -53,7 +53,7 @@ std::vector<std::filesystem::path> broken_scenes() {
     return paths;
 }
 
-/// All of what was told, or nothing where the scene was read.
+/// All diagnostics, or none if the scene was read.
 std::vector<Diagnostic> told(const std::string& text) {
     try {
         parse_scene(text, "scene.toml");
@@ -65,7 +65,7 @@ std::vector<Diagnostic> told(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("broken scenes: each is refused for what it says it is, there, and for nothing else") {
+TEST_CASE("broken scenes: each is refused for the mistake that it announces, at its place, and for no other") {
     const auto paths = broken_scenes();
     CHECK(paths.size() >= 40);
     for (const auto& path : paths) {
@@ -149,7 +149,7 @@ TEST_CASE("broken scenes: after twenty mistakes the rest are counted") {
     }
 }
 
-TEST_CASE("broken scenes: files that cannot be read are told as such") {
+TEST_CASE("broken scenes: files that cannot be read are reported as such") {
     const auto message = [](const std::string& file) -> std::string {
         try {
             read_scene(file);
@@ -164,7 +164,7 @@ TEST_CASE("broken scenes: files that cannot be read are told as such") {
     CHECK(message("") == ": no such file\n");
 }
 
-TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anything ends soon") {
+TEST_CASE("broken scenes: more than a mebibyte is refused, and a mebibyte of anything is processed quickly") {
     const std::string head = "[coordinates]\nx = 0\n";
     const auto fill = [&](std::string text, const std::string& piece) {
         while (text.size() + piece.size() <= 1024 * 1024) text += piece;
@@ -200,7 +200,7 @@ TEST_CASE("broken scenes: more than a mebibyte is refused, and as much of anythi
     }
 }
 
-TEST_CASE("broken scenes: no mutation of a scene does worse than be refused") {
+TEST_CASE("broken scenes: every mutation of a scene is read or refused") {
     std::string whole = text_of(ALEMBERT_SOURCE_DIR "/tests/whole.toml");
     REQUIRE(told(whole).empty());
     const std::vector<std::string> pieces{

@@ -12,7 +12,7 @@ using namespace alembert;
 
 namespace {
 
-/// The tree as an s-expression: what was read, without a doubt about precedence.
+/// The tree as an s-expression, which shows the precedence unambiguously.
 std::string shape(const Tree& tree) {
     const auto list = [&](const std::string& head) {
         std::string text = head;
@@ -49,7 +49,7 @@ std::string read(const std::string& text) {
     return e ? shape(*e.tree) : diagnostics.at(0).message;
 }
 
-/// The message, and after it the column at which it stands.
+/// The message, followed by its column.
 std::string mistake(const std::string& text) {
     std::vector<Place> places;
     for (int i = 0; i <= static_cast<int>(text.size()); ++i) places.push_back({1, i + 1});
@@ -67,7 +67,7 @@ std::string repeat(const std::string& text, int times) {
 
 }  // namespace
 
-TEST_CASE("expression: precedence is that of the page") {
+TEST_CASE("expression: precedence is that of written mathematics") {
     CHECK(read("-x^2") == "(- (^ x 2))");
     CHECK(read("a^b^c") == "(^ a (^ b c))");
     CHECK(read("a^-b") == "(^ a (- b))");
@@ -84,7 +84,7 @@ TEST_CASE("expression: precedence is that of the page") {
     CHECK(read("x'^2") == "(^ x' 2)");
 }
 
-TEST_CASE("expression: numbers keep what was typed") {
+TEST_CASE("expression: numbers are kept as typed") {
     for (const char* number :
          {"2", ".5", "2e3", "2.", "1.50", "2E-3", "2.e+03", "0.1", "1e308", "123456789012345678901234567890"})
         CHECK(read(number) == number);
@@ -105,7 +105,7 @@ TEST_CASE("expression: primes differentiate names and parentheses") {
     CHECK(read("(sin(x))'") == "(d' (sin x))");
 }
 
-TEST_CASE("expression: functions take what they take") {
+TEST_CASE("expression: functions check their arguments") {
     CHECK(read("atan2(y, x)") == "(atan2 y x)");
     CHECK(read("min(a,b,c)") == "(min a b c)");
     CHECK(read("dot(vel(P), ex(A))") == "(dot (vel P) (ex A))");
@@ -121,7 +121,7 @@ TEST_CASE("expression: functions take what they take") {
     CHECK(mistake("norm(ex(2))") == "9: 'ex' takes the name of a frame or body: ex(B)");
 }
 
-TEST_CASE("expression: what is nearly right gets a hint") {
+TEST_CASE("expression: nearly right text gets a hint") {
     CHECK(mistake("1 + sin^2(x)") == "5: a power of a function is written after its argument: sin(x)^2");
     CHECK(mistake("2x") == "2: an operator is missing here; if a product was meant write 2*x");
     CHECK(mistake("2(x+1)") == "2: an operator is missing here; if a product was meant write 2*(x+1)");
@@ -155,7 +155,7 @@ TEST_CASE("expression: what is nearly right gets a hint") {
     CHECK(mistake("1_000") == "1: digits are written together, without _, in an expression");
 }
 
-TEST_CASE("expression: what is incomplete is told where") {
+TEST_CASE("expression: incomplete text is reported with its place") {
     CHECK(mistake("") == "1: the expression is empty");
     CHECK(mistake("  ") == "1: the expression is empty");
     CHECK(mistake("x +") == "3: nothing follows '+'");
@@ -168,7 +168,7 @@ TEST_CASE("expression: what is incomplete is told where") {
     CHECK(mistake("()") == "1: there is nothing in these parentheses");
 }
 
-TEST_CASE("expression: limits hold, and each says so") {
+TEST_CASE("expression: limits hold, and each has its message") {
     CHECK(mistake("9^9^9") == "3: the exponent 387420489 is beyond the limit of 64");
     CHECK(mistake("(1+x)^100000") == "7: the exponent 100000 is beyond the limit of 64");
     CHECK(mistake("x^-(65)") == "3: the exponent -65 is beyond the limit of 64");
@@ -195,7 +195,7 @@ TEST_CASE("expression: limits hold, and each says so") {
     CHECK(read(repeat("x*", 32767) + "x").size() > 65536);
 }
 
-TEST_CASE("expression: nodes know where they stand") {
+TEST_CASE("expression: nodes know their places") {
     std::vector<Diagnostic> none;
     const Expression e = parse_expression("a + sin(b)*(c+d)''", {}, none);
     REQUIRE(e);
@@ -205,7 +205,7 @@ TEST_CASE("expression: nodes know where they stand") {
     CHECK(e.text.substr(product.args[1]->offset, product.args[1]->length) == "(c+d)''");
 }
 
-TEST_CASE("expression: an equation has one sign, and rates before an impact where they make sense") {
+TEST_CASE("expression: an equation has one equals sign, and rates before an impact only where they make sense") {
     std::vector<Diagnostic> diagnostics;
     const Equality e = parse_equality("m*x'' = F - k*x", {}, diagnostics);
     REQUIRE(diagnostics.empty());
@@ -225,7 +225,7 @@ TEST_CASE("expression: an equation has one sign, and rates before an impact wher
           "x'(-), a rate before the impact, stands only in a claim with at = \"impact\"");
 }
 
-TEST_CASE("expression: no soup of words does worse than be refused") {
+TEST_CASE("expression: any sequence of words is read or refused") {
     const std::vector<std::string> words{"x", "sin", "atan2", "pos",   "2",  ".5",   "1e9",  "+", "-", "*",
                                          "/", "^",   "(",     ")",     ",",  "'",    "''",   "=", " ", "θ",
                                          "·", "((",  "))",    "x'(-)", "**", "\x01", "\xC3", "_", "e"};

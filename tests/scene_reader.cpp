@@ -34,7 +34,7 @@ std::string components(const Vector& vector) {
 
 }  // namespace
 
-TEST_CASE("reader: the scene of the language's description is read as it stands") {
+TEST_CASE("reader: the scene in the description of the language is read unchanged") {
     const Scene scene = parse_scene(R"toml(
 title  = "Two masses on strings, pulled sideways"
 source = "Zhang & Qin, Advanced Dynamics (2004), example 1-2"
@@ -206,7 +206,7 @@ TEST_CASE("reader: a byte order mark and line ends with carriage returns change 
           "p.toml:4:6: unknown name 'z' in this expression\n    y = \"z\"\n         ^\n");
 }
 
-TEST_CASE("reader: order is that of the file, however tables are written") {
+TEST_CASE("reader: the order is that of the file, however tables are written") {
     const Scene scene = parse_scene(
         "coordinates.z = 1\ncoordinates.a.initial = 2\ncoordinates.m = 3\ncoordinates.a.rate = \"k\"\n"
         "parameters = { k = 1, b = 2 }\nparticle = [ { name = \"M\", mass = 1, position = [0, \"z\"] } ]\n",
@@ -244,7 +244,7 @@ TEST_CASE("reader: the nearest name is one that could have been meant") {
     CHECK(nearest("θ2", {"θ1"}) == "θ1");
 }
 
-TEST_CASE("reader: impulses, at points and along coordinates") {
+TEST_CASE("reader: impulses at points and along coordinates are read") {
     const Scene scene = parse_scene(R"toml([coordinates]
 x = 0
 [[particle]]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Verdicts of stability where the answer is known: each case with the theorem that has to decide it. "critical":
-// the first approximation says nothing, or a boundary of stability.
+// Verdicts of stability for cases with known answers, each with the theorem that has to decide it. "critical"
+// means that the first approximation does not decide, or a boundary of stability.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -15,7 +15,7 @@ namespace stability_numbers {
 using namespace alembert;
 using GiNaC::ex;
 
-TEST_CASE("stability: numbers are exact where they can be, and intervals hold the value elsewhere") {
+TEST_CASE("stability: numbers are exact if possible, and otherwise intervals contain the value") {
     const Certain pi = Certain::pi_multiple(0, 1);
     CHECK((sin(pi / 6) - Certain(Rational(1) / 2)).is_zero());
     CHECK((cos(pi / 4) * cos(pi / 4) - Certain(Rational(1) / 2)).is_zero());

@@ -252,7 +252,8 @@ damping = "c"
     CHECK(judged(scene, {"P=1.4643", "c=0.0001"}).verdict == V::unstable);
 }
 
-TEST_CASE("stability: what is no equilibrium, touches, or changes with time is refused, each with its reason") {
+TEST_CASE(
+    "stability: states without equilibrium, with touching contacts or time dependence are refused with reasons") {
     const auto refused = [](const std::string& text, const std::string& with, double period = 0) {
         try {
             judged(parse_scene(text, "case.toml"), {}, period);

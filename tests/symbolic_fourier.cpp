@@ -93,7 +93,7 @@ TEST_CASE_FIXTURE(Plane, "fourier: division by an expression that is identically
     CHECK_THROWS_AS(form(symbol("stranger")), std::out_of_range);
 }
 
-TEST_CASE("fourier: the derivation of every mechanism survives the way there and back") {
+TEST_CASE("fourier: the derivation of every mechanism is unchanged by conversion and back") {
     for (const test::NamedCase& entry : test::mechanisms()) {
         CAPTURE(entry.name);
         test::Mechanics m;

@@ -68,7 +68,7 @@ TEST_CASE_FIXTURE(Sheet, "text: powers, roots and functions") {
     CHECK(printed(GiNaC::atan2(x, a)) == "atan2(x,a)");
 }
 
-TEST_CASE_FIXTURE(Sheet, "text: angles are undone where that is shorter, and never otherwise") {
+TEST_CASE_FIXTURE(Sheet, "text: multiple angles become products where that is shorter, and only there") {
     CHECK(printed(sin(2 * theta) / 2) == "sin(theta)*cos(theta)");
     CHECK(printed((1 - cos(2 * theta)) / 2) == "sin(theta)^2");
     CHECK(printed(1 + cos(2 * theta)) == "2*cos(theta)^2");

@@ -110,7 +110,7 @@ GiNaC::exmap random_point(const Mechanics& m, std::mt19937& random) {
     return point;
 }
 
-TEST_CASE("readable: what is printed is what was given, by normal form and by 30-digit numbers") {
+TEST_CASE("readable: the printed form equals the given one, by normal form and by 30-digit numbers") {
     const long digits_before = GiNaC::Digits;
     GiNaC::Digits = 30;
     constexpr unsigned seed = 20240607;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion. An identity of degree d that is false
-// holds at a random point of GF(p) with a probability of at most d/p (Schwartz, J. ACM 27 (1980) 701).
+// A claim r(q, q', q'', λ, t) = 0 is right if r vanishes on every motion (check/vanishing.hpp).
 #include "check/check.hpp"
 
 #include <fmt/format.h>

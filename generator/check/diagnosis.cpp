@@ -124,7 +124,7 @@ private:
         }
         Program p;
         const int root = claims_.lower(p, {form.residual})[0];
-        if (p.is_zero(root)) return asked_.at_impact;  // elsewhere an identity is no repair
+        if (p.is_zero(root)) return asked_.at_impact;  // otherwise an identity is no repair
         return vanishes_at_two(states_, p, root);
     }
 

@@ -14,7 +14,7 @@ double chance_of_another_branch(const ExactState& state) {
 std::optional<bool> vanishes_at(ExactStates& states, const Program& p, int root, double& failure) {
     const std::array<int, 1> roots{root};
     failure = 0;
-    double missed = 0;  // log₂ of the chance that no state was on some branch
+    double missed = 0;  // log₂ of the probability that no state was on some branch
     int usable = 0;
     const bool rest = states.motions.where() == Motions::At::rest;
     for (std::size_t s = 0;; ++s) {

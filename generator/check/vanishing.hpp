@@ -7,9 +7,9 @@
 ///     vanishes_at(states, program, root, failure) == std::optional(true)      // proved, but for a chance of
 ///     2^failure
 ///
-/// An identity of degree d that is false holds at a random point of GF(p) with a chance of at most d/p (Schwartz,
-/// J. ACM 27 (1980) 701). Where the constraints have branches, states are taken until the chance that one of the
-/// branches was never met is as small.
+/// An identity of degree d that is false holds at a random point of GF(p) with a probability of at most d/p
+/// (Schwartz, J. ACM 27 (1980) 701). Where the constraints have branches, states are taken until the chance that
+/// one of the branches was never met is as small.
 
 #include <optional>
 #include <string>
@@ -22,8 +22,8 @@ constexpr double wanted_failure = -60;     ///< log₂ of the chance of an error
 constexpr int states_of_rest = 48;         ///< states at rest lie on branches that are not counted
 constexpr std::size_t most_states = 1200;  ///< after these the question stays open
 
-/// Is the node `root` zero at all states? Nothing where that cannot be told. `failure`: log₂ of the chance of an
-/// error.
+/// Is the node `root` zero at all states? Nothing if that cannot be decided. `failure` is log₂ of the probability
+/// of an error.
 std::optional<bool> vanishes_at(ExactStates& states, const Program& program, int root, double& failure);
 
 /// The same at two states, or at eight where constraints have branches or the states are those of rest: good

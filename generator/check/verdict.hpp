@@ -17,10 +17,10 @@ struct CheckedClaim {
     Verdict verdict = Verdict::undecided;
     bool normal_form = false;  ///< proved by normal form
     bool kinematic = false;    ///< proved for every motion that the constraints allow, whatever the forces
-    double failure = 0;        ///< log₂ of the chance that sampling is wrong
-    std::string reason;        ///< in words, where there is something to say
+    double failure = 0;        ///< log₂ of the probability that sampling is wrong
+    std::string reason;        ///< the reason in words, if there is something to explain
     std::vector<std::pair<std::string, std::string>> counterexample;  ///< name → value, as typed
-    std::string residual;                                             ///< lhs − rhs there
+    std::string residual;                                             ///< lhs − rhs at the counterexample
     double residual_value = 0;
     std::string difference;  ///< claim − nearest right equation, term by term
     std::string nearest;     ///< that right equation

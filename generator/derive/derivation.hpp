@@ -34,18 +34,19 @@ struct Derivation {
     std::vector<Statement> derivatives;  ///< ∂T/∂q', ∂T/∂q, or those of L
     std::vector<ReadableEquation> equations;
     std::vector<std::pair<Phrase, Phrase>> abbreviations;  ///< definitions of the scene that stay names in these
-    std::vector<Phrase> rows;                              ///< whose equation each is: coordinates, or speeds
-    std::vector<std::pair<Phrase, Phrase>> kinematics;     ///< q' = h(q,u,t); empty where u = q'
-    std::vector<Phrase> poles;  ///< where one of these vanishes the rates do not follow from the speeds
-    std::vector<std::pair<Phrase, Phrase>> speeds;  ///< chosen by the program: u = N(q,t) q'
-    std::string choice;                             ///< in words, where the speeds were chosen by the program
-    std::vector<Statement> reactions;  ///< of each constraint along each coordinate, where they are asked for
-    std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: what is zero
-    std::vector<Phrase> positive;                             ///< on the sheet of roots on which all this holds
-    std::vector<ReadableEquation> shares;              ///< of multipliers whose constraints depend on each other
-    std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: what is not negative
-    /// Dry friction: it slides with the velocity `slip` against the force `sliding`, or sticks with a force of at
-    /// most `sticking`.
+    std::vector<Phrase> rows;                           ///< the coordinate or speed to which each equation belongs
+    std::vector<std::pair<Phrase, Phrase>> kinematics;  ///< q' = h(q,u,t); empty if u = q'
+    std::vector<Phrase> poles;  ///< where one of these vanishes, the speeds do not determine the rates
+    std::vector<std::pair<Phrase, Phrase>> speeds;  ///< speeds chosen by the program: u = N(q,t) q'
+    std::string choice;                             ///< a sentence about the speeds, if the program chose them
+    std::vector<Statement> reactions;  ///< reactions of each constraint along each coordinate, on request
+    std::vector<std::pair<std::string, Phrase>> constraints;  ///< by name: the expression that is zero
+    /// Expressions that are positive on the sheet of roots on which the derivation holds.
+    std::vector<Phrase> positive;
+    std::vector<ReadableEquation> shares;              ///< relations between multipliers of dependent constraints
+    std::vector<std::pair<std::string, Phrase>> gaps;  ///< by name: the expression that is not negative
+    /// Dry friction: the contact slides with the velocity `slip` against the force `sliding`, or sticks with a
+    /// force of at most `sticking`.
     struct Rubs {
         std::string name;
         Phrase slip, sliding, sticking;

@@ -163,7 +163,7 @@ private:
 
     /// Which coordinates are cyclic, which of them move, and which are states. Gives what is not steady.
     std::string find_motion(const std::vector<bool>& essential) {
-        const auto tolerance = [&](const auto& row) {  // what an error of 1e-9 of the state may do
+        const auto tolerance = [&](const auto& row) {  // the effect of an error of 1e-9 in the state
             long double sum = 1e-12L;
             for (Index j = 0; j < nr_; ++j)
                 sum += 1e-9L * std::abs(row[j]) * std::max(1.0L, std::abs(at_.q[split_.q[j]]));

@@ -17,7 +17,7 @@ struct Rule {
     GiNaC::symbol multiplier;
     Place place;         ///< the place of the name
     Place at;            ///< the place of the expression, for messages
-    bool drifts = true;  ///< if false, the part without rates is known to be zero
+    bool drifts = true;  ///< if false, a nonholonomic value is known to vanish with the rates
 };
 
 /// Throws SceneMistake for a value that is not linear in the rates, or that contains no coordinate (holonomic) or
@@ -25,7 +25,7 @@ struct Rule {
 Mechanism::Constraint constraint_of(const Rule& rule, const Mechanism& mechanism);
 
 /// The coefficients of the rates and the rest: value = row·q' + drift. Throws SceneMistake, whose message begins
-/// with `what` ("speed 'v'"), if the value is not linear in the rates.
+/// with `what` ("speed 'v'") and ends with `advice`, if the value is not linear in the rates.
 std::pair<std::vector<GiNaC::ex>, GiNaC::ex> linear_form(const GiNaC::ex& value, const std::string& what, Place at,
                                                          const Mechanism& mechanism,
                                                          const std::string& advice = "");

@@ -18,7 +18,7 @@ struct FigureView {
     Eigen::Vector3d centre{0, 0, 0};
     Eigen::Vector3d right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};  ///< directions of the screen
     bool is_plane = true;
-    bool follows = false;  ///< the view moves with the masses
+    bool follows = false;  ///< whether the view moves with the masses
     std::vector<int> followed = {};
 };
 

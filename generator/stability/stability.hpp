@@ -30,10 +30,10 @@ enum class StabilityTheorem {
     hurwitz,               ///< of a polynomial or of linear equations: the roots themselves
     jordan,                ///< roots on the axis: simple ones, or as many eigenvectors as the root counts, or not
     first_approximation,   ///< Lyapunov: all real parts negative, or one positive
-    malkin,                ///< Lyapunov and Malkin: zero roots as many as parameters of the steady motion
+    malkin,                ///< Lyapunov and Malkin: as many zero roots as the steady motion has parameters
     lagrange_dirichlet,    ///< the potential has a minimum
-    routh,                 ///< the amended potential has one, momenta of cyclic coordinates held
-    jacobi,                ///< the potential less T₀ has one, in a frame that moves
+    routh,                 ///< the amended potential has a minimum, with constant momenta of cyclic coordinates
+    jacobi,                ///< the potential minus T₀ has a minimum, in a moving frame
     kelvin_chetaev,        ///< complete or pervasive damping of a conservative system
     kelvin_odd,            ///< an odd number of unstable degrees cannot be stabilized by gyroscopic forces
     chetaev_integrals,     ///< a combination of integrals is definite

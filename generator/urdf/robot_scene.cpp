@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// For bodies that are fixed to each other, with m, c, and I about each one's own mass centre, along common axes:
-//   m = Σ m_i,   m c = Σ m_i c_i,   I = Σ I_i + m_i (d·d E − d dᵀ),   d = c_i − c.
 #include "urdf/robot_scene.hpp"
 
 #include <fmt/format.h>
@@ -287,7 +285,7 @@ private:
     std::vector<Group> groups_;
     std::vector<Seat> seats_;
     SceneNames places_, values_, joints_taken_;
-    std::vector<std::string> joint_names_, values_of_;  // by joint of the robot
+    std::vector<std::string> joint_names_, values_of_;  // for each joint of the robot
     std::string joints_, dampers_, inputs_, forces_;
     RobotScene result_;
 };

@@ -32,7 +32,7 @@ struct Seat {
     int group = -1;  ///< in WeldedLinks::bodies
     Real3 shift = Real3::Zero();
     Real33 R = Real33::Identity();
-    std::vector<Real3> turns = {};  ///< roll, pitch, yaw of each fixed joint on the way
+    std::vector<Real3> turns = {};  ///< roll, pitch, yaw of each fixed joint on the path to it
 };
 
 struct WeldedLinks {

@@ -45,9 +45,9 @@ struct MethodTraits {
     std::string_view name;
     bool fixed_step = false;
     bool jacobian = false;  ///< implicit: solves its equations with ∂f/∂y
-    bool separable =
-        false;            ///< only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp)
-    bool series = false;  ///< only for right-hand sides with Rhs::series
+    /// Only for systems q' = v, v' = a(q, t), which the caller must know (symplectic.hpp).
+    bool separable = false;
+    bool series = false;     ///< only for right-hand sides with Rhs::series
     bool canonical = false;  ///< only for right-hand sides with Rhs::canonical
 };
 
@@ -74,7 +74,7 @@ inline constexpr std::array method_table = {
     MethodTraits{.method = Method::taylor, .name = "taylor", .series = true},
 };
 
-/// "dop853" and so on.
+/// The name of a method, "dop853" and so on.
 std::string_view name(Method method);
 std::optional<Method> method_named(std::string_view name);
 bool has_fixed_step(Method method);
