@@ -3,7 +3,7 @@
 # Runs every verb, with all its options, on every scene of the repository: none may crash, whatever its answer is.
 #   every_verb.sh --sanitize [SCENE...]    with the address and undefined-behaviour sanitizers, built for it (long)
 #   every_verb.sh PROGRAM [SCENE...]       this one (many minutes)
-#   every_verb.sh --fast PROGRAM           eval, inverse, impact and inertia alone (seconds)
+#   every_verb.sh --fast PROGRAM           eval, inverse, impact, inertia and kinematics alone (seconds)
 # A command fails here if it ends by a signal or by a sanitizer, or says that it met an internal error. One that
 # is still running after $SECONDS_EACH seconds of processor time (120 if not set) is ended and counted: no failure.
 set -eu
@@ -59,6 +59,7 @@ without_compiler() { # SCENE
     run inverse "$1" --json
     run impact "$1" --json
     run inertia "$1" --json
+    run kinematics "$1" --steps --json
 }
 every() { # SCENE
     local scene=$1 name folder short
@@ -69,6 +70,7 @@ every() { # SCENE
     run derive "$scene"
     run derive "$scene" --steps --reactions
     for format in latex mathml; do run derive "$scene" --format "$format" --steps --reactions; done
+    for format in text latex mathml; do run kinematics "$scene" --format "$format" --steps; done
     run derive "$scene" --json --reactions
     run derive "$scene" --draw "$folder/figure.svg"
     for by in $formalisms; do run derive "$scene" --by "$by" --steps; done

@@ -9,12 +9,19 @@
 #include "check/nearest.hpp"
 #include "notation/readable.hpp"
 #include "notation/text.hpp"
+#include "scene/functions.hpp"
 
 namespace alembert {
 
 using GiNaC::ex;
 
 namespace {
+
+/// pos(P), ex(B) …
+bool is_of_geometry(const Tree& tree) {
+    const Function* const function = tree.kind == Tree::Kind::call ? find_function(tree.text) : nullptr;
+    return function && (function->takes == Function::Takes::points || function->takes == Function::Takes::frames);
+}
 
 /// A part of one side's text.
 struct Stretch {
@@ -95,6 +102,7 @@ private:
         if (tree.kind == Kind::name || tree.kind == Kind::number || tree.kind == Kind::power ||
             tree.kind == Kind::call)
             leaves_.push_back({&tree, stretch(tree, left), whole, term, in_angle, exponent});
+        if (is_of_geometry(tree)) return;  // its names are those of points and frames
         const bool turns =
             tree.kind == Kind::call && (tree.text == "sin" || tree.text == "cos" || tree.text == "tan");
         for (std::size_t k = 0; k < tree.args.size(); ++k)

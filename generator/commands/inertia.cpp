@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <sstream>
-
+#include "report/inertia.hpp"
 #include "commands/show.hpp"
 #include "commands/values.hpp"
 #include "commands/verb.hpp"
-#include "report/inertia.hpp"
 
 namespace alembert {
 
@@ -16,11 +14,8 @@ struct InertiaVerb : SceneOptions {
 };
 
 int run(const InertiaVerb& verb) {
-    InertiaOptions options{.of = {}, .about = verb.about, .at = overrides_of(verb.at)};
-    std::istringstream names(verb.of);
-    for (std::string name; std::getline(names, name, ',');)
-        if (!name.empty()) options.of.push_back(name);
-    const SceneInertia found = inertia(scene_of(verb.scene), options);
+    const SceneInertia found =
+        inertia(scene_of(verb.scene), {.of = names_of(verb.of), .about = verb.about, .at = overrides_of(verb.at)});
     warn(found.warnings);
     if (verb.json)
         show(as_json(found));

@@ -52,7 +52,7 @@ void add_report(CLI::App& app, Chosen& chosen) {
     add_scene_verb<ReportVerb>(
         app, chosen,
         {.name = "report",
-         .about = "writes one page with all about the scene, with a figure that moves",
+         .about = "writes one page about the scene, with a figure that moves",
          .example = "alembert report scenes/textbook/double_pendulum.toml -o page.html"},
         run, [](Verb& verb, ReportVerb& options) {
             verb.add_option("-o,--output", options.output, "the page, HTML").type_name(values::file).required();

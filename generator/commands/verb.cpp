@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "alembert/error.hpp"
 #include "commands/values.hpp"
@@ -111,10 +112,18 @@ void add_at_option(Verb& verb, std::vector<std::string>& at) {
 
 void add_verbs(CLI::App& app, Chosen& chosen) {
     for (const auto add :
-         {add_derive,    add_agree,   add_audit,   add_check,  add_eval,       add_equilibrium, add_linearize,
-          add_stability, add_inertia, add_inverse, add_impact, add_emit,       add_import,      add_simulate,
-          add_sweep,     add_bench,   add_report,  add_watch,  add_completion, add_manual})
+         {add_derive,    add_agree,      add_audit,   add_check,   add_eval,   add_equilibrium, add_linearize,
+          add_stability, add_kinematics, add_inertia, add_inverse, add_impact, add_emit,        add_import,
+          add_simulate,  add_sweep,      add_bench,   add_report,  add_watch,  add_completion,  add_manual})
         add(app, chosen);
+}
+
+std::vector<std::string> names_of(const std::string& list) {
+    std::vector<std::string> result;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');)
+        if (!name.empty()) result.push_back(name);
+    return result;
 }
 
 Overrides overrides_of(const std::vector<std::string>& at) {

@@ -52,6 +52,7 @@ void add_impact(CLI::App& app, Chosen& chosen);
 void add_import(CLI::App& app, Chosen& chosen);
 void add_inertia(CLI::App& app, Chosen& chosen);
 void add_inverse(CLI::App& app, Chosen& chosen);
+void add_kinematics(CLI::App& app, Chosen& chosen);
 void add_linearize(CLI::App& app, Chosen& chosen);
 void add_report(CLI::App& app, Chosen& chosen);
 void add_simulate(CLI::App& app, Chosen& chosen);
@@ -66,6 +67,9 @@ void add_verbs(CLI::App& app, Chosen& chosen);
 
 /// --at NAME=VALUE, any number of times. Throws ModelError for anything that is not of this form.
 Overrides overrides_of(const std::vector<std::string>& at);
+
+/// B1,B2 …: names between commas.
+std::vector<std::string> names_of(const std::string& list);
 
 /// A number as typed, or an expression of numbers and pi (model/constant.hpp). Throws ModelError for anything
 /// else.

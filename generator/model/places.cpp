@@ -43,13 +43,14 @@ Orientation Places::turn(const Frame& frame) {
 
 Orientation Places::turned(const Orientation& o, const Vector3& axis, const ex& angle) {
     Orientation result = o.turned(axis, angle, rate(angle), *m_.z);
-    result.frame = turn_step({.parent = o.frame, .axis = axis, .angle = angle});
+    turn_step({.parent = o.frame, .axis = axis, .angle = angle}, result);
     return result;
 }
 
-int Places::turn_step(Skeleton::Turn turn) {
+void Places::turn_step(Skeleton::Turn turn, Orientation& to) {
+    to.frame = static_cast<int>(skeleton_.frames.size());
     skeleton_.frames.push_back(std::move(turn));
-    return static_cast<int>(skeleton_.frames.size()) - 1;
+    attitudes_.push_back({{to.axis(0), to.axis(1), to.axis(2)}, to.angular_velocity()});
 }
 
 int Places::step(int from, int frame, const Vector3& offset) {
@@ -60,7 +61,7 @@ int Places::step(int from, int frame, const Vector3& offset) {
 
 Orientation Places::turned(const Orientation& o, const std::array<ex, 4>& e) {
     Orientation result = o.turned(e, {rate(e[0]), rate(e[1]), rate(e[2]), rate(e[3])}, *m_.z);
-    result.frame = turn_step({.parent = o.frame, .by_quaternion = true});
+    turn_step({.parent = o.frame, .by_quaternion = true}, result);
     return result;
 }
 

@@ -18,6 +18,12 @@ namespace alembert {
 /// The position in Mechanism::q of the coordinate of that name.
 std::size_t coordinate_index(const std::string& name, const Mechanism& mechanism);
 
+/// A frame's unit axes along N, and its angular velocity along itself.
+struct Attitude {
+    std::array<Vector3, 3> axes{Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
+    Vector3 w_NF_F{0, 0, 0};
+};
+
 class Places {
 public:
     Places(const Scene& scene, const Mechanism& mechanism, Translator& translator)
@@ -49,10 +55,12 @@ public:
     const Skeleton& skeleton() const { return skeleton_; }
     int point(const std::string& name) { return position(name), name == "O" ? 0 : points_.at(name); }
     int step(int from, int frame, const Vector3& offset);
+    /// Of the frame that a step of the skeleton leads to.
+    const Attitude& attitude(int frame) const { return attitudes_[static_cast<std::size_t>(frame)]; }
 
 private:
     Orientation turn(const Frame& frame);
-    int turn_step(Skeleton::Turn turn);
+    void turn_step(Skeleton::Turn turn, Orientation& to);
     const Joint* joint_of(const std::string& body) const;
     const Position* find(const std::string& point) const;
 
@@ -63,6 +71,7 @@ private:
     std::map<std::string, Vector3> positions_, velocities_;
     std::map<std::string, int> points_;
     Skeleton skeleton_;
+    std::vector<Attitude> attitudes_{Attitude{}};  // of its frames
 };
 
 }  // namespace alembert

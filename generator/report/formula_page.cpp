@@ -61,7 +61,12 @@ std::string escaped(const std::string& words, bool xml) {
 struct Spelled {
     std::string_view plain, latex;
 };
-constexpr std::array<Spelled, 27> spelled{{
+constexpr std::array<Spelled, 32> spelled{{
+    {"omega x (omega x r)", "\\omega \\times (\\omega \\times r)"},
+    {"2 omega x v_relative", "2 \\omega \\times v_{\\text{relative}}"},
+    {"omega x r + v_relative", "\\omega \\times r + v_{\\text{relative}}"},
+    {"alpha x r", "\\alpha \\times r"},
+    {"omega x omega", "\\omega \\times \\omega"},
     {"M q'' = F + A^T lambda", "M \\ddot{q} = F + A^{T} \\lambda"},
     {"m x'' = F + A^T lambda", "m \\ddot{x} = F + A^{T} \\lambda"},
     {"F + F* + A^T lambda = 0", "F + F^{*} + A^{T} \\lambda = 0"},
@@ -133,20 +138,35 @@ std::string text_left(const Statement& s) {
     }
 }
 
-/// w_x, the component of an angular velocity, is ω_x in print.
-bool is_angular(const std::string& letter) {
-    return letter.size() == 3 && letter[0] == 'w' && letter[1] == '_';
+/// A letter and the component that it is of: w_x, the component of an angular velocity, is ω_x in print.
+struct Component {
+    std::string latex, mathml;
+    std::string index;  ///< empty where there is none
+};
+
+Component component_of(const std::string& letter) {
+    const std::size_t mark = letter.find('_');
+    const std::string stem = letter.substr(0, mark);
+    const std::string index = mark == std::string::npos ? "" : letter.substr(mark + 1);
+    if (stem == "omega" || stem == "w") return {"\\omega", "ω", index};
+    if (stem == "alpha") return {"\\alpha", "α", index};
+    if (stem == "omega x r") return {"\\omega \\times r", "ω × r", index};
+    if (stem == "omega x omega") return {"\\omega \\times \\omega", "ω × ω", index};
+    return {stem, stem, index};
 }
 
 std::string latex_letter(const std::string& letter) {
-    if (is_angular(letter)) return "\\omega_" + letter.substr(2);
     if (letter == "L'") return "\\dot{L}";
-    return letter.ends_with('*') ? letter.substr(0, letter.size() - 1) + "^{*}" : letter;
+    if (letter.ends_with('*')) return letter.substr(0, letter.size() - 1) + "^{*}";
+    const Component c = component_of(letter);
+    return c.index.empty() ? c.latex
+                           : c.latex + "_" + (c.index.size() == 1 ? c.index : "{\\text{" + c.index + "}}");
 }
 
 std::string mathml_letter(const std::string& letter) {
-    return is_angular(letter) ? "<msub><mi>ω</mi><mi>" + letter.substr(2) + "</mi></msub>"
-                              : "<mi>" + letter + "</mi>";
+    const Component c = component_of(letter);
+    return c.index.empty() ? "<mi>" + c.mathml + "</mi>"
+                           : "<msub><mi>" + c.mathml + "</mi><mi>" + c.index + "</mi></msub>";
 }
 
 std::string latex_left(const Statement& s) {

@@ -12,7 +12,7 @@
 #include "alembert/tolerances.hpp"
 #include "lower/inverse.hpp"
 #include "lower/lower.hpp"
-#include "scene/hints.hpp"
+#include "run/given_accelerations.hpp"
 #include "state/assemble.hpp"
 
 namespace alembert {
@@ -124,35 +124,13 @@ Loads loads_for(const Affine& s, const std::vector<std::optional<double>>& given
     return all_given(s, a, m);
 }
 
-/// Takes the accelerations out of the names of `at`.
-std::vector<std::optional<double>> take_accelerations(Overrides& at, const Mechanism& m) {
-    std::vector<std::optional<double>> given(m.q.size());
-    std::vector<std::string> known;
-    for (const GiNaC::symbol& q : m.q) known.push_back(q.get_name() + "''");
-    for (const auto& [name, value] : at) {
-        if (!name.ends_with("''")) continue;
-        const auto found = std::find(known.begin(), known.end(), name);
-        if (found == known.end()) {
-            const std::string meant = nearest(name, known);
-            throw ModelError(fmt::format("no coordinate has the acceleration {}{}", name,
-                                         meant.empty() ? "" : "; did you mean '" + meant + "'?"));
-        }
-        if (!std::isfinite(value)) throw ModelError(fmt::format("{} = {}: expected a finite number", name, value));
-        given[static_cast<std::size_t>(found - known.begin())] = value;
-    }
-    std::erase_if(at, [](const auto& item) { return item.first.ends_with("''"); });
-    return given;
-}
-
 }  // namespace
 
 InverseLoads inverse(Scene scene, const InverseOptions& options) {
-    Overrides at = options.at;
-    std::erase_if(at, [](const auto& item) { return item.first.ends_with("''"); });
+    const Overrides at = without_accelerations(options.at);
     InverseLoads result{derived(std::move(scene), {.by = options.by, .use = Use::asked, .at = at})};
     const Mechanism& m = result.mechanism;
-    Overrides accelerations = options.at;
-    const std::vector<std::optional<double>> given = take_accelerations(accelerations, m);
+    const std::vector<std::optional<double>> given = given_accelerations(options.at, m);
     Start start = start_of(m, at);
     assemble(start, m, lower_constraints(m), at);
     const Loads loads = loads_for(affine(lower_inverse(m), start.state()), given, m, start);

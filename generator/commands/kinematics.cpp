@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "report/kinematics.hpp"
+#include "commands/show.hpp"
+#include "commands/values.hpp"
+#include "commands/verb.hpp"
+
+namespace alembert {
+
+namespace {
+
+struct KinematicsVerb : SceneOptions {
+    std::string of, format = "text";
+    std::vector<std::string> at;
+    bool steps = false;
+};
+
+int run(const KinematicsVerb& verb) {
+    const SceneKinematics found = kinematics(
+        scene_of(verb.scene), {.of = names_of(verb.of), .at = overrides_of(verb.at), .steps = verb.steps});
+    warn(found.warnings);
+    if (verb.json)
+        show(as_json(found, verb.steps));
+    else if (verb.format == "text")
+        show_formulas(as_page(found, verb.format, verb.steps));
+    else
+        show(as_page(found, verb.format, verb.steps));
+    return 0;
+}
+
+}  // namespace
+
+void add_kinematics(CLI::App& app, Chosen& chosen) {
+    add_scene_verb<KinematicsVerb>(
+        app, chosen,
+        {.name = "kinematics",
+         .about = "describes how frames and points move: omega, alpha, v, a",
+         .example = "alembert kinematics scenes/textbook/heavy_top.toml --steps"},
+        run, [](Verb& verb, KinematicsVerb& options) {
+            verb.add_option("--of", options.of, "frames, bodies and points, as in A,P; default: all")
+                .type_name(values::names);
+            add_at_option(verb, options.at);
+            verb.add_option("--format", options.format, "text (default), latex or mathml")
+                .type_name(values::format)
+                .one_of({"text", "latex", "mathml"});
+            verb.add_flag("--steps", options.steps, "also how velocities and accelerations are composed");
+        });
+}
+
+}  // namespace alembert

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+/// How points move.
+
+#include <map>
+
+#include "kinematics/vectors.hpp"
+#include "model/places.hpp"
+
+namespace alembert {
+
+/// Names of all points, particles and mass centres, O left out.
+std::vector<std::string> points_and_masses(const Scene& scene);
+
+class PointWriter {
+public:
+    PointWriter(const Scene& scene, Places& places, const VectorWriter& write);
+
+    /// Without values. The name is one of these.
+    PointKinematics operator()(const std::string& name, bool steps);
+
+private:
+    struct Moving {
+        Vector3 r, v, a;
+    };
+    const Position* place_of(const std::string& name) const;
+    const Joint* joint_of(const std::string& name) const;
+    std::string frame_of(const std::string& name) const;
+    Moving along_N(const std::string& name);
+    Moving along(const std::string& name, const std::string& frame);
+    PlaceStep step_of(int point);
+
+    const Scene& scene_;
+    Places& places_;
+    const VectorWriter& write_;
+    std::map<int, std::string> named_;  ///< frames of the skeleton
+};
+
+}  // namespace alembert

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "kinematics/kinematics.hpp"
+#include "report/json.hpp"
+
+namespace alembert {
+
+/// `steps`: with the parts that velocities and accelerations are composed of.
+Json as_json(const SceneKinematics& found, bool steps);
+/// `format`: text, latex or mathml; values stand in text alone.
+std::string as_page(const SceneKinematics& found, const std::string& format, bool steps);
+
+}  // namespace alembert
