@@ -141,7 +141,7 @@ void shoot(const Variation& f, std::vector<Quad>& x, Quad t0, Quad& period, bool
     }
     throw ModelError(
         fmt::format("no motion of period {:.10g} is found from this state: after Newton's method the state "
-                    "misses itself by {:.3g}; give a state and a period nearer to one",
+                    "differs from itself one period later by {:.3g}; give a state and a period nearer to one",
                     static_cast<double>(period), misfit));
 }
 
