@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The conclusions from a proposed Lyapunov function are compared with known answers, solutions of Lyapunov's
-// matrix equation for random linear systems, and signs of random forms against a fine grid.
+// The conclusions from a proposed Lyapunov function are compared with known answers and with solutions of
+// Lyapunov's matrix equation for random linear systems; the signs of random forms are compared with a fine grid.
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
